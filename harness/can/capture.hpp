@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every frame of a run in order, with stamps, directions and comments; what reports and capture files are made of.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "can/transport.hpp"
+
+namespace conform::can {
+
+struct CapturedFrame {
+  Frame frame;
+  BusTime time;
+  Direction direction = Direction::received;
+  std::string comment;  ///< shown by Wireshark as packet comment; empty for most frames
+};
+
+/// Frames in the order of receive(). Indices are stable: findings refer to frames by them.
+class Capture {
+ public:
+  void add(const BusEvent& event) { frames_.push_back({event.frame, event.time, event.direction, {}}); }
+  void add(CapturedFrame frame) { frames_.push_back(std::move(frame)); }
+  /// Appends `text` to the comment of frame `index` (separated by "; ").
+  void comment(std::size_t index, std::string text);
+  [[nodiscard]] const std::vector<CapturedFrame>& frames() const { return frames_; }
+  [[nodiscard]] std::size_t size() const { return frames_.size(); }
+
+ private:
+  std::vector<CapturedFrame> frames_;
+};
+
+}  // namespace conform::can

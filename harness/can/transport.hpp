@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one way to a bus, simulated or real. Rules every implementation keeps (one contract test runs against all):
+//  1. The transport owns the clock. Time passes only inside receive(); send() returns at once or fails after a
+//     small bound (full transmit queue).
+//  2. Deadlines are absolute. A deadline in the past polls once; an event stamped *at* the deadline is delivered.
+//  3. Own frames come back, marked as transmitted, with the bus's stamp. A latency is the difference of two
+//     stamps and never a clock read after waking up.
+//  4. Error frames, dropped frames, bus-off, a vanished interface are reported as what they are, never as silence.
+//  5. Every loop has a budget.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/time.hpp"
+#include "can/frame.hpp"
+
+namespace conform::can {
+
+enum class Direction : std::uint8_t { received, transmitted };
+
+/// Something that happened on the bus, in the order of its stamps.
+struct BusEvent {
+  Frame frame;
+  BusTime time;  ///< stamp of the bus: end of frame (simulated), kernel stamp (SocketCAN)
+  Direction direction = Direction::received;
+};
+
+/// What could make a verdict untrustworthy, as counters since the transport was opened.
+struct BusHealth {
+  std::uint64_t frames_dropped = 0;    ///< frames the host lost on the way to us (socket buffer, backlog)
+  std::uint64_t error_frames = 0;      ///< error frames seen
+  std::uint64_t transmit_retries = 0;  ///< sends that found the transmit queue full at first
+  bool bus_off = false;
+  bool clock_stepped = false;          ///< the stamps' clock was set while we ran
+  Duration worst_lateness{};           ///< longest time a received frame waited for us, own measurement
+};
+
+/// Facts about the bus that reports print.
+struct TransportInfo {
+  std::string name;             ///< interface name, or "simulated"
+  std::string driver;           ///< "vcan", "kvaser_pci", ..., "simulated"
+  bool is_virtual = true;       ///< no real machine can be at the other end (vcan, vxcan, simulated)
+  bool confirms_transmission = true;  ///< own frames come back after the wire, not before (IFF_ECHO)
+  std::uint32_t bit_rate = 0;   ///< bit/s, 0 when unknown
+  std::uint64_t receive_buffer = 0;   ///< bytes the kernel granted, 0 when unlimited
+  std::int64_t epoch_ns = 0;    ///< UTC of BusTime 0, in ns since 1970-01-01
+};
+
+class Transport {
+ public:
+  Transport() = default;
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+  virtual ~Transport() = default;
+
+  [[nodiscard]] virtual BusTime now() const = 0;
+  /// Hands one frame to the bus. Its echo (Direction::transmitted) arrives through receive().
+  [[nodiscard]] virtual Result<void> send(const Frame& frame) = 0;
+  /// The next event stamped not after `deadline`, or nullopt when the deadline has passed without one.
+  [[nodiscard]] virtual Result<std::optional<BusEvent>> receive(BusTime deadline) = 0;
+  [[nodiscard]] virtual BusHealth health() = 0;
+  [[nodiscard]] virtual TransportInfo info() const = 0;
+};
+
+}  // namespace conform::can

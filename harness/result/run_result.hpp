@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run leaves behind: plain data. Reports see this and the capture, nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+#include "can/frame.hpp"
+#include "can/transport.hpp"
+#include "result/verdict.hpp"
+
+namespace conform::result {
+
+/// One frame of the evidence of a finding, already decoded into words.
+struct EvidenceFrame {
+  can::Frame frame;
+  BusTime time;
+  can::Direction direction = can::Direction::received;
+  std::size_t capture_index = 0;
+  std::string meaning;    ///< "SDO upload 1003h:00 -> abort 0609 0030h invalid value"
+  bool decisive = false;  ///< the frame that decided the verdict
+};
+
+/// Where a step stands in its scenario file.
+struct SourcePosition {
+  std::string file;  ///< as the user named it, relative to the suite's root
+  int line = 0;      ///< 1-based
+  int column = 0;    ///< 1-based
+};
+
+/// One expectation that did not simply pass, with all that is needed to understand it.
+struct Finding {
+  Verdict verdict = Verdict::fail;
+  std::string requirement;            ///< empty for a set-up step
+  SourcePosition position;
+  std::string step;                   ///< the step in words: "download 1003h:00 = 02h"
+  std::vector<std::string> accepts;   ///< outcomes that pass, in words
+  std::vector<std::string> tolerates; ///< outcomes that warn, in words
+  std::string actual;                 ///< what came, in words
+  std::vector<std::uint8_t> actual_bytes;  ///< data or frame bytes behind `actual`, may be empty
+  std::string reason;                 ///< why this verdict, one sentence
+  std::vector<EvidenceFrame> evidence;
+};
+
+/// The unit of judgement: one requirement in one case.
+struct Judgement {
+  std::string requirement;
+  Verdict verdict = Verdict::pass;
+  std::vector<Finding> findings;
+  std::size_t expectations = 0;  ///< how many expectations decided it
+};
+
+/// One scenario instance, planned or run.
+struct CaseResult {
+  std::string id;        ///< "cia301/dictionary/1003-error-history/non-zero-write"
+  std::string instance;  ///< "02h"; empty when the scenario has one instance only
+  std::string title;
+  std::string suite;     ///< path of the file without extension: "cia301/dictionary/1003-error-history"
+  SourcePosition position;
+  std::vector<std::string> requirements;  ///< every id the case can judge
+  std::vector<std::string> cct;           ///< numbers of the matching cases of CiA's own tool
+  std::vector<Judgement> judgements;
+  std::vector<Finding> setup_findings;    ///< set-up steps that failed
+  Verdict verdict = Verdict::error;       ///< planned cases start as "not run", an error
+  std::string reason = "not run";         ///< for not_applicable, inconclusive, error
+  bool finished = false;
+  BusTime begin;
+  BusTime end;
+  std::size_t first_frame = 0;  ///< range [first_frame, end_frame) of the capture
+  std::size_t end_frame = 0;
+
+  /// id, followed by "[instance]" where there is one.
+  [[nodiscard]] std::string name() const { return instance.empty() ? id : id + "[" + instance + "]"; }
+};
+
+/// A requirement as reports print it.
+struct RequirementInfo {
+  std::string id;
+  std::string clause;     ///< "CiA 301 v4.2.0, 7.5.2.4"
+  std::string level;      ///< mandatory, conditional, optional, recommended
+  std::string area;       ///< group for the summary: "Pre-defined error field (1003h)"
+  std::string statement;
+};
+
+/// A named fact about device, bus or run, printed in this order.
+struct Property {
+  std::string name;   ///< dotted: "dut.node_id", "can.interface", "run.seed"
+  std::string value;  ///< may hold anything the device sent; every writer sanitises
+};
+
+struct Counts {
+  std::size_t pass = 0, warn = 0, fail = 0, inconclusive = 0, not_applicable = 0, error = 0;
+  [[nodiscard]] std::size_t total() const { return pass + warn + fail + inconclusive + not_applicable + error; }
+};
+
+struct RunResult {
+  std::string tool;               ///< "canopen-conform 0.1.0"
+  std::string host;               ///< host name; fixed in simulation
+  std::int64_t started_utc_ns = 0;  ///< 0 (1970-01-01) in simulation
+  Duration elapsed{};             ///< bus time
+  std::string device;             ///< what to call the device under test in headings
+  std::vector<Property> properties;
+  std::vector<CaseResult> cases;
+  std::vector<RequirementInfo> requirements;  ///< those the cases mention, sorted by id
+  std::vector<std::string> notes;             ///< remarks about the run as a whole
+  std::optional<std::string> aborted;         ///< why the run stopped early
+  int signal = 0;                             ///< SIGINT or SIGTERM that ended it, else 0
+
+  [[nodiscard]] Counts counts() const;
+  [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;
+};
+
+/// 0 everything planned was judged and nothing failed; 1 a requirement failed; 2 nothing applicable; 3 no failure,
+/// but something is inconclusive or the environment failed; 130/143 ended by a signal.
+[[nodiscard]] int exit_code(const RunResult& run);
+
+}  // namespace conform::result
