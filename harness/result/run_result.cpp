@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result/run_result.hpp"
+
+#include <algorithm>
+
+namespace conform::result {
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::not_applicable: return "not_applicable";
+    case Verdict::pass: return "pass";
+    case Verdict::warn: return "warn";
+    case Verdict::inconclusive: return "inconclusive";
+    case Verdict::error: return "error";
+    case Verdict::fail: return "fail";
+  }
+  return "error";
+}
+
+Counts RunResult::counts() const {
+  Counts counts;
+  for (const CaseResult& one : cases) {
+    switch (one.verdict) {
+      case Verdict::not_applicable: ++counts.not_applicable; break;
+      case Verdict::pass: ++counts.pass; break;
+      case Verdict::warn: ++counts.warn; break;
+      case Verdict::inconclusive: ++counts.inconclusive; break;
+      case Verdict::error: ++counts.error; break;
+      case Verdict::fail: ++counts.fail; break;
+    }
+  }
+  return counts;
+}
+
+const RequirementInfo* RunResult::requirement(const std::string& id) const {
+  // The list is sorted by whoever made it; a linear search does not depend on that and the list is short.
+  const auto found = std::ranges::find(requirements, id, &RequirementInfo::id);
+  return found == requirements.end() ? nullptr : &*found;
+}
+
+int exit_code(const RunResult& run) {
+  if (run.signal != 0) return 128 + run.signal;  // the shell's convention: 130 for SIGINT, 143 for SIGTERM
+  const Counts counts = run.counts();
+  if (counts.fail != 0) return 1;
+  if (counts.error != 0 || counts.inconclusive != 0) return 3;
+  // A run that stopped early is never green, and it says so even when nothing had been planned yet.
+  if (run.aborted) return 3;
+  if (counts.pass == 0 && counts.warn == 0) return 2;
+  return 0;
+}
+
+}  // namespace conform::result
