@@ -7,7 +7,8 @@
 
 namespace conform::detail {
 [[noreturn]] inline void check_failed(const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "%s:%d: internal error: '%s' does not hold; please report this\n", file, line, condition);
+  std::fprintf(stderr, "%s:%d: internal error: '%s' does not hold; please report this\n", file, line,
+               condition);
   std::abort();
 }
 }  // namespace conform::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The second of the three kinds of wrong: the world or the input is wrong. What, where, and what to do about it.
+// The second of the three kinds of wrong: the world or the input is wrong. What, where, and what to do about
+// it.
 #pragma once
 
 #include <expected>

@@ -21,12 +21,12 @@ class Strong {
   Rep value_{};
 };
 
-using NodeId = Strong<struct NodeIdTag, std::uint8_t>;        ///< 1..127
-using CanId = Strong<struct CanIdTag, std::uint32_t>;         ///< identifier on the wire, 11 or 29 bit
-using CobId = Strong<struct CobIdTag, std::uint32_t>;         ///< value of a COB-ID entry, control bits included
-using Index = Strong<struct IndexTag, std::uint16_t>;         ///< index of an object
-using SubIndex = Strong<struct SubIndexTag, std::uint8_t>;    ///< sub-index of an object
-using AbortCode = Strong<struct AbortCodeTag, std::uint32_t>; ///< SDO abort code
+using NodeId = Strong<struct NodeIdTag, std::uint8_t>;  ///< 1..127
+using CanId = Strong<struct CanIdTag, std::uint32_t>;   ///< identifier on the wire, 11 or 29 bit
+using CobId = Strong<struct CobIdTag, std::uint32_t>;   ///< value of a COB-ID entry, control bits included
+using Index = Strong<struct IndexTag, std::uint16_t>;   ///< index of an object
+using SubIndex = Strong<struct SubIndexTag, std::uint8_t>;     ///< sub-index of an object
+using AbortCode = Strong<struct AbortCodeTag, std::uint32_t>;  ///< SDO abort code
 
 /// Index and sub-index: what an SDO initiate addresses.
 struct Multiplexer {

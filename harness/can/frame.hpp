@@ -14,11 +14,11 @@ namespace conform::can {
 
 /// One data, remote or error frame. Nothing is normalised: what the kernel lets through can be held and sent.
 struct Frame {
-  std::uint32_t id = 0;    ///< 11 or 29 bits; for error frames the SocketCAN error class bits
-  bool extended = false;   ///< 29-bit identifier
-  bool remote = false;     ///< RTR; `dlc` is then the length asked for and `data` is meaningless
-  bool error = false;      ///< SocketCAN error frame, made by the controller and never on the wire
-  std::uint8_t dlc = 0;    ///< data length code 0..15; 9..15 mean eight bytes on the wire (ISO 11898-1)
+  std::uint32_t id = 0;   ///< 11 or 29 bits; for error frames the SocketCAN error class bits
+  bool extended = false;  ///< 29-bit identifier
+  bool remote = false;    ///< RTR; `dlc` is then the length asked for and `data` is meaningless
+  bool error = false;     ///< SocketCAN error frame, made by the controller and never on the wire
+  std::uint8_t dlc = 0;   ///< data length code 0..15; 9..15 mean eight bytes on the wire (ISO 11898-1)
   std::array<std::uint8_t, 8> data{};
 
   /// Number of data bytes that count: min(dlc, 8), 0 for remote frames.

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one way to a bus, simulated or real. Rules every implementation keeps (one contract test runs against all):
-//  1. The transport owns the clock. Time passes only inside receive(); send() returns at once or fails after a
+// The one way to a bus, simulated or real. Rules every implementation keeps (one contract test runs against
+// all):
+//  1. The transport owns the clock. Time passes only inside receive(); send() returns at once or fails after
+//  a
 //     small bound (full transmit queue).
-//  2. Deadlines are absolute. A deadline in the past polls once; an event stamped *at* the deadline is delivered.
+//  2. Deadlines are absolute. A deadline in the past polls once; an event stamped *at* the deadline is
+//  delivered.
 //  3. Own frames come back, marked as transmitted, with the bus's stamp. A latency is the difference of two
 //     stamps and never a clock read after waking up.
-//  4. Error frames, dropped frames, bus-off, a vanished interface are reported as what they are, never as silence.
+//  4. Error frames, dropped frames, bus-off, a vanished interface are reported as what they are, never as
+//  silence.
 //  5. Every loop has a budget.
 #pragma once
 
@@ -34,19 +38,19 @@ struct BusHealth {
   std::uint64_t error_frames = 0;      ///< error frames seen
   std::uint64_t transmit_retries = 0;  ///< sends that found the transmit queue full at first
   bool bus_off = false;
-  bool clock_stepped = false;          ///< the stamps' clock was set while we ran
-  Duration worst_lateness{};           ///< longest time a received frame waited for us, own measurement
+  bool clock_stepped = false;  ///< the stamps' clock was set while we ran
+  Duration worst_lateness{};   ///< longest time a received frame waited for us, own measurement
 };
 
 /// Facts about the bus that reports print.
 struct TransportInfo {
-  std::string name;             ///< interface name, or "simulated"
-  std::string driver;           ///< "vcan", "kvaser_pci", ..., "simulated"
-  bool is_virtual = true;       ///< no real machine can be at the other end (vcan, vxcan, simulated)
+  std::string name;                   ///< interface name, or "simulated"
+  std::string driver;                 ///< "vcan", "kvaser_pci", ..., "simulated"
+  bool is_virtual = true;             ///< no real machine can be at the other end (vcan, vxcan, simulated)
   bool confirms_transmission = true;  ///< own frames come back after the wire, not before (IFF_ECHO)
-  std::uint32_t bit_rate = 0;   ///< bit/s, 0 when unknown
+  std::uint32_t bit_rate = 0;         ///< bit/s, 0 when unknown
   std::uint64_t receive_buffer = 0;   ///< bytes the kernel granted, 0 when unlimited
-  std::int64_t epoch_ns = 0;    ///< UTC of BusTime 0, in ns since 1970-01-01
+  std::int64_t epoch_ns = 0;          ///< UTC of BusTime 0, in ns since 1970-01-01
 };
 
 class Transport {

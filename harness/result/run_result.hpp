@@ -35,14 +35,14 @@ struct SourcePosition {
 /// One expectation that did not simply pass, with all that is needed to understand it.
 struct Finding {
   Verdict verdict = Verdict::fail;
-  std::string requirement;            ///< empty for a set-up step
+  std::string requirement;  ///< empty for a set-up step
   SourcePosition position;
-  std::string step;                   ///< the step in words: "download 1003h:00 = 02h"
-  std::vector<std::string> accepts;   ///< outcomes that pass, in words
-  std::vector<std::string> tolerates; ///< outcomes that warn, in words
-  std::string actual;                 ///< what came, in words
+  std::string step;                        ///< the step in words: "download 1003h:00 = 02h"
+  std::vector<std::string> accepts;        ///< outcomes that pass, in words
+  std::vector<std::string> tolerates;      ///< outcomes that warn, in words
+  std::string actual;                      ///< what came, in words
   std::vector<std::uint8_t> actual_bytes;  ///< data or frame bytes behind `actual`, may be empty
-  std::string reason;                 ///< why this verdict, one sentence
+  std::string reason;                      ///< why this verdict, one sentence
   std::vector<EvidenceFrame> evidence;
 };
 
@@ -59,14 +59,14 @@ struct CaseResult {
   std::string id;        ///< "cia301/dictionary/1003-error-history/non-zero-write"
   std::string instance;  ///< "02h"; empty when the scenario has one instance only
   std::string title;
-  std::string suite;     ///< path of the file without extension: "cia301/dictionary/1003-error-history"
+  std::string suite;  ///< path of the file without extension: "cia301/dictionary/1003-error-history"
   SourcePosition position;
   std::vector<std::string> requirements;  ///< every id the case can judge
   std::vector<std::string> cct;           ///< numbers of the matching cases of CiA's own tool
   std::vector<Judgement> judgements;
-  std::vector<Finding> setup_findings;    ///< set-up steps that failed
-  Verdict verdict = Verdict::error;       ///< planned cases start as "not run", an error
-  std::string reason = "not run";         ///< for not_applicable, inconclusive, error
+  std::vector<Finding> setup_findings;  ///< set-up steps that failed
+  Verdict verdict = Verdict::error;     ///< planned cases start as "not run", an error
+  std::string reason = "not run";       ///< for not_applicable, inconclusive, error
   bool finished = false;
   BusTime begin;
   BusTime end;
@@ -80,9 +80,9 @@ struct CaseResult {
 /// A requirement as reports print it.
 struct RequirementInfo {
   std::string id;
-  std::string clause;     ///< "CiA 301 v4.2.0, 7.5.2.4"
-  std::string level;      ///< mandatory, conditional, optional, recommended
-  std::string area;       ///< group for the summary: "Pre-defined error field (1003h)"
+  std::string clause;  ///< "CiA 301 v4.2.0, 7.5.2.4"
+  std::string level;   ///< mandatory, conditional, optional, recommended
+  std::string area;    ///< group for the summary: "Pre-defined error field (1003h)"
   std::string statement;
 };
 
@@ -94,15 +94,17 @@ struct Property {
 
 struct Counts {
   std::size_t pass = 0, warn = 0, fail = 0, inconclusive = 0, not_applicable = 0, error = 0;
-  [[nodiscard]] std::size_t total() const { return pass + warn + fail + inconclusive + not_applicable + error; }
+  [[nodiscard]] std::size_t total() const {
+    return pass + warn + fail + inconclusive + not_applicable + error;
+  }
 };
 
 struct RunResult {
-  std::string tool;               ///< "canopen-conform 0.1.0"
-  std::string host;               ///< host name; fixed in simulation
+  std::string tool;                 ///< "canopen-conform 0.1.0"
+  std::string host;                 ///< host name; fixed in simulation
   std::int64_t started_utc_ns = 0;  ///< 0 (1970-01-01) in simulation
-  Duration elapsed{};             ///< bus time
-  std::string device;             ///< what to call the device under test in headings
+  Duration elapsed{};               ///< bus time
+  std::string device;               ///< what to call the device under test in headings
   std::vector<Property> properties;
   std::vector<CaseResult> cases;
   std::vector<RequirementInfo> requirements;  ///< those the cases mention, sorted by id
@@ -114,8 +116,8 @@ struct RunResult {
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;
 };
 
-/// 0 everything planned was judged and nothing failed; 1 a requirement failed; 2 nothing applicable; 3 no failure,
-/// but something is inconclusive or the environment failed; 130/143 ended by a signal.
+/// 0 everything planned was judged and nothing failed; 1 a requirement failed; 2 nothing applicable; 3 no
+/// failure, but something is inconclusive or the environment failed; 130/143 ended by a signal.
 [[nodiscard]] int exit_code(const RunResult& run);
 
 }  // namespace conform::result
