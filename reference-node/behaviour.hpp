@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every switch that makes the node misbehave. The default of each is the conformant behaviour; each is consulted in
+// one or two places and set by rows of defects/.
+#pragma once
+
+#include <cstdint>
+
+namespace refnode {
+
+struct Behaviour {
+  // Object dictionary
+  bool accepts_long_values = false;        ///< surplus bytes of a download are cut off
+  bool accepts_short_values = false;       ///< missing bytes of a download are taken as zero
+  bool stores_refused_values = false;      ///< a value out of range is refused and stored all the same
+  bool clamps_to_high_limit = false;       ///< a value above the limit is confirmed and limited
+
+  // SDO server
+  bool upload_toggle_unchecked = false;
+  bool download_toggle_unchecked = false;
+  bool ignores_client_abort = false;       ///< the transfer goes on after the client's abort
+  bool answers_client_abort = false;
+  bool abort_keeps_transfer = false;       ///< an abort by the server does not end the transfer
+  bool initiate_ignored_while_busy = false;
+  bool transfer_stays_open_after_last = false;
+  bool segmented_access_unchecked = false; ///< read-only entries can be written by segmented download
+  bool segment_overflow_unchecked = false;
+  bool segment_shortfall_unchecked = false;
+  bool segmented_download_not_stored = false;
+  bool sdo_served_in_stopped = false;
+  bool sdo_served_before_boot_up = false;
+  bool transfer_survives_reset = false;
+  bool answers_foreign_node_ids = false;   ///< SDO requests to other nodes are served
+  bool accepts_extended_frames = false;    ///< 29-bit identifiers are taken for 11-bit ones
+  bool accepts_remote_frames = false;      ///< remote frames are taken for data frames
+
+  // NMT slave
+  bool nmt_broadcast_ignored = false;
+  bool nmt_node_id_unchecked = false;
+  bool nmt_node_id_masked = false;         ///< bit 7 of the node-ID is not looked at
+  bool nmt_short_frame_accepted = false;
+  bool nmt_long_frame_accepted = false;
+  bool nmt_start_ignored = false;
+  bool nmt_start_ignored_in_stopped = false;
+  bool nmt_stop_ignored_in_pre_operational = false;
+  bool nmt_stop_ignored_in_operational = false;
+  bool nmt_pre_operational_ignored = false;
+  bool nmt_pre_operational_resets = false;
+  bool nmt_reset_ignored_in_stopped = false;
+  bool nmt_unknown_command_stops = false;
+  bool reset_during_start_up_hangs = false;
+  bool boot_up_on_pre_operational = false;
+  bool starts_in_operational = false;
+
+  // Heartbeat producer
+  int heartbeat_period_factor = 1;
+  bool heartbeat_not_started_at_boot = false;
+  bool heartbeat_starts_only_after_reset = false;
+  bool heartbeat_zero_does_not_stop = false;
+  bool heartbeat_on_state_change_when_off = false;
+  bool heartbeat_stops_in_stopped = false;
+  bool heartbeat_state_stale = false;
+  bool heartbeat_with_toggle_bit = false;
+
+  // Heartbeat consumer
+  int consumer_time_factor = 1;
+  bool consumer_accepts_duplicate = false;
+  bool consumer_zero_time_is_duplicate = false;
+  bool consumer_own_entry_is_duplicate = false;
+  bool consumer_accepts_reserved_bits = false;
+  bool consumer_starts_without_heartbeat = false;
+  bool consumer_node_id_unchecked = false;
+  bool consumer_timer_not_restarted = false;
+  bool consumer_error_never_resolved = false;
+  bool consumer_loss_not_detected = false;
+  bool consumer_wrong_code = false;
+  bool consumer_loss_keeps_operational = false;
+
+  // Error register, EMCY, history
+  bool error_register_never_set = false;
+  bool error_register_without_generic = false;
+  bool error_register_bit6_set = false;
+  bool error_register_sticks = false;
+  bool communication_bit_missing = false;
+  bool second_error_suppressed = false;
+  bool error_reset_too_early = false;
+  bool error_reset_not_sent = false;
+  bool emergency_valid_bit_inverted = false;
+  bool emergency_sent_when_not_valid = false;
+  bool emergency_sent_in_stopped = false;
+  bool emergency_new_id_not_used = false;
+  bool emergency_register_always_generic = false;
+  int emergency_inhibit_unit_us = 100;
+  bool records_error_reset = false;
+  bool history_not_written = false;
+  bool history_count_not_updated = false;
+  bool history_code_in_upper_half = false;
+  bool history_code_byte_swapped = false;
+  bool history_overwrites = false;
+  bool history_oldest_first = false;
+  bool history_full_drops_newest = false;
+  bool history_count_exceeds_depth = false;
+  bool history_empty_reads_zero = false;
+  bool history_nonzero_write_accepted = false;
+  bool history_nonzero_write_clears = false;
+  bool history_clear_rejected = false;
+  bool history_clear_ignored = false;
+  bool history_clear_resets_errors = false;
+};
+
+}  // namespace refnode

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of all defects: the tables of this folder, one after the other.
+#include <algorithm>
+#include <iterator>
+
+#include "defects/defect.hpp"
+
+namespace refnode {
+
+namespace {
+
+DefectTable join(std::initializer_list<DefectTable (*)()> tables) {
+  DefectTable all;
+  for (const auto table : tables) {
+    DefectTable rows = table();
+    all.insert(all.end(), std::make_move_iterator(rows.begin()), std::make_move_iterator(rows.end()));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::span<const Defect> defects() {
+  static const DefectTable all = join({history_defects});
+  return all;
+}
+
+const Defect* find_defect(std::string_view id) {
+  const auto all = defects();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Defect& row) { return row.id == id; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace refnode

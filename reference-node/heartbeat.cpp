@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heartbeat.hpp"
+
+namespace refnode {
+
+using std::chrono::milliseconds;
+
+Duration HeartbeatProducer::period() const {
+  const auto value = static_cast<std::int64_t>(device_->dictionary.number(0x1017, 0));
+  return milliseconds(value * device_->behaviour.heartbeat_period_factor);
+}
+
+void HeartbeatProducer::on_boot_up() {
+  next_.reset();
+  if (period() > Duration::zero() && !device_->behaviour.heartbeat_not_started_at_boot) {
+    next_ = device_->now + period();
+  }
+}
+
+void HeartbeatProducer::on_period_written() {
+  const Behaviour& behaviour = device_->behaviour;
+  if (behaviour.heartbeat_starts_only_after_reset) return;
+  if (behaviour.heartbeat_zero_does_not_stop && period() == Duration::zero()) return;
+  next_.reset();
+  if (period() > Duration::zero()) next_ = device_->now + period();
+}
+
+void HeartbeatProducer::on_state_change() {
+  if (device_->behaviour.heartbeat_on_state_change_when_off && period() == Duration::zero()) transmit();
+}
+
+void HeartbeatProducer::on_time() {
+  if (!next_ || device_->now < *next_) return;
+  const Duration step = period() > Duration::zero() ? period() : Duration(milliseconds(100));
+  // The raster is kept; only after a stall of more than a period it starts anew instead of catching up.
+  next_ = *next_ + step;
+  if (*next_ <= device_->now) next_ = device_->now + step;
+  if (device_->behaviour.heartbeat_stops_in_stopped && device_->state == NmtState::stopped) return;
+  transmit();
+}
+
+void HeartbeatProducer::transmit() {
+  const Behaviour& behaviour = device_->behaviour;
+  auto state = static_cast<std::uint8_t>(device_->state);
+  if (behaviour.heartbeat_state_stale) state = static_cast<std::uint8_t>(NmtState::pre_operational);
+  if (behaviour.heartbeat_with_toggle_bit && toggle_) state |= 0x80U;
+  toggle_ = !toggle_;
+  device_->send(Service::heartbeat, conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {state}));
+}
+
+// 1016h: bits 31-24 reserved, 23-16 node-ID, 15-0 heartbeat time in ms.
+std::uint8_t HeartbeatConsumer::node_of(std::uint64_t value) const {
+  return static_cast<std::uint8_t>((value >> 16U) & 0xFFU);
+}
+
+Duration HeartbeatConsumer::time_of(std::uint64_t value) const {
+  return milliseconds(static_cast<std::int64_t>(value & 0xFFFFU) * device_->behaviour.consumer_time_factor);
+}
+
+bool HeartbeatConsumer::monitored(std::uint64_t value) const {
+  return (value & 0xFFFFU) != 0 && node_of(value) >= 1 && node_of(value) <= 127;
+}
+
+Accepted HeartbeatConsumer::check(std::uint8_t sub, ByteView bytes) const {
+  const std::uint64_t value = conform::load_le(bytes);
+  const Behaviour& behaviour = device_->behaviour;
+  if ((value >> 24U) != 0 && !behaviour.consumer_accepts_reserved_bits) return refuse(abort_code::invalid_value);
+  const bool counts = monitored(value) || (behaviour.consumer_zero_time_is_duplicate && node_of(value) != 0);
+  if (!counts || behaviour.consumer_accepts_duplicate) return {};
+  for (std::uint8_t other = 1; other <= entries; ++other) {
+    if (other == sub && !behaviour.consumer_own_entry_is_duplicate) continue;
+    const std::uint64_t present = value_of(other);
+    if (monitored(present) && node_of(present) == node_of(value)) {
+      return refuse(abort_code::parameter_incompatible);
+    }
+  }
+  return {};
+}
+
+void HeartbeatConsumer::on_written(std::uint8_t sub) {
+  Watch& watch = watches_[sub - 1U];
+  if (watch.lost) emergency_->clear({0x8130, Emergency::heartbeat_source, sub});
+  watch = {};
+  if (device_->behaviour.consumer_starts_without_heartbeat && monitored(value_of(sub))) {
+    watch.due = device_->now + time_of(value_of(sub));
+  }
+}
+
+void HeartbeatConsumer::on_reset() { watches_ = {}; }
+
+void HeartbeatConsumer::on_heartbeat(std::uint8_t node) {
+  for (std::uint8_t sub = 1; sub <= entries; ++sub) {
+    const std::uint64_t value = value_of(sub);
+    if (!monitored(value)) continue;
+    if (node_of(value) != node && !device_->behaviour.consumer_node_id_unchecked) continue;
+    Watch& watch = watches_[sub - 1U];
+    if (watch.due && device_->behaviour.consumer_timer_not_restarted) continue;
+    watch.due = device_->now + time_of(value);
+    if (!watch.lost) continue;
+    watch.lost = false;
+    if (!device_->behaviour.consumer_error_never_resolved) {
+      emergency_->clear({0x8130, Emergency::heartbeat_source, sub});
+    }
+  }
+}
+
+void HeartbeatConsumer::on_time() {
+  for (std::uint8_t sub = 1; sub <= entries; ++sub) {
+    Watch& watch = watches_[sub - 1U];
+    if (!watch.due || device_->now < *watch.due) continue;
+    watch.due.reset();
+    if (device_->behaviour.consumer_loss_not_detected) continue;
+    watch.lost = true;
+    const auto code = static_cast<std::uint16_t>(device_->behaviour.consumer_wrong_code ? 0x1000 : 0x8130);
+    emergency_->raise({code, Emergency::heartbeat_source, sub}, node_of(value_of(sub)));
+    if (on_loss) on_loss();
+  }
+}
+
+std::optional<BusTime> HeartbeatConsumer::next_wakeup() const {
+  std::optional<BusTime> first;
+  for (const Watch& watch : watches_) first = earliest({first, watch.due});
+  return first;
+}
+
+}  // namespace refnode

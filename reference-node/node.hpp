@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference node: a CANopen device (CiA 301) as a participant of a bus. It is conformant unless defects are named.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/time.hpp"
+#include "can/participant.hpp"
+#include "defects/defect.hpp"
+#include "storage.hpp"
+
+namespace refnode {
+
+struct Options {
+  std::uint8_t node_id = 1;               ///< 1..127
+  std::vector<std::string> defects;       ///< ids of defects()
+  std::shared_ptr<Storage> storage;       ///< non-volatile memory; empty: fresh memory that lives with the node
+  conform::Duration turnaround{};         ///< time from an SDO request to the response
+};
+
+class Node final : public conform::can::Participant {
+ public:
+  /// Fails with a hint on a node-ID out of range, an unknown or repeated defect.
+  [[nodiscard]] static conform::Result<std::unique_ptr<Node>> create(Options options);
+  ~Node() override;
+
+  void attach(Sender sender, conform::BusTime now) override;
+  void on_frame(const conform::can::Frame& frame, conform::BusTime now) override;
+  void on_time(conform::BusTime now) override;
+  [[nodiscard]] std::optional<conform::BusTime> next_wakeup() const override;
+
+ private:
+  struct Impl;
+  explicit Node(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace refnode

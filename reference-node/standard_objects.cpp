@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "standard_objects.hpp"
+
+namespace refnode {
+
+void add_identity_objects(Device& device) {
+  ObjectDictionary& od = device.dictionary;
+  // CiA 401, digital and analog inputs and outputs; the profile makes the pre-defined connection set apply.
+  od.add_variable(0x1000, integer_entry("Device type", DataType::unsigned32, Access::ro, 0x000F0191));
+  od.add_variable(0x1002, integer_entry("Manufacturer status register", DataType::unsigned32, Access::ro, 0));
+  od.add_variable(0x1008, text_entry("Manufacturer device name", Access::constant, "canopen-refnode"));
+  od.add_variable(0x1009, text_entry("Manufacturer hardware version", Access::constant, "none (software device)"));
+  od.add_variable(0x100A, text_entry("Manufacturer software version", Access::constant, "1.00"));
+  od.add_complex(0x1018, "Identity object", ObjectKind::record);
+  od.add_sub(0x1018, 1, integer_entry("Vendor-ID", DataType::unsigned32, Access::ro, 0x00005AFE));
+  od.add_sub(0x1018, 2, integer_entry("Product code", DataType::unsigned32, Access::ro, 0x00000301));
+  od.add_sub(0x1018, 3, integer_entry("Revision number", DataType::unsigned32, Access::ro, 0x00010000));
+  od.add_sub(0x1018, 4, integer_entry("Serial number", DataType::unsigned32, Access::ro, 0x00000001));
+  od.add_complex(0x1200, "SDO server parameter", ObjectKind::record);
+  od.add_sub(0x1200, 1, integer_entry("COB-ID client -> server", DataType::unsigned32, Access::ro, 0x600U + device.node_id));
+  od.add_sub(0x1200, 2, integer_entry("COB-ID server -> client", DataType::unsigned32, Access::ro, 0x580U + device.node_id));
+}
+
+void add_error_objects(Device& device, Emergency& emergency) {
+  ObjectDictionary& od = device.dictionary;
+  Emergency* errors = &emergency;
+  Entry& error_register =
+      od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0));
+  error_register.tx_mappable = true;
+  error_register.read = [errors]() -> Upload { return Bytes{errors->error_register()}; };
+
+  od.add_complex(0x1003, "Pre-defined error field", ObjectKind::array);
+  for (std::uint8_t sub = 1; sub <= Emergency::history_depth; ++sub) {
+    Entry& field = od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
+    field.read = [errors, sub] { return errors->read_history(sub); };
+  }
+  // Sub-index 00h of this array is the number of recorded errors and can be written to clear them.
+  Entry& count = od.add_sub(0x1003, 0, integer_entry("Number of errors", DataType::unsigned8, Access::rw, 0));
+  count.command = true;
+  count.read = [errors]() -> Upload { return Bytes{errors->recorded()}; };
+  count.check = [errors](ByteView bytes) { return errors->write_history_count(bytes); };
+
+  od.add_variable(0x1015, integer_entry("Inhibit time EMCY", DataType::unsigned16, Access::rw, 0));
+}
+
+void add_error_control_objects(Device& device, HeartbeatProducer& producer, HeartbeatConsumer& consumer) {
+  ObjectDictionary& od = device.dictionary;
+  HeartbeatConsumer* watch = &consumer;
+  od.add_complex(0x1016, "Consumer heartbeat time", ObjectKind::array);
+  for (std::uint8_t sub = 1; sub <= HeartbeatConsumer::entries; ++sub) {
+    Entry& entry = od.add_sub(0x1016, sub, integer_entry("Consumer heartbeat time", DataType::unsigned32, Access::rw, 0));
+    entry.check = [watch, sub](ByteView bytes) { return watch->check(sub, bytes); };
+    entry.written = [watch, sub] { watch->on_written(sub); };
+  }
+  Entry& period = od.add_variable(0x1017, integer_entry("Producer heartbeat time", DataType::unsigned16, Access::rw, 0));
+  period.written = [&producer] { producer.on_period_written(); };
+}
+
+}  // namespace refnode
