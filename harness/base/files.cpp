@@ -52,7 +52,7 @@ std::unexpected<Error> failed(const std::string& action, const std::string& path
 }
 
 Result<void> refuse_special(const std::string& path) {
-  struct stat status {};
+  struct stat status{};
   if (::lstat(path.c_str(), &status) != 0) return {};  // absent, or open() will say what is wrong
   if (S_ISREG(status.st_mode)) return {};
   const char* kind = S_ISLNK(status.st_mode)   ? "a symbolic link"
@@ -73,7 +73,8 @@ int write_all(int fd, ByteView bytes) {
   return 0;
 }
 
-// The rename itself is durable once its folder is. Some file systems cannot do this; the file is whole either way.
+// The rename itself is durable once its folder is. Some file systems cannot do this; the file is whole either
+// way.
 void sync_folder(const std::string& folder) {
   const Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (fd.get() >= 0) static_cast<void>(::fsync(fd.get()));
@@ -126,8 +127,8 @@ Result<void> write_file_atomically(const std::string& path, ByteView bytes) {
 }
 
 Result<void> write_file_atomically(const std::string& path, std::string_view text) {
-  return write_file_atomically(
-      path, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  return write_file_atomically(path,
+                               ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 Result<std::string> read_file(const std::string& path, std::uint64_t limit) {
@@ -135,7 +136,7 @@ Result<std::string> read_file(const std::string& path, std::uint64_t limit) {
   // O_NONBLOCK: opening a named pipe without writer must not hang; it is refused below.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (file.get() < 0) return failed("open the file", path, errno, false);
-  struct stat status {};
+  struct stat status{};
   if (::fstat(file.get(), &status) != 0) return failed("examine the file", path, errno, false);
   if (S_ISDIR(status.st_mode)) return fail("is a folder, not a file", path);
   if (!S_ISREG(status.st_mode)) return fail("is not a regular file", path);

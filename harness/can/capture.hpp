@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every frame of a run in order, with stamps, directions and comments; what reports and capture files are made of.
+// Every frame of a run in order, with stamps, directions and comments; what reports and capture files are
+// made of.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,10 +13,18 @@
 namespace conform::can {
 
 struct CapturedFrame {
-  Frame frame;
-  BusTime time;
+  Frame frame{};
+  BusTime time{};
   Direction direction = Direction::received;
-  std::string comment;  ///< shown by Wireshark as packet comment; empty for most frames
+  std::string comment{};  ///< shown by Wireshark as packet comment; empty for most frames
+};
+
+/// What a capture file says about itself besides the frames.
+struct CaptureInfo {
+  std::string interface_name = "can0";  ///< blanks and control characters are written as '_'
+  std::int64_t epoch_ns = 0;            ///< UTC of BusTime 0, in ns since 1970-01-01
+  std::string tool{};                   ///< program and version that made the file; pcapng only
+  std::string comment{};                ///< about the whole run; pcapng only
 };
 
 /// Frames in the order of receive(). Indices are stable: findings refer to frames by them.
@@ -29,6 +39,12 @@ class Capture {
 
  private:
   std::vector<CapturedFrame> frames_;
+};
+
+/// A capture as read from a file. Its time 0 is the first frame's stamp; info.epoch_ns tells when that was.
+struct LoadedCapture {
+  Capture capture;
+  CaptureInfo info;
 };
 
 }  // namespace conform::can

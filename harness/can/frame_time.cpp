@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::uint32_t crc_polynomial = 0x4599;
 
-// Fields behind the CRC sequence that are never stuffed: CRC delimiter, ACK slot, ACK delimiter, seven bits EOF.
+// Fields behind the CRC sequence that are never stuffed: CRC delimiter, ACK slot, ACK delimiter, seven bits
+// EOF.
 constexpr std::uint32_t fixed_tail_bits = 10;
 
 // CRC-15 over eight bits at a time.
@@ -27,9 +28,9 @@ constexpr auto crc_table = [] {
   return table;
 }();
 
-// Bit stuffing as an automaton. A state is the last level and the length of its run: (run - 1) * 2 + level with
-// run 1..4; a fifth equal bit is followed at once by its stuff bit, which starts a run of one of the other level.
-// An entry holds the next state in bits 0..2 and the number of stuff bits (0..2) in bits 4..5.
+// Bit stuffing as an automaton. A state is the last level and the length of its run: (run - 1) * 2 + level
+// with run 1..4; a fifth equal bit is followed at once by its stuff bit, which starts a run of one of the
+// other level. An entry holds the next state in bits 0..2 and the number of stuff bits (0..2) in bits 4..5.
 struct StuffTable {
   std::array<std::array<std::uint8_t, 256>, 8> step{};
 };
@@ -108,8 +109,8 @@ std::uint32_t frame_bits(const Frame& frame) {
     state = entry & 7U;
     stuffed += static_cast<std::uint32_t>(entry >> 4U);
   };
-  // The header is filled up in front with 1,0,1,... ending in 1, so that the dominant start bit begins a new run:
-  // 19 bits + 10101, 39 bits + 1.
+  // The header is filled up in front with 1,0,1,... ending in 1, so that the dominant start bit begins a new
+  // run: 19 bits + 10101, 39 bits + 1.
   if (header.count == 19) {
     const std::uint64_t bits = header.bits | (0b10101ULL << 19U);
     feed(static_cast<std::uint32_t>(bits >> 16U) & 0xFFU);
@@ -122,7 +123,8 @@ std::uint32_t frame_bits(const Frame& frame) {
     }
   }
   for (std::size_t i = 0; i < size; ++i) feed(frame.data[i]);
-  // Behind the 15 CRC bits one bit is missing to a whole byte; the complement of the last one adds no stuff bit.
+  // Behind the 15 CRC bits one bit is missing to a whole byte; the complement of the last one adds no stuff
+  // bit.
   const std::uint32_t tail = (static_cast<std::uint32_t>(crc) << 1U) | ((crc & 1U) ^ 1U);
   feed((tail >> 8U) & 0xFFU);
   feed(tail & 0xFFU);

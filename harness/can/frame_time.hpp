@@ -19,8 +19,8 @@ inline constexpr std::uint32_t intermission_bits = 3;
 /// without the intermission. 44..132 for 11-bit frames, 64..157 for 29-bit frames; 0 for error frames.
 [[nodiscard]] std::uint32_t frame_bits(const Frame& frame);
 
-/// The arbitration field as a number: at simultaneous start the frame with the smaller value wins, bit by bit as
-/// on the wire (data before remote, 11-bit before 29-bit with the same leading bits).
+/// The arbitration field as a number: at simultaneous start the frame with the smaller value wins, bit by bit
+/// as on the wire (data before remote, 11-bit before 29-bit with the same leading bits).
 [[nodiscard]] constexpr std::uint32_t arbitration_key(const Frame& frame) {
   if (!frame.extended) return ((frame.id & 0x7FFU) << 21U) | (frame.remote ? 1U << 20U : 0U);
   const std::uint32_t base = (frame.id >> 18U) & 0x7FFU;

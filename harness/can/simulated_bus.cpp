@@ -108,7 +108,9 @@ Duration SimulatedBus::turnaround() {
 }
 
 void SimulatedBus::fault(const Node& node, const std::string& what) {
-  if (!error_) error_ = Error{what, "simulated bus, " + node.name, "this is a fault of the simulated device, not of the bus"};
+  if (!error_)
+    error_ =
+        Error{what, "simulated bus, " + node.name, "this is a fault of the simulated device, not of the bus"};
 }
 
 void SimulatedBus::enqueue(std::size_t index, const Frame& frame) {
@@ -196,7 +198,8 @@ std::optional<BusEvent> SimulatedBus::deliver() {
     }
   }
   if (lost && !own) return std::nullopt;
-  if (!dropped_at_harness_.empty() && std::ranges::find(dropped_at_harness_, frame_count_) != dropped_at_harness_.end()) {
+  if (!dropped_at_harness_.empty() &&
+      std::ranges::find(dropped_at_harness_, frame_count_) != dropped_at_harness_.end()) {
     ++health_.frames_dropped;
     return std::nullopt;
   }
@@ -229,8 +232,8 @@ Result<std::optional<BusEvent>> SimulatedBus::run_until(BusTime deadline) {
   refresh_wakeups();
   for (std::uint64_t wakeups = 0;;) {
     if (error_) return std::unexpected(*error_);
-    // At one instant: scheduled faults, then the end of a frame, then timers, then the start of the next frame, so
-    // that everything wanted by then takes part in its arbitration.
+    // At one instant: scheduled faults, then the end of a frame, then timers, then the start of the next
+    // frame, so that everything wanted by then takes part in its arbitration.
     const BusTime fault_at = scheduled_.empty() ? never : scheduled_.front().at;
     const BusTime end_at = in_flight_ ? in_flight_->end : never;
     BusTime wake_at = never;
@@ -274,13 +277,16 @@ Result<void> SimulatedBus::Harness::send(const Frame& frame) {
   if (frame.error) return fail("error frames are made by the controller and cannot be sent", "simulated bus");
   if (bus_.nodes_[0].queue.size() >= bus_.options_.queue_limit) {
     ++bus_.health_.transmit_retries;
-    return fail("the transmit queue is full", "simulated bus", "receive between sends, so that time can pass");
+    return fail("the transmit queue is full", "simulated bus",
+                "receive between sends, so that time can pass");
   }
   bus_.enqueue(0, frame);
   return {};
 }
 
-Result<std::optional<BusEvent>> SimulatedBus::Harness::receive(BusTime deadline) { return bus_.run_until(deadline); }
+Result<std::optional<BusEvent>> SimulatedBus::Harness::receive(BusTime deadline) {
+  return bus_.run_until(deadline);
+}
 
 TransportInfo SimulatedBus::Harness::info() const {
   TransportInfo info;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CAN bus on a virtual clock: discrete events, arbitration by CAN-ID, exact frame times, reproducible from a seed.
+// A CAN bus on a virtual clock: discrete events, arbitration by CAN-ID, exact frame times, reproducible from
+// a seed.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +16,18 @@
 namespace conform::can {
 
 /// Rules of the simulation:
-///  - Every sender, the harness included, has one FIFO transmit queue, as a SocketCAN interface or a simple CAN
+///  - Every sender, the harness included, has one FIFO transmit queue, as a SocketCAN interface or a simple
+///  CAN
 ///    controller has. Order inside a sender is kept (SDO segments rely on it); only the heads of the queues
 ///    arbitrate against each other, so a device can delay its own urgent frame as in reality.
-///  - A frame occupies the wire for its exact stuffed length; all others receive it at the end of EOF, which is its
+///  - A frame occupies the wire for its exact stuffed length; all others receive it at the end of EOF, which
+///  is its
 ///    stamp. The next frame starts three bits later at the earliest.
-///  - Frames that a participant sends from inside on_frame() become ready after a turnaround drawn from the seed;
+///  - Frames that a participant sends from inside on_frame() become ready after a turnaround drawn from the
+///  seed;
 ///    frames from on_time() and attach() are ready at once, so that timers are exact.
-///  - Two frames with the same arbitration field at the same time would collide on a real bus; here the sender
+///  - Two frames with the same arbitration field at the same time would collide on a real bus; here the
+///  sender
 ///    attached first (the harness before all) wins.
 ///  - Every frame is acknowledged, as if a silent listener were always present.
 class SimulatedBus {
@@ -34,9 +39,9 @@ class SimulatedBus {
       Duration least{std::chrono::microseconds(50)};
       Duration most{std::chrono::microseconds(150)};
     } node_turnaround{};
-    std::size_t queue_limit = 4096;             ///< frames waiting in one sender
-    std::uint32_t wakeup_budget = 1000;         ///< on_time() calls of one participant at one instant
-    std::uint64_t silent_wakeups = 200'000'000; ///< on_time() calls inside one receive()
+    std::size_t queue_limit = 4096;              ///< frames waiting in one sender
+    std::uint32_t wakeup_budget = 1000;          ///< on_time() calls of one participant at one instant
+    std::uint64_t silent_wakeups = 200'000'000;  ///< on_time() calls inside one receive()
   };
 
   SimulatedBus();
@@ -102,7 +107,7 @@ class SimulatedBus {
   };
   struct Scheduled {
     BusTime at;
-    std::size_t node = 0;        // to unplug, or 0 (harness)
+    std::size_t node = 0;  // to unplug, or 0 (harness)
     std::uint32_t error_class = 0;
     std::optional<Error> broken;
   };
@@ -138,8 +143,8 @@ class SimulatedBus {
   BusTime bus_free_{};
   std::vector<Node> nodes_;  // [0] is the harness
   std::optional<InFlight> in_flight_;
-  bool reacting_ = false;           // inside a participant's on_frame()
-  std::optional<Duration> drawn_;   // turnaround of the on_frame() call being made
+  bool reacting_ = false;             // inside a participant's on_frame()
+  std::optional<Duration> drawn_;     // turnaround of the on_frame() call being made
   std::vector<Scheduled> scheduled_;  // sorted by time
   std::vector<std::uint64_t> dropped_;
   std::vector<std::uint64_t> dropped_at_harness_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frame lengths against numbers counted bit by bit elsewhere, and against a deliberately slow second implementation.
+// Frame lengths against numbers counted bit by bit elsewhere, and against a deliberately slow second
+// implementation.
 #include "can/frame_time.hpp"
 
 #include <vector>

@@ -8,8 +8,8 @@
 using namespace conform;
 using namespace conform::can;
 using namespace std::chrono_literals;
-using conform::can::testing::ScriptedParticipant;
 using conform::can::testing::make_echo;
+using conform::can::testing::ScriptedParticipant;
 
 namespace {
 
