@@ -16,13 +16,14 @@ struct Diagnostic {
   enum class Severity { error, warning };
   Severity severity = Severity::error;
   Position begin;
-  int length = 1;       ///< code points to underline
-  std::string message;  ///< one sentence, lower case, no full stop; may quote the input, it is escaped when printed
-  std::string hint;     ///< "did you mean 'abort'?", or empty; printed behind the message
+  int length = 1;  ///< code points to underline
+  std::string
+      message;  ///< one sentence, lower case, no full stop; may quote the input, it is escaped when printed
+  std::string hint;  ///< "did you mean 'abort'?", or empty; printed behind the message
 };
 
-/// Collects the diagnostics of one source. A repeated one (same place, same message) is kept once; beyond `limit` they
-/// are only counted, so that a hostile file cannot fill the memory.
+/// Collects the diagnostics of one source. A repeated one (same place, same message) is kept once; beyond
+/// `limit` they are only counted, so that a hostile file cannot fill the memory.
 class Diagnostics {
  public:
   static constexpr std::size_t limit = 200;

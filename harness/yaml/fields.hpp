@@ -2,11 +2,11 @@
 // Typed reads of a mapping that report every mistake at its place: missing, unknown and mistyped keys.
 //
 //   Fields fields(node, diagnostics, "step");
-//   auto id = fields.required("id").text();                            // optional<string>, reported if absent
-//   auto wait = fields.optional("wait").duration().value_or(100ms);
-//   auto access = fields.optional("access").one_of<Access>({{"ro", Access::ro}, {"rw", Access::rw}});
-//   auto checks = fields.optional("checks").list_or_one([](Field item) { return item.text(); });
-//   Fields expect = fields.optional("expect").fields("outcome");       // silent when the key is absent
+//   auto id = fields.required("id").text();                            // optional<string>, reported if
+//   absent auto wait = fields.optional("wait").duration().value_or(100ms); auto access =
+//   fields.optional("access").one_of<Access>({{"ro", Access::ro}, {"rw", Access::rw}}); auto checks =
+//   fields.optional("checks").list_or_one([](Field item) { return item.text(); }); Fields expect =
+//   fields.optional("expect").fields("outcome");       // silent when the key is absent
 //   // unknown keys are reported when `fields` goes out of scope, or at finish()
 #pragma once
 
@@ -30,7 +30,8 @@ namespace conform::yaml {
 
 class Fields;
 
-/// One value, present or not. Reads of an absent value return nothing and stay silent (required() has reported it).
+/// One value, present or not. Reads of an absent value return nothing and stay silent (required() has
+/// reported it).
 class Field {
  public:
   Field(const Node* node, Diagnostics& diagnostics, std::string name)
@@ -39,7 +40,9 @@ class Field {
   [[nodiscard]] explicit operator bool() const { return node_ != nullptr; }
   [[nodiscard]] bool present() const { return node_ != nullptr; }
   [[nodiscard]] const Node* node() const { return node_; }
-  [[nodiscard]] const std::string& name() const { return name_; }  ///< the key, or "item of 'key'"
+  [[nodiscard]] const std::string& name() const {
+    return name_;
+  }  ///< as in messages: "'key'" or "an item of 'key'"
 
   /// Any scalar that is not empty.
   [[nodiscard]] std::optional<std::string> text() const;
@@ -117,8 +120,8 @@ class Field {
 /// The keys of one mapping. Every key that was never asked for is reported as unknown in the end.
 class Fields {
  public:
-  /// `what` names the mapping in messages: "step", "scenario". A node that is no mapping is reported here, and every
-  /// read then stays silent.
+  /// `what` names the mapping in messages: "step", "scenario". A node that is no mapping is reported here,
+  /// and every read then stays silent.
   Fields(const Node& node, Diagnostics& diagnostics, std::string what);
   /// An absent mapping: everything is absent and nothing is reported.
   Fields(Diagnostics& diagnostics, std::string what);
@@ -139,20 +142,28 @@ class Fields {
   /// Names keys that are read elsewhere (or that `did you mean` should know).
   void known(std::initializer_list<std::string_view> keys);
   /// Accepts whatever else is there: no report of unknown keys.
-  void allow_others() { finished_ = true; }
+  void allow_others() { others_allowed_ = true; }
 
   void error(std::string message, std::string hint = {}) const;
 
-  /// Reports the unknown keys, once.
+  /// Reports the unknown and the missing keys, once. A missing key that an unknown one resembles is not
+  /// reported twice.
   void finish();
 
  private:
+  struct Missing {
+    std::string message;
+    std::vector<std::string> keys;  // any of these would have done
+  };
+
   [[nodiscard]] const Node* look_up(std::string_view key);
 
   const Node* node_ = nullptr;
   Diagnostics* diagnostics_;
   std::string what_;
   std::vector<std::string> asked_;
+  std::vector<Missing> missing_;
+  bool others_allowed_ = false;
   bool finished_ = false;
 };
 

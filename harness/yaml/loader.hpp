@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From bytes to a checked tree. YAML's traps (duplicate keys, anchors, tags, words that readers take for booleans,
-// octal and sexagesimal numbers) are refused here with the reason; yaml-cpp and its exceptions do not leave loader.cpp.
+// From bytes to a checked tree. YAML's traps (duplicate keys, anchors, tags, words that readers take for
+// booleans, octal and sexagesimal numbers) are refused here with the reason; yaml-cpp and its exceptions do
+// not leave loader.cpp.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +19,13 @@ inline constexpr std::size_t max_file_size = 1024 * 1024;
 inline constexpr std::size_t max_nodes = 100'000;
 inline constexpr int max_depth = 64;
 
-/// Parses the source that `diagnostics` collects for. A tree comes back whenever the syntax allows one, even with
-/// errors reported, so that the caller can report its own as well: ask diagnostics.has_errors() before using the result.
+/// Parses the source that `diagnostics` collects for. A tree comes back whenever the syntax allows one, even
+/// with errors reported, so that the caller can report its own as well: ask diagnostics.has_errors() before
+/// using the result.
 [[nodiscard]] std::optional<Node> load(const Source& source, Diagnostics& diagnostics);
 
-/// Reads a regular file of at most max_file_size; anything else (missing, directory, device, pipe) is an Error.
-/// `name` is what messages call the file; empty means `path`.
+/// Reads a regular file of at most max_file_size; anything else (missing, directory, device, pipe) is an
+/// Error. `name` is what messages call the file; empty means `path`.
 [[nodiscard]] Result<SourcePtr> read_source(const std::string& path, std::string name = {});
 
 struct Document {
@@ -35,8 +37,8 @@ struct Document {
 /// read_source() and load(). The Error is about the file as a whole; what is in it is in `diagnostics`.
 [[nodiscard]] Result<Document> load_file(const std::string& path, std::string name = {});
 
-/// Reports a plain scalar on which YAML readers disagree (yes, 010, 12:30, 2.10, ...); true when it is harmless.
-/// load() has applied it to every key and value.
+/// Reports a plain scalar on which YAML readers disagree (yes, 010, 12:30, 2.10, ...); true when it is
+/// harmless. load() has applied it to every key and value.
 bool check_plain(const Node& scalar, Diagnostics& diagnostics);
 
 }  // namespace conform::yaml

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of a YAML document: immutable, with positions, without types (a scalar is its text) and without aliases.
+// The tree of a YAML document: immutable, with positions, without types (a scalar is its text) and without
+// aliases.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,7 @@ class Node {
   [[nodiscard]] bool folded() const { return folded_; }              ///< folded, >
   /// A scalar that is none of the three above.
   [[nodiscard]] bool plain() const { return is_scalar() && !quoted_ && !block_scalar_ && !folded_; }
-  [[nodiscard]] bool flow() const { return flow_; }                  ///< written with [ ] or { }
+  [[nodiscard]] bool flow() const { return flow_; }  ///< written with [ ] or { }
   /// Already reported when the file was loaded: typed reads need not complain again.
   [[nodiscard]] bool faulty() const { return faulty_; }
 
@@ -47,7 +48,8 @@ class Node {
   /// Where content line `line` (from 0) of a literal block scalar begins, behind its indentation.
   /// For other scalars line 0 is the first character inside the quotes.
   [[nodiscard]] Position line_position(int line) const;
-  /// Where the byte `offset` of text() stands in the file; the start of the scalar when escapes or folding hide it.
+  /// Where the byte `offset` of text() stands in the file; the start of the scalar when escapes or folding
+  /// hide it.
   [[nodiscard]] Position position_at(std::size_t offset) const;
 
  private:

@@ -21,8 +21,8 @@ struct Position {
 /// "14:19"
 [[nodiscard]] std::string to_string(Position position);
 
-/// Immutable, shared by the diagnostics that quote it. A byte order mark is dropped and CR LF becomes LF, so that
-/// offsets mean the same here and in the parser.
+/// Immutable, shared by the diagnostics that quote it. A byte order mark is dropped and CR LF becomes LF, so
+/// that offsets mean the same here and in the parser.
 class Source {
  public:
   Source(std::string name, std::string_view text);
@@ -33,7 +33,7 @@ class Source {
   [[nodiscard]] int line_count() const;
   /// Without its newline; empty when there is no such line.
   [[nodiscard]] std::string_view line(int number) const;
-  /// Offsets behind the end give the position behind the last character.
+  /// The end of the text is behind the last character of its last line.
   [[nodiscard]] Position position(std::size_t offset) const;
   /// The byte offset of a position, clipped to its line.
   [[nodiscard]] std::size_t offset(Position position) const;
