@@ -9,6 +9,7 @@
 #include "base/strong.hpp"
 #include "can/frame.hpp"
 #include "can/transport.hpp"
+#include "canopen/sdo_listener.hpp"
 
 namespace conform::canopen {
 
@@ -17,13 +18,14 @@ class Decoder {
  public:
   explicit Decoder(NodeId node);
 
-  /// "SDO upload request 1003h:00", "heartbeat of node 5: pre-operational", "CAN-ID 6A0h: 01 02"; never empty.
+  /// "SDO upload request 1003h:00", "heartbeat of node 5: pre-operational", "TPDO 1", "CAN-ID 6A0h"; never empty. `direction` is
+  /// seen from the harness: what it sends with an identifier of the device is named as such.
   [[nodiscard]] std::string meaning(const can::Frame& frame, can::Direction direction);
 
   /// COB-IDs that were moved away from the pre-defined connection set; nullopt: the service is switched off.
-  void set_emcy_can_id(std::optional<CanId> id);
-  void set_sync_can_id(std::optional<CanId> id);
-  void set_time_can_id(std::optional<CanId> id);
+  void set_emcy_can_id(std::optional<CanId> id) { emcy_ = id; }
+  void set_sync_can_id(std::optional<CanId> id) { sync_ = id; }
+  void set_time_can_id(std::optional<CanId> id) { time_ = id; }
   /// `number` 1..512.
   void set_tpdo_can_id(int number, std::optional<CanId> id);
   void set_rpdo_can_id(int number, std::optional<CanId> id);
@@ -31,14 +33,13 @@ class Decoder {
   void reset();
 
  private:
-  [[nodiscard]] std::string sdo_request(const can::Frame& frame);
-  [[nodiscard]] std::string sdo_response(const can::Frame& frame);
-  [[nodiscard]] std::string by_service(const can::Frame& frame);
+  [[nodiscard]] std::string remote(CanId id) const;
+  [[nodiscard]] std::optional<std::string> from_device(const can::Frame& frame, CanId id);
 
   NodeId node_;
   std::optional<CanId> emcy_, sync_, time_;
   std::map<int, CanId> tpdo_, rpdo_;
-  std::optional<Multiplexer> open_;  ///< object of the running SDO transfer
+  SdoListener sdo_;
 };
 
 }  // namespace conform::canopen

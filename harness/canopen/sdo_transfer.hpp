@@ -43,7 +43,7 @@ class SdoUpload {
   [[nodiscard]] SdoBytes first_request() const;
   /// Takes one data frame of the server's channel; must not be called again after a TransferResult.
   [[nodiscard]] TransferStep on_response(ByteView frame_data);
-  /// Bytes received so far.
+  /// Bytes received so far; after the end they are in the result.
   [[nodiscard]] const Bytes& received() const { return result_.data; }
 
  private:
@@ -57,6 +57,8 @@ class SdoUpload {
   std::size_t max_bytes_;
   Phase phase_ = Phase::initiate;
   bool toggle_ = false;
+  std::size_t segments_ = 0;
+  std::size_t empty_ = 0;  ///< segments without data in a row
   TransferResult result_;
 };
 
@@ -85,6 +87,7 @@ class SdoDownload {
   Phase phase_ = Phase::initiate;
   bool toggle_ = false;
   std::size_t sent_ = 0;
+  std::size_t segments_ = 0;
   TransferResult result_;
 };
 
