@@ -110,11 +110,23 @@ class Builder final : public YAML::EventHandler {
     return mark.pos < 0 ? source_.text().size() : static_cast<std::size_t>(mark.pos);
   }
 
+  /// Source::position(), but linear over a file of one long line: the events come in order.
+  Position place(std::size_t offset) {
+    if (offset < placed_offset_ || offset >= line_end_) {
+      placed_ = source_.position(offset);
+      line_end_ = std::min(source_.text().find('\n', offset), source_.text().size());
+    } else {
+      placed_.column += code_points(source_.text().substr(placed_offset_, offset - placed_offset_));
+    }
+    placed_offset_ = offset;
+    return placed_;
+  }
+
   Node begin_node(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     const auto offset = offset_of(mark);
     last_offset_ = offset;
     Node node;
-    node.position_ = source_.position(offset);
+    node.position_ = place(offset);
     if (++nodes_ > max_nodes) {
       diagnostics_.error(node, fmt::format("the file has more than {} values", max_nodes), "split it");
       throw Stop{};
@@ -161,13 +173,19 @@ class Builder final : public YAML::EventHandler {
     }
     const auto before = source_.text().substr(0, offset);
     const auto last = before.find_last_not_of(" \n");
-    if (last != std::string_view::npos) node.position_ = source_.position(last);
+    if (last == std::string_view::npos) return;
+    const auto between = before.substr(last);
+    if (between.find('\n') == std::string_view::npos) {
+      node.position_.column -= code_points(between);
+    } else {
+      node.position_ = source_.position(last);
+    }
   }
 
   /// Style and extent come from the source: the parser does not tell them.
   void measure(Node& node, std::size_t offset, const std::string& tag) {
     const auto rest = source_.text().substr(std::min(offset, source_.text().size()));
-    const auto first_line = rest.substr(0, rest.find('\n'));
+    const auto first_line = rest.substr(0, line_end_ - std::min(offset, line_end_));
     const char first = rest.empty() ? '\0' : rest.front();
     if (tag == "!" && (first == '"' || first == '\'')) {
       node.quoted_ = true;
@@ -294,6 +312,9 @@ class Builder final : public YAML::EventHandler {
   std::optional<Node> root_;
   std::size_t nodes_ = 0;
   std::size_t last_offset_ = 0;
+  Position placed_;  // of placed_offset_, on the line that ends at line_end_
+  std::size_t placed_offset_ = 0;
+  std::size_t line_end_ = 0;
   int documents_ = 0;
   int tab_checked_line_ = 0;
   int long_quote_line_ = 0;

@@ -83,6 +83,11 @@ TEST_CASE("A scalar may be large, a text beyond the limit is refused unparsed") 
         "1:1 the text is longer than 1048576 bytes; split it\n");
 }
 
+TEST_CASE("One line of many values is as quick as many lines") {
+  CHECK(Checked(fmt::format("[{}{}]", repeat(", ", 99'000), std::string(700'000, ' '))).messages().empty());
+  CHECK(Checked(fmt::format("[{}]", repeat("'', ", 99'000))).messages().empty());
+}
+
 TEST_CASE("Thousands of mistakes are counted and the first 200 shown") {
   const Checked file(repeat("yes: 010\n", 10'000));
   CHECK(file.diagnostics.sorted().size() == Diagnostics::limit);

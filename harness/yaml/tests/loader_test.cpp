@@ -151,6 +151,9 @@ TEST_CASE("Values and keys that are not there are refused where that matters") {
   CHECK(Checked("a: ~\nb: Null\n").brief() ==
         "1:4 '~' means no value in YAML; leave the key out, or quote the text\n"
         "2:4 'Null' means no value in YAML; leave the key out, or quote the text\n");
+  const Checked empty("a: [1, , 2]\nb:\n  -\n  - x\n");
+  CHECK(empty.root->find("a")->items().at(1).position() == Position{1, 6});
+  CHECK(empty.root->find("b")->items().at(0).position() == Position{3, 3});
   CHECK(Checked("nullable: null-ish\n").brief().empty());
   CHECK(Checked("? [a]\n: 1\n").brief() == "1:3 a key must be a word, not a list\n");
   CHECK(Checked("{a: 1,, b: 2}\n").brief() == "1:6 a key must be a word, not nothing\n");
