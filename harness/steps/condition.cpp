@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "steps/condition.hpp"
+
+#include <functional>
+
+#include "base/text.hpp"
+#include "device/profile.hpp"
+#include "steps/expression_tree.hpp"
+#include "steps/tokens.hpp"
+
+namespace conform::steps {
+
+struct Condition::Tree {
+  enum class Kind {
+    all, any, negation,                                    // and, or, not
+    present, claimed, readable, writable, access, changes, // about an entry
+    feature, triggers, remote,                             // about device and bench
+    equal, at_least, at_most, above, below                 // two expressions
+  };
+  Kind kind = Kind::all;
+  std::vector<std::shared_ptr<const Tree>> parts;
+  ObjectReference object;
+  bool whole_object = false;
+  std::string word;
+  std::uint64_t count = 0;
+  Expression left, right;
+};
+
+namespace {
+
+using Tree = Condition::Tree;
+using TreePtr = std::shared_ptr<const Tree>;
+using Kind = Tree::Kind;
+
+Result<TreePtr> parse_any(TokenReader& in);
+
+TreePtr negate(TreePtr inner) {
+  auto node = std::make_shared<Tree>();
+  node->kind = Kind::negation;
+  node->parts.push_back(std::move(inner));
+  return node;
+}
+
+/// "is present", "is not writable", "is rw", "may change by itself" behind an object; null when it is no such phrase.
+Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, bool whole) {
+  auto node = std::make_shared<Tree>();
+  node->object = std::move(object);
+  node->whole_object = whole;
+  if (in.peek() == "may" && in.peek(1) == "change") {
+    in.take();
+    in.take();
+    if (in.accept("by") && !in.accept("itself")) return fail("'itself' is missing after 'may change by'");
+    node->kind = Kind::changes;
+    return node;
+  }
+  if (in.peek() != "is" && in.peek() != "are") return TreePtr();
+  const auto at = in.position();
+  in.take();
+  const bool negative = in.accept("not");
+  const std::string word(in.peek());
+  if (word == "present" || word == "absent" || word == "claimed" || word == "readable" || word == "writable") {
+    in.take();
+    node->kind = word == "claimed"    ? Kind::claimed
+                 : word == "readable" ? Kind::readable
+                 : word == "writable" ? Kind::writable
+                                      : Kind::present;
+    TreePtr out = node;
+    return negative != (word == "absent") ? negate(out) : out;
+  }
+  if (word == "ro" || word == "rw" || word == "wo" || word == "const" || word == "rwr" || word == "rww") {
+    in.take();
+    node->kind = Kind::access;
+    node->word = word;
+    TreePtr out = node;
+    return negative ? negate(out) : out;
+  }
+  in.rewind(at);
+  return TreePtr();
+}
+
+Result<TreePtr> parse_comparison(TokenReader& in) {
+  auto left = parse_expression_prefix(in, "");
+  if (!left) return std::unexpected(left.error());
+  auto node = std::make_shared<Tree>();
+  node->left = *left;
+  bool negative = false;
+  if (in.accept("is")) {
+    negative = in.accept("not");
+    if (in.accept("at")) {
+      if (in.accept("least")) {
+        node->kind = Kind::at_least;
+      } else if (in.accept("most")) {
+        node->kind = Kind::at_most;
+      } else {
+        return fail("'at' must be followed by 'least' or 'most'");
+      }
+    } else if (in.accept("above")) {
+      node->kind = Kind::above;
+    } else if (in.accept("below")) {
+      node->kind = Kind::below;
+    } else {
+      node->kind = Kind::equal;
+    }
+  } else if (in.accept("=")) {
+    node->kind = Kind::equal;
+  } else if (in.accept(">=")) {
+    node->kind = Kind::at_least;
+  } else if (in.accept("<=")) {
+    node->kind = Kind::at_most;
+  } else if (in.accept(">")) {
+    node->kind = Kind::above;
+  } else if (in.accept("<")) {
+    node->kind = Kind::below;
+  } else {
+    return fail("a comparison is missing: 'is', 'is not', 'is at least', 'is at most', 'is above' or 'is below'");
+  }
+  auto right = parse_expression_prefix(in, "");
+  if (!right) return std::unexpected(right.error());
+  node->right = *right;
+  TreePtr out = node;
+  return negative ? negate(out) : out;
+}
+
+Result<TreePtr> parse_atom(TokenReader& in) {
+  if (in.accept("not")) {
+    auto inner = parse_atom(in);
+    if (!inner) return inner;
+    return negate(*inner);
+  }
+  auto node = std::make_shared<Tree>();
+  if (in.peek() == "device" && in.peek(1) == "claims") {
+    in.take();
+    in.take();
+    std::string feature;
+    while (!in.done() && in.peek() != "and" && in.peek() != "or" && in.peek() != ")") {
+      if (!feature.empty()) feature += ' ';
+      feature += in.take();
+    }
+    if (device::is_feature(feature)) {
+      node->kind = Kind::feature;
+      node->word = feature;
+      return node;
+    }
+    std::vector<std::string_view> known;
+    for (const auto& item : device::features()) known.push_back(item.word);
+    const auto near = did_you_mean(feature, known);
+    return fail("unknown feature '" + feature + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+  }
+  if (in.peek() == "interface" && in.peek(1) == "can") {
+    in.take();
+    in.take();
+    if (!in.accept("send") || !in.accept("RTR")) return fail("only 'interface can send RTR' is known");
+    node->kind = Kind::remote;
+    return node;
+  }
+  // "error trigger is known", "2 error triggers are known"
+  {
+    const auto at = in.position();
+    std::uint64_t count = 1;
+    if (const auto number = parse_number(in.peek()); number && in.peek(1) == "error") {
+      count = *number;
+      in.take();
+    } else if (in.peek() == "an") {
+      in.take();
+    }
+    if (in.accept("error") && (in.accept("trigger") || in.accept("triggers"))) {
+      if (!in.accept("is") && !in.accept("are")) return fail("'is known' or 'are known' is missing");
+      if (!in.accept("known")) return fail("'known' is missing");
+      node->kind = Kind::triggers;
+      node->count = count;
+      return node;
+    }
+    in.rewind(at);
+  }
+  if (in.accept("(")) {
+    const auto at = in.position();
+    auto inner = parse_any(in);
+    if (inner && in.accept(")")) return inner;
+    // "(1003h:00 & 1) is 0": the parenthesis belongs to an expression.
+    in.rewind(at - 1);
+    auto comparison = parse_comparison(in);
+    if (comparison) return comparison;
+    return inner ? fail("')' is missing") : inner;
+  }
+  const auto at = in.position();
+  const bool said_object = in.accept("object");
+  if (in.peek() != "value" && in.peek() != "bit" && !in.done()) {
+    const std::string word(in.take());
+    if (auto object = ObjectReference::parse(word)) {
+      const bool whole = word.find(':') == std::string::npos && !word.starts_with('$');
+      auto phrase = parse_object_phrase(in, *object, whole);
+      if (!phrase) return phrase;
+      if (*phrase) return phrase;
+    }
+    in.rewind(at);
+    if (said_object) return fail("'object' must be followed by an object and 'is present', 'is writable', ...");
+  }
+  return parse_comparison(in);
+}
+
+Result<TreePtr> parse_chain(TokenReader& in, std::string_view word, Kind kind,
+                            const std::function<Result<TreePtr>(TokenReader&)>& part) {
+  auto first = part(in);
+  if (!first) return first;
+  if (in.peek() != word) return first;
+  auto node = std::make_shared<Tree>();
+  node->kind = kind;
+  node->parts.push_back(*first);
+  while (in.accept(word)) {
+    auto next = part(in);
+    if (!next) return next;
+    node->parts.push_back(*next);
+  }
+  return node;
+}
+
+Result<TreePtr> parse_any(TokenReader& in) {
+  return parse_chain(in, "or", Kind::any,
+                     [](TokenReader& inner) { return parse_chain(inner, "and", Kind::all, parse_atom); });
+}
+
+Result<bool> evaluate_comparison(const Tree& node, Facts& facts) {
+  auto left = node.left.evaluate(facts);
+  if (!left) return std::unexpected(left.error());
+  auto right = node.right.evaluate(facts);
+  if (!right) return std::unexpected(right.error());
+  if (node.kind == Kind::equal) return left->same_as(*right);
+  if (!left->number || !right->number) {
+    return fail("'" + left->text() + "' and '" + right->text() + "' cannot be compared as numbers");
+  }
+  switch (node.kind) {
+    case Kind::at_least: return *left->number >= *right->number;
+    case Kind::at_most: return *left->number <= *right->number;
+    case Kind::above: return *left->number > *right->number;
+    default: return *left->number < *right->number;
+  }
+}
+
+Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
+  if (node.kind == Kind::all || node.kind == Kind::any) {
+    for (const auto& part : node.parts) {
+      auto value = evaluate_tree(*part, facts);
+      if (!value || *value == (node.kind == Kind::any)) return value;
+    }
+    return node.kind == Kind::all;
+  }
+  if (node.kind == Kind::negation) {
+    auto value = evaluate_tree(*node.parts.front(), facts);
+    if (value) *value = !*value;
+    return value;
+  }
+  if (node.kind == Kind::feature) return facts.claims(node.word);
+  if (node.kind == Kind::triggers) return facts.error_triggers() >= node.count;
+  if (node.kind == Kind::remote) return facts.can_send_remote_frames();
+  if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
+  const auto object = node.object.resolve(facts);
+  if (!object) return std::unexpected(object.error());
+  switch (node.kind) {
+    case Kind::present: return facts.is_present(*object, node.whole_object);
+    case Kind::claimed: return facts.is_claimed(*object, node.whole_object);
+    case Kind::readable: return facts.is_readable(*object);
+    case Kind::writable: return facts.is_writable(*object);
+    case Kind::access: return facts.access_of(*object) == node.word;
+    default: return facts.may_change(*object);
+  }
+}
+
+void collect_names(const Tree& node, std::vector<std::string>& out) {
+  for (const auto& names : {node.object.names(), node.left.names(), node.right.names()}) {
+    out.insert(out.end(), names.begin(), names.end());
+  }
+  for (const auto& part : node.parts) collect_names(*part, out);
+}
+
+bool tree_may_write(const Tree& node) {
+  if (node.kind == Kind::writable) return true;
+  for (const auto& part : node.parts) {
+    if (tree_may_write(*part)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<Condition> Condition::parse(std::string_view text) {
+  auto tokens = tokenize(text);
+  if (!tokens) return std::unexpected(tokens.error());
+  TokenReader in(std::move(*tokens));
+  auto tree = parse_any(in);
+  if (!tree) return std::unexpected(tree.error());
+  if (!in.done()) return fail("'" + std::string(in.peek()) + "' is not expected here", {}, "join conditions with 'and' or 'or'");
+  Condition out;
+  out.text_ = trim(text);
+  out.tree_ = *tree;
+  return out;
+}
+
+Result<bool> Condition::evaluate(Facts& facts) const {
+  if (!tree_) return true;
+  return evaluate_tree(*tree_, facts);
+}
+
+std::vector<std::string> Condition::names() const {
+  std::vector<std::string> out;
+  if (tree_) collect_names(*tree_, out);
+  return out;
+}
+
+bool Condition::may_write() const { return tree_ && tree_may_write(*tree_); }
+
+std::vector<std::string_view> condition_forms() {
+  return {"1003h is present",
+          "1010h:01 is absent",
+          "1014h is claimed",
+          "1014h:00 is writable",
+          "1017h:00 is readable",
+          "1017h:00 is const",
+          "$object may change by itself",
+          "value of 1003h:00 is not 0",
+          "value of 1018h:00 is at least 2",
+          "bit 30 of 1005h:00 is 1",
+          "$count is above 3",
+          "device claims sync producer",
+          "error trigger is known",
+          "2 error triggers are known",
+          "interface can send RTR",
+          "A and B, A or B, not A, (A)"};
+}
+
+}  // namespace conform::steps

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Conditions in words: "object 1003h is present and 1014h:00 is writable". `when`, `unless` and `require` use them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "steps/expression.hpp"
+
+namespace conform::steps {
+
+/// What conditions may ask of the device and the bench.
+class Facts : public Scope {
+ public:
+  /// Whether the device has shown the entry (sub_given) or any entry of the index. Asks the device if unknown.
+  [[nodiscard]] virtual Result<bool> is_present(Multiplexer object, bool whole_object) = 0;
+  /// Whether standard, EDS or profile say that the device has it.
+  [[nodiscard]] virtual bool is_claimed(Multiplexer object, bool whole_object) const = 0;
+  /// Access as claimed; where the standard leaves rw or const open, `writable` is found out by rewriting the value.
+  [[nodiscard]] virtual Result<bool> is_readable(Multiplexer object) = 0;
+  [[nodiscard]] virtual Result<bool> is_writable(Multiplexer object) = 0;
+  /// Access word of the dictionary ("ro", "const", ...), empty when unknown.
+  [[nodiscard]] virtual std::string access_of(Multiplexer object) const = 0;
+  [[nodiscard]] virtual bool may_change(Multiplexer object) const = 0;
+  [[nodiscard]] virtual bool claims(std::string_view feature) const = 0;
+  [[nodiscard]] virtual std::size_t error_triggers() const = 0;
+  [[nodiscard]] virtual bool can_send_remote_frames() const = 0;
+};
+
+class Condition {
+ public:
+  Condition() = default;
+  static Result<Condition> parse(std::string_view text);
+  [[nodiscard]] Result<bool> evaluate(Facts& facts) const;
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::vector<std::string> names() const;
+  [[nodiscard]] bool empty() const { return tree_ == nullptr; }
+  /// Whether finding the answer may write to the device ("is writable" rewrites a value).
+  [[nodiscard]] bool may_write() const;
+
+  struct Tree;
+
+ private:
+  std::string text_;
+  std::shared_ptr<const Tree> tree_;
+};
+
+/// Forms a condition can take, for messages and the reference page.
+[[nodiscard]] std::vector<std::string_view> condition_forms();
+
+}  // namespace conform::steps

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verbs about errors: raise and clear them by the triggers of the device profile, wait for EMCY, fill the history.
+#include <chrono>
+
+#include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+#include "canopen/emcy.hpp"
+#include "canopen/nmt.hpp"
+#include "steps/verb_tables.hpp"
+
+namespace conform::steps {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Time-out of the heartbeat trigger: long enough not to be met by accident, short enough not to bore.
+constexpr std::uint32_t heartbeat_time_ms = 100;
+
+constexpr Multiplexer consumer_entry{Index(0x1016), SubIndex(1)};
+
+Result<Actual> write(Session& session, Multiplexer object, const Bytes& bytes) {
+  auto answer = session.download(object, bytes, canopen::SdoDownload::Mode::automatic, std::nullopt);
+  if (!answer) return std::unexpected(answer.error());
+  Actual out;
+  out.decisive = answer->decisive;
+  if (answer->kind == SdoAnswer::Kind::confirmed) {
+    out.detail = "confirmed";
+    return out;
+  }
+  out.kind = answer->kind == SdoAnswer::Kind::aborted ? Actual::Kind::aborted
+             : answer->kind == SdoAnswer::Kind::silence ? Actual::Kind::silence
+                                                        : Actual::Kind::violation;
+  out.code = answer->code;
+  out.detail = answer->detail;
+  return out;
+}
+
+/// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed away.
+Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger) {
+  if (trigger.raise) return write(session, trigger.raise->object, trigger.raise->bytes);
+  const auto node = trigger.heartbeat_node.value_or(NodeId(0x7E));
+  auto set = write(session, consumer_entry, to_le((std::uint32_t{node.value()} << 16U) | heartbeat_time_ms, 4));
+  if (!set || set->kind != Actual::Kind::matched) return set;
+  auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
+  if (!sent) return std::unexpected(sent.error());
+  return set;
+}
+
+Result<Actual> clear(Session& session, const device::ErrorTrigger& trigger) {
+  if (trigger.clear) return write(session, trigger.clear->object, trigger.clear->bytes);
+  const auto node = trigger.heartbeat_node.value_or(NodeId(0x7E));
+  auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
+  if (!sent) return std::unexpected(sent.error());
+  // The heartbeat is back; give the device its loop time to notice, then switch the consumer off again.
+  auto waited = session.wait_until(session.now() + 20ms);
+  if (!waited) return std::unexpected(waited.error());
+  return write(session, consumer_entry, to_le(0, 4));
+}
+
+/// How long after raising the effect may be due, beside the caller's own time.
+Duration delay_of(const device::ErrorTrigger& trigger) {
+  return trigger.raise ? Duration(0) : Duration(std::chrono::milliseconds(heartbeat_time_ms)) * 2;
+}
+
+class RaiseError final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    return parse_as(value, context, false);
+  }
+  static std::unique_ptr<Action> parse_clear(const yaml::Field& value, ParseContext& context) {
+    return parse_as(value, context, true);
+  }
+  static std::unique_ptr<Action> parse_as(const yaml::Field& value, ParseContext& context, bool clear) {
+    auto out = std::make_unique<RaiseError>();
+    out->clear_ = clear;
+    if (!value.node()->is_mapping()) {
+      out->number_ = value.number(1, 16).value_or(0);
+    } else {
+      auto fields = value.fields(clear ? "clear_error" : "raise_error");
+      out->number_ = fields.required("trigger").number(1, 16).value_or(0);
+      if (const auto save = fields.optional("save"); save && !clear) {
+        out->save_ = save.text().value_or("");
+        context.know(out->save_);
+      }
+    }
+    return out->number_ == 0 ? nullptr : std::move(out);
+  }
+
+  std::string words(Session& session) const override {
+    std::string name = "error trigger " + std::to_string(number_);
+    if (number_ <= session.profile().errors.size()) name += " (" + session.profile().errors[number_ - 1].name + ")";
+    return (clear_ ? "clear " : "raise ") + name;
+  }
+  Result<Actual> run(Session& session) const override {
+    const auto& triggers = session.profile().errors;
+    if (number_ > triggers.size()) {
+      return fail("error trigger " + std::to_string(number_) + " is not known", "scenario", "name one under errors: in the device profile");
+    }
+    const auto& trigger = triggers[number_ - 1];
+    auto out = clear_ ? clear(session, trigger) : raise(session, trigger);
+    if (out && !clear_) {
+      if (!save_.empty()) session.set(save_, Value::of_number(trigger.code));
+      session.set("trigger_delay", Value::of_duration(delay_of(trigger)));
+    }
+    return out;
+  }
+
+ private:
+  std::uint64_t number_ = 0;
+  bool clear_ = false;
+  std::string save_;
+};
+
+class AwaitEmcy final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<AwaitEmcy>();
+    auto fields = value.fields("emcy");
+    if (const auto code = fields.optional("code")) {
+      if (auto expression = parse_expression_at(code, context.names)) out->code_ = *expression;
+    }
+    if (const auto within = fields.optional("within")) {
+      if (auto time = parse_time_at(within)) out->within_ = *time;
+    } else {
+      out->within_.fixed = 1s;
+    }
+    if (const auto after = fields.optional("after")) {
+      out->after_ = after.text().value_or("");
+      if (out->after_.starts_with('$')) out->after_.erase(0, 1);
+    }
+    const auto save = [&](const char* key, std::string& name) {
+      if (const auto field = fields.optional(key)) {
+        name = field.text().value_or("");
+        context.know(name);
+      }
+    };
+    save("save_code", out->save_code_);
+    save("save_register", out->save_register_);
+    return out;
+  }
+  bool acts() const override { return false; }
+  std::string words(Session& session) const override {
+    std::string out = "EMCY";
+    if (!code_.empty()) {
+      const auto code = code_.number(session);
+      out += " " + (code ? canopen::describe_emcy_code(static_cast<std::uint16_t>(*code)) : code_.text());
+    }
+    return out + " within " + within_.text();
+  }
+
+  Result<Actual> run(Session& session) const override {
+    auto window = after_.empty() ? Result<Window>(session.window()) : session.window_after(after_);
+    if (!window) return std::unexpected(window.error());
+    std::optional<std::uint64_t> wanted;
+    if (!code_.empty()) {
+      auto code = code_.number(session);
+      if (!code) return std::unexpected(code.error());
+      wanted = *code;
+    }
+    auto within = within_.resolve(session.profile());
+    if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration) within += *delay->duration;
+    const auto id = session.emcy_can_id();
+    auto found = session.find_frame(
+        window->first,
+        [id](const auto& captured) {
+          return captured.direction == can::Direction::received && captured.frame.is_data(id);
+        },
+        window->anchor + within);
+    if (!found) return std::unexpected(found.error());
+    Actual out;
+    if (!*found) {
+      out.kind = Actual::Kind::silence;
+      out.detail = "no EMCY on " + to_string(id) + " within " + to_string(within);
+      return out;
+    }
+    session.consume(**found);
+    const auto& captured = session.capture().frames()[**found];
+    out.decisive = *found;
+    out.data.assign(captured.frame.bytes().begin(), captured.frame.bytes().end());
+    const auto emcy = canopen::decode_emcy(captured.frame.bytes());
+    if (!emcy) {
+      out.kind = Actual::Kind::mismatched;
+      out.detail = "an EMCY of " + std::to_string(out.data.size()) + " bytes instead of eight: " + hex_bytes(out.data);
+      return out;
+    }
+    out.detail = "EMCY " + canopen::describe_emcy_code(emcy->code) + ", error register " + hex(emcy->error_register, 2);
+    out.measured["register"] = emcy->error_register;
+    if (wanted && *wanted != emcy->code) {
+      out.kind = Actual::Kind::mismatched;
+      return out;
+    }
+    if (!save_code_.empty()) session.set(save_code_, Value::of_number(emcy->code));
+    if (!save_register_.empty()) session.set(save_register_, Value::of_number(emcy->error_register));
+    return out;
+  }
+
+ private:
+  Expression code_;
+  TimeReference within_;
+  std::string after_, save_code_, save_register_;
+};
+
+/// Raises the known errors in turn until the number of errors in the history stays where it is: that is its depth.
+class FillHistory final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<FillHistory>();
+    auto fields = value.fields("fill_history");
+    const auto name = [&](const char* key, std::string& to) {
+      const auto field = fields.required(key);
+      to = field.text().value_or("");
+      if (!to.empty()) context.know(to);
+    };
+    name("save_depth", out->depth_);
+    name("save_newest", out->newest_);
+    name("save_previous", out->previous_);
+    return out;
+  }
+  std::string words(Session&) const override { return "raise errors until the history is full, and one more"; }
+
+  Result<Actual> run(Session& session) const override {
+    const auto& triggers = session.profile().errors;
+    if (triggers.size() < 2) return fail("two error triggers are needed", "scenario", "when: 2 error triggers are known");
+    constexpr int most = 254 + 1;  // 1003h holds at most 254 errors (7.5.2.4)
+    std::uint64_t count = 0;
+    std::uint16_t newest = 0;
+    for (int i = 0; i < most; ++i) {
+      const auto& trigger = triggers[static_cast<std::size_t>(i) % triggers.size()];
+      for (auto* act : {&raise, &clear}) {
+        auto done = (*act)(session, trigger);
+        if (!done || done->kind != Actual::Kind::matched) return done;
+        auto waited = session.wait_until(session.now() + delay_of(trigger) + 5ms);
+        if (!waited) return std::unexpected(waited.error());
+      }
+      auto answer = session.upload({Index(0x1003), SubIndex(0)}, std::nullopt);
+      if (!answer) return std::unexpected(answer.error());
+      Actual out;
+      out.decisive = answer->decisive;
+      if (answer->kind != SdoAnswer::Kind::confirmed || answer->data.size() != 1) {
+        out.kind = Actual::Kind::mismatched;
+        out.detail = "1003h:00 could not be read while the history was being filled";
+        return out;
+      }
+      if (answer->data[0] <= count) {
+        session.set(depth_, Value::of_number(count));
+        session.set(newest_, Value::of_number(trigger.code));
+        session.set(previous_, Value::of_number(newest));
+        out.detail = "full at " + std::to_string(count) + " errors";
+        return out;
+      }
+      count = answer->data[0];
+      newest = trigger.code;
+    }
+    Actual out;
+    out.kind = Actual::Kind::mismatched;
+    out.detail = "the number of errors still grew after " + std::to_string(most) + " errors";
+    return out;
+  }
+
+ private:
+  std::string depth_, newest_, previous_;
+};
+
+constexpr Verb table[] = {
+    {"raise_error", "Raise an error by a trigger of the device profile (default: a heartbeat that stays away).",
+     "trigger: number, from 1\nsave: name that the EMCY error code gets", "- raise_error: {trigger: 1, save: code}", &RaiseError::parse},
+    {"clear_error", "Remove the cause of an error.", "trigger: number, from 1", "- clear_error: 1", &RaiseError::parse_clear},
+    {"emcy", "Wait for an EMCY.",
+     "code: error code, any when absent\nwithin: time (default 1 s, plus the delay of the trigger)\nafter: label to count from\n"
+     "save_code, save_register: names that code and error register get\nmeasured: register",
+     "- emcy: {code: $code, within: 1 s}\n  checks: EMCY-FMT-01", &AwaitEmcy::parse},
+    {"fill_history", "Raise errors in turn until 1003h is full, and one more.",
+     "save_depth: name that the depth gets\nsave_newest, save_previous: names that the last two error codes get",
+     "- fill_history: {save_depth: depth, save_newest: newest, save_previous: previous}", &FillHistory::parse},
+};
+
+}  // namespace
+
+std::span<const Verb> error_verbs() { return table; }
+
+}  // namespace conform::steps

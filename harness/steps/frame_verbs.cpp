@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verbs about frames as such: send one, wait for one, insist on none, count many.
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+#include "canopen/nmt.hpp"
+#include "steps/verb_tables.hpp"
+
+namespace conform::steps {
+namespace {
+
+std::string relative(BusTime time, const Window& window) {
+  return to_string(std::chrono::round<std::chrono::microseconds>(time - window.anchor));
+}
+
+std::string frame_words(const can::CapturedFrame& captured) {
+  const auto& frame = captured.frame;
+  return to_string(CanId(frame.id)) + (frame.remote ? " RTR" : ": " + hex_bytes(frame.bytes()));
+}
+
+/// The frames a verb is about: a CAN-ID, or a service of the device under test.
+struct Source {
+  Expression id;
+  std::string service;
+
+  static std::optional<Source> parse(const yaml::Field& field, const NameCheck& names) {
+    Source out;
+    const auto text = field.text();
+    if (!text) return std::nullopt;
+    for (const std::string_view word : {"heartbeat", "emcy", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
+      if (*text == word) {
+        out.service = *text;
+        return out;
+      }
+    }
+    auto expression = parse_expression_at(field, names);
+    if (!expression) return std::nullopt;
+    out.id = *expression;
+    return out;
+  }
+
+  [[nodiscard]] std::string words() const { return service.empty() ? "CAN-ID " + id.text() : service; }
+
+  [[nodiscard]] Result<Session::Match> match(Session& session) const {
+    const auto set = canopen::connection_set(session.node());
+    if (service == "anything") {
+      return [](const can::CapturedFrame& c) { return c.direction == can::Direction::received && !c.frame.error; };
+    }
+    CanId can_id{};
+    if (service == "heartbeat" || service == "boot-up") {
+      can_id = set.error_control;
+    } else if (service == "sdo") {
+      can_id = set.sdo_response;
+    } else if (service == "sync") {
+      can_id = canopen::sync_can_id;
+    } else if (service == "tpdo 1") {
+      can_id = set.tpdo[0];
+    } else if (service == "emcy") {
+      can_id = session.emcy_can_id();
+    } else {
+      const auto number = id.number(session);
+      if (!number) return std::unexpected(number.error());
+      can_id = CanId(static_cast<std::uint32_t>(*number));
+    }
+    const bool no_boot_up = service == "heartbeat";
+    return [can_id, no_boot_up](const can::CapturedFrame& c) {
+      if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
+      return !no_boot_up || c.frame.size() == 0 || c.frame.data[0] != 0;
+    };
+  }
+};
+
+/// `within: 200 ms` or `within: 190 ms..340 ms`
+struct Within {
+  Duration least{};
+  TimeReference most;
+
+  static std::optional<Within> parse(const yaml::Field& field) {
+    Within out;
+    const auto text = field.text();
+    if (!text) return std::nullopt;
+    const auto dots = text->find("..");
+    if (dots == std::string::npos) {
+      auto time = parse_time_at(field);
+      if (!time) return std::nullopt;
+      out.most = *time;
+      return out;
+    }
+    const auto low = parse_duration(trim(std::string_view(*text).substr(0, dots)));
+    const auto high = parse_duration(trim(std::string_view(*text).substr(dots + 2)));
+    if (!low || !high || *high < *low) {
+      field.error("'" + *text + "' is not a range of times", "write 190 ms..340 ms");
+      return std::nullopt;
+    }
+    out.least = *low;
+    out.most.fixed = *high;
+    return out;
+  }
+  [[nodiscard]] std::string text() const {
+    return least.count() > 0 ? to_string(least) + ".." + most.text() : most.text();
+  }
+};
+
+Result<Window> window_of(Session& session, const std::string& after) {
+  return after.empty() ? Result<Window>(session.window()) : session.window_after(after);
+}
+
+void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {
+  const auto field = fields.optional("after");
+  if (!field) return;
+  auto name = field.text().value_or("");
+  if (name.starts_with('$')) name.erase(0, 1);
+  if (std::ranges::find(context.names, name) == context.names.end()) {
+    field.error("unknown label '" + name + "'", "labels come from as:");
+  }
+  after = name;
+}
+
+class Send final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<Send>();
+    auto fields = value.fields("send");
+    const auto id = fields.required("id");
+    if (id) {
+      if (auto expression = parse_expression_at(id, context.names)) out->id_ = *expression;
+    }
+    if (const auto data = fields.optional("data")) {
+      if (auto bytes = data.bytes()) out->data_ = *bytes;
+      if (out->data_.size() > 8) data.error("a CAN frame holds at most eight bytes");
+    }
+    out->remote_ = fields.optional("rtr").boolean().value_or(false);
+    out->extended_ = fields.optional("ext").boolean().value_or(false);
+    if (const auto dlc = fields.optional("dlc")) out->dlc_ = dlc.number(0, 15);
+    return id && out->data_.size() <= 8 ? std::move(out) : nullptr;
+  }
+  std::string words(Session& session) const override {
+    const auto frame = build(session);
+    return "send " + (frame ? frame_words({*frame, {}, {}, {}}) : id_.text());
+  }
+  Result<Actual> run(Session& session) const override {
+    auto frame = build(session);
+    if (!frame) return std::unexpected(frame.error());
+    auto sent = session.send(*frame);
+    if (!sent) return std::unexpected(sent.error());
+    return Actual{};
+  }
+
+ private:
+  Result<can::Frame> build(Session& session) const {
+    const auto id = id_.number(session);
+    if (!id) return std::unexpected(id.error());
+    auto frame = can::data_frame(CanId(static_cast<std::uint32_t>(*id)), data_);
+    frame.remote = remote_;
+    frame.extended = extended_ || *id > 0x7FF;
+    if (dlc_) frame.dlc = static_cast<std::uint8_t>(*dlc_);
+    if (!remote_ && !extended_ && frame.id == 0 && frame.size() >= 2 && frame.data[1] != session.node().value()) {
+      return fail("an NMT command that is not for the device under test", "scenario", "use nmt:; other nodes may be on the bus");
+    }
+    return frame;
+  }
+
+  Expression id_;
+  Bytes data_;
+  bool remote_ = false, extended_ = false;
+  std::optional<std::uint64_t> dlc_;
+};
+
+class AwaitFrame final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<AwaitFrame>();
+    auto fields = value.fields("frame");
+    const auto id = fields.required("id");
+    const auto within = fields.required("within");
+    if (id) {
+      if (auto source = Source::parse(id, context.names)) out->source_ = *source;
+    }
+    if (within) {
+      if (auto parsed = Within::parse(within)) out->within_ = *parsed;
+    }
+    parse_after(fields, context, out->after_);
+    if (const auto save = fields.optional("save")) {
+      out->save_ = save.text().value_or("");
+      context.know(out->save_);
+    }
+    return id && within ? std::move(out) : nullptr;
+  }
+  bool acts() const override { return false; }
+  std::string words(Session&) const override { return "a frame of " + source_.words() + " within " + within_.text(); }
+  Result<Actual> run(Session& session) const override {
+    const auto window = window_of(session, after_);
+    if (!window) return std::unexpected(window.error());
+    auto match = source_.match(session);
+    if (!match) return std::unexpected(match.error());
+    const auto most = within_.most.resolve(session.profile());
+    auto found = session.find_frame(window->first, *match, window->anchor + most);
+    if (!found) return std::unexpected(found.error());
+    Actual out;
+    if (!*found) {
+      out.kind = Actual::Kind::silence;
+      out.detail = "no frame of " + source_.words() + " within " + to_string(most);
+      return out;
+    }
+    const auto captured = session.capture().frames()[**found];
+    session.consume(**found);
+    out.decisive = *found;
+    out.data.assign(captured.frame.bytes().begin(), captured.frame.bytes().end());
+    out.has_data = true;
+    if (captured.time < window->anchor + within_.least) {
+      out.kind = Actual::Kind::mismatched;
+      out.detail = frame_words(captured) + " too early, after " + relative(captured.time, *window);
+      return out;
+    }
+    if (!save_.empty()) session.set(save_, Value::of_bytes(out.data));
+    out.detail = frame_words(captured) + " after " + relative(captured.time, *window);
+    return out;
+  }
+
+ private:
+  Source source_;
+  Within within_;
+  std::string after_, save_;
+};
+
+class Silence final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<Silence>();
+    auto fields = value.fields("silence");
+    const auto of = fields.required("of");
+    const auto time = fields.required("for");
+    for (const auto& item : of.items_or_one()) {
+      if (auto source = Source::parse(item, context.names)) out->sources_.push_back(*source);
+    }
+    if (time) {
+      if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
+    }
+    parse_after(fields, context, out->after_);
+    return of && time ? std::move(out) : nullptr;
+  }
+  bool acts() const override { return false; }
+  std::string words(Session&) const override {
+    std::vector<std::string> parts;
+    for (const auto& source : sources_) parts.push_back(source.words());
+    return "silence of " + join(parts, ", ") + " for " + time_.text();
+  }
+  Result<Actual> run(Session& session) const override {
+    const auto window = window_of(session, after_);
+    if (!window) return std::unexpected(window.error());
+    std::vector<Session::Match> matches;
+    for (const auto& source : sources_) {
+      auto match = source.match(session);
+      if (!match) return std::unexpected(match.error());
+      matches.push_back(*match);
+    }
+    const auto time = time_.resolve(session.profile());
+    auto found = session.find_frame(
+        window->first,
+        [&matches](const auto& captured) {
+          return std::ranges::any_of(matches, [&](const auto& match) { return match(captured); });
+        },
+        window->anchor + time);
+    if (!found) return std::unexpected(found.error());
+    Actual out;
+    if (*found) {
+      const auto& captured = session.capture().frames()[**found];
+      out.kind = Actual::Kind::mismatched;
+      out.decisive = *found;
+      out.detail = frame_words(captured) + " after " + relative(captured.time, *window);
+      session.consume(**found);
+    } else {
+      out.detail = "silence for " + to_string(time);
+    }
+    return out;
+  }
+
+ private:
+  std::vector<Source> sources_;
+  TimeReference time_;
+  std::string after_;
+};
+
+class Collect final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<Collect>();
+    auto fields = value.fields("collect");
+    const auto from = fields.required("from");
+    const auto time = fields.required("for");
+    if (from) {
+      if (auto source = Source::parse(from, context.names)) out->source_ = *source;
+    }
+    if (time) {
+      if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
+    }
+    parse_after(fields, context, out->after_);
+    return from && time ? std::move(out) : nullptr;
+  }
+  bool acts() const override { return false; }
+  std::string words(Session&) const override { return "collect " + source_.words() + " for " + time_.text(); }
+
+  Result<Actual> run(Session& session) const override {
+    const auto window = window_of(session, after_);
+    if (!window) return std::unexpected(window.error());
+    auto match = source_.match(session);
+    if (!match) return std::unexpected(match.error());
+    const auto until = window->anchor + time_.resolve(session.profile());
+    std::vector<std::size_t> hits;
+    for (std::size_t from = window->first;;) {
+      auto found = session.find_frame(from, *match, until);
+      if (!found) return std::unexpected(found.error());
+      if (!*found) break;
+      hits.push_back(**found);
+      from = **found + 1;
+    }
+    return measure(session, *window, hits);
+  }
+
+ private:
+  [[nodiscard]] static Actual measure(Session& session, const Window& window, const std::vector<std::size_t>& hits) {
+    Actual out;
+    const auto& frames = session.capture().frames();
+    out.measured["count"] = hits.size();
+    out.detail = std::to_string(hits.size()) + " frames";
+    if (hits.empty()) return out;
+    out.decisive = hits.back();
+    const auto first = frames[hits.front()].time;
+    out.measured["first"] = static_cast<std::uint64_t>(std::max<Duration::rep>(0, (first - window.anchor).count()));
+    std::optional<std::uint8_t> state;
+    bool one_state = true;
+    for (const auto hit : hits) {
+      const auto& frame = frames[hit].frame;
+      const auto byte = frame.size() > 0 ? frame.data[0] : std::uint8_t{0xFF};
+      // A heartbeat is one byte with bit 7 = 0; anything else must not pass as a state.
+      const auto value = frame.dlc == 1 ? byte : std::uint8_t{0xFF};
+      one_state = one_state && (!state || *state == value);
+      state = value;
+    }
+    if (one_state) out.measured["state"] = *state;
+    if (hits.size() > 1) {
+      Duration shortest = Duration::max(), longest{};
+      for (std::size_t i = 1; i < hits.size(); ++i) {
+        const auto gap = frames[hits[i]].time - frames[hits[i - 1]].time;
+        shortest = std::min(shortest, gap);
+        longest = std::max(longest, gap);
+      }
+      const auto mean = (frames[hits.back()].time - first) / static_cast<Duration::rep>(hits.size() - 1);
+      out.measured["period"] = static_cast<std::uint64_t>(mean.count());
+      out.measured["shortest"] = static_cast<std::uint64_t>(shortest.count());
+      out.measured["longest"] = static_cast<std::uint64_t>(longest.count());
+      using std::chrono::microseconds;
+      out.detail += ", period " + to_string(std::chrono::round<microseconds>(mean)) + " (" +
+                    to_string(std::chrono::round<microseconds>(shortest)) + ".." +
+                    to_string(std::chrono::round<microseconds>(longest)) + ")";
+    }
+    out.detail += ", first after " + relative(first, window) + ", " +
+                  (one_state ? "first byte " + hex(*state, 2) : std::string("differing first bytes"));
+    session.consume(hits.back());
+    return out;
+  }
+
+  Source source_;
+  TimeReference time_;
+  std::string after_;
+};
+
+constexpr Verb table[] = {
+    {"send", "Send one frame, legal or not.", "id: CAN-ID\ndata: bytes\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
+     "- send: {id: 80h, data: \"\"}", &Send::parse},
+    {"frame", "Wait for a frame of the device.",
+     "id: CAN-ID, or heartbeat, emcy, sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
+     "- frame: {id: 6A0h, within: 2 s}\n  checks: OD-1014-07", &AwaitFrame::parse},
+    {"silence", "No frame may come.", "of: CAN-ID or service, or a list of them\nfor: how long\nafter: label to count from",
+     "- silence: {of: [emcy, 6A0h], for: 1 s}\n  checks: OD-1014-08", &Silence::parse},
+    {"collect", "Count and time frames.",
+     "from: CAN-ID or service\nfor: how long\nafter: label to count from\nmeasured: count, period, shortest, longest, first, state",
+     "- collect: {from: heartbeat, for: 1 s}\n  checks: OD-1017-05\n  expect: {count: 9..11, period: 90 ms..110 ms, state: pre-operational}",
+     &Collect::parse},
+};
+
+}  // namespace
+
+std::span<const Verb> frame_verbs() { return table; }
+
+}  // namespace conform::steps

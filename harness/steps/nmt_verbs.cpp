@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verbs of NMT and error control: commands, resets, boot-up, produced heartbeats.
+#include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+#include "canopen/nmt.hpp"
+#include "steps/verb_tables.hpp"
+
+namespace conform::steps {
+namespace {
+
+using canopen::NmtCommand;
+
+bool is_boot_up(const can::CapturedFrame& captured, NodeId node) {
+  return captured.direction == can::Direction::received &&
+         captured.frame.is_data(canopen::connection_set(node).error_control) && captured.frame.dlc == 1 &&
+         captured.frame.data[0] == 0;
+}
+
+/// Waits for the boot-up message that the window of the running step may show.
+Result<Actual> await_boot_up(Session& session, const Window& window, Duration within) {
+  const auto node = session.node();
+  auto found = session.find_frame(
+      window.first, [node](const auto& captured) { return is_boot_up(captured, node); }, window.anchor + within);
+  if (!found) return std::unexpected(found.error());
+  Actual out;
+  if (!*found) {
+    out.kind = Actual::Kind::silence;
+    out.detail = "no boot-up message within " + to_string(within);
+    return out;
+  }
+  const auto& captured = session.capture().frames()[**found];
+  session.consume(**found);
+  out.kind = Actual::Kind::matched;
+  out.decisive = *found;
+  out.detail = "boot-up message after " + to_string(std::chrono::round<std::chrono::microseconds>(captured.time - window.anchor));
+  return out;
+}
+
+class Nmt final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    auto out = std::make_unique<Nmt>();
+    const auto command = value.one_of<NmtCommand>({{"start", NmtCommand::start},
+                                                   {"stop", NmtCommand::stop},
+                                                   {"pre-operational", NmtCommand::pre_operational},
+                                                   {"reset node", NmtCommand::reset_node},
+                                                   {"reset communication", NmtCommand::reset_communication}});
+    if (!command) return nullptr;
+    out->command_ = *command;
+    return out;
+  }
+  std::string words(Session&) const override { return "NMT " + std::string(canopen::to_string(command_)); }
+  Result<Actual> run(Session& session) const override {
+    auto sent = session.nmt(command_);
+    if (!sent) return std::unexpected(sent.error());
+    return Actual{};
+  }
+
+ private:
+  NmtCommand command_ = NmtCommand::start;
+};
+
+class Reset final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    auto out = std::make_unique<Reset>();
+    const auto command =
+        value.one_of<NmtCommand>({{"node", NmtCommand::reset_node}, {"communication", NmtCommand::reset_communication}});
+    if (!command) return nullptr;
+    out->command_ = *command;
+    return out;
+  }
+  std::string words(Session&) const override {
+    return "NMT " + std::string(canopen::to_string(command_)) + " and wait for the boot-up message";
+  }
+  Result<Actual> run(Session& session) const override {
+    auto sent = session.nmt(command_);
+    if (!sent) return std::unexpected(sent.error());
+    return await_boot_up(session, session.window(), session.profile().boot_time);
+  }
+
+ private:
+  NmtCommand command_ = NmtCommand::reset_node;
+};
+
+class BootUp final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    auto out = std::make_unique<BootUp>();
+    auto fields = value.fields("boot_up");
+    out->within_.profile_name = "boot_time";
+    if (const auto within = fields.optional("within")) {
+      if (auto time = parse_time_at(within)) out->within_ = *time;
+    }
+    if (const auto exactly = fields.optional("exactly")) {
+      if (exactly.one_of({"once"})) out->once_for_ = std::chrono::seconds(1);
+    }
+    return out;
+  }
+  bool acts() const override { return false; }
+  std::string words(Session&) const override {
+    return "boot-up message within " + within_.text() + (once_for_.count() > 0 ? ", exactly once" : "");
+  }
+  Result<Actual> run(Session& session) const override {
+    const auto window = session.window();
+    auto first = await_boot_up(session, window, within_.resolve(session.profile()));
+    if (!first || first->kind != Actual::Kind::matched || once_for_.count() == 0) return first;
+    const auto node = session.node();
+    const auto& frames = session.capture().frames();
+    auto second = session.find_frame(
+        *first->decisive + 1, [node](const auto& captured) { return is_boot_up(captured, node); },
+        frames[*first->decisive].time + once_for_);
+    if (!second) return std::unexpected(second.error());
+    if (*second) {
+      first->kind = Actual::Kind::mismatched;
+      first->decisive = *second;
+      first->detail = "a second boot-up message, " +
+                      to_string(std::chrono::round<std::chrono::microseconds>(session.capture().frames()[**second].time -
+                                                                              window.anchor)) +
+                      " after the command";
+    }
+    return first;
+  }
+
+ private:
+  TimeReference within_;
+  Duration once_for_{};
+};
+
+class Produce final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<Produce>();
+    auto fields = value.fields("produce");
+    const auto heartbeat = fields.required("heartbeat");
+    if (!heartbeat) return nullptr;
+    auto inner = heartbeat.fields("heartbeat");
+    out->node_ = inner.required("node").number(1, 127).value_or(0);
+    out->state_ = inner.optional("state")
+                      .one_of<canopen::NmtState>({{"operational", canopen::NmtState::operational},
+                                                  {"pre-operational", canopen::NmtState::pre_operational},
+                                                  {"stopped", canopen::NmtState::stopped}})
+                      .value_or(canopen::NmtState::operational);
+    if (const auto every = inner.optional("every")) {
+      if (auto time = parse_time_at(every)) out->every_ = *time;
+      out->cyclic_ = true;
+    }
+    if (const auto count = inner.optional("count")) out->count_ = count.number(1, 1'000'000);
+    context.know("heartbeat");
+    return out->node_ == 0 ? nullptr : std::move(out);
+  }
+  std::string words(Session&) const override {
+    return "produce heartbeat of node " + std::to_string(node_) + (cyclic_ ? " every " + every_.text() : ", once");
+  }
+  Result<Actual> run(Session& session) const override {
+    const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
+    if (cyclic_) {
+      session.produce({"heartbeat", frame, every_.resolve(session.profile()), count_});
+      return Actual{};
+    }
+    const auto index = session.capture().size();
+    auto sent = session.send(frame);
+    if (!sent) return std::unexpected(sent.error());
+    Actual out;
+    auto echo = session.find_frame(
+        index, [&frame](const auto& captured) {
+          return captured.direction == can::Direction::transmitted && captured.frame == frame;
+        },
+        session.now() + std::chrono::milliseconds(500));
+    if (!echo) return std::unexpected(echo.error());
+    if (*echo) out.decisive = **echo;
+    return out;
+  }
+
+ private:
+  std::uint64_t node_ = 0;
+  canopen::NmtState state_ = canopen::NmtState::operational;
+  TimeReference every_;
+  bool cyclic_ = false;
+  std::optional<std::uint64_t> count_;
+};
+
+class Stop final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    auto out = std::make_unique<Stop>();
+    return value.one_of({"heartbeat"}) ? std::move(out) : nullptr;
+  }
+  bool acts() const override { return false; }
+  std::string words(Session&) const override { return "stop producing heartbeats"; }
+  Result<Actual> run(Session& session) const override {
+    session.stop_producing("heartbeat");
+    return Actual{};
+  }
+};
+
+constexpr Verb table[] = {
+    {"nmt", "Send an NMT command to the device under test; never to all nodes.",
+     "(word): start, stop, pre-operational, reset node, reset communication", "- nmt: start", &Nmt::parse},
+    {"reset", "Reset the device and wait for its boot-up message.", "(word): node, communication", "- reset: communication",
+     &Reset::parse},
+    {"boot_up", "Wait for the boot-up message.", "within: time (default: boot time of the profile)\nexactly: once",
+     "- nmt: reset node\n- boot_up: {within: $profile.boot_time, exactly: once}\n  checks: NMT-BOOT-01", &BootUp::parse},
+    {"produce", "Send heartbeats of another node, once or beside the following steps.",
+     "heartbeat: {node, state, every, count}", "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}",
+     &Produce::parse},
+    {"stop", "End what `produce` began.", "(word): heartbeat", "- stop: heartbeat", &Stop::parse},
+};
+
+}  // namespace
+
+std::span<const Verb> nmt_verbs() { return table; }
+
+}  // namespace conform::steps

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "steps/outcome.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+
+namespace conform::steps {
+namespace {
+
+std::uint64_t width_mask(std::size_t bytes) {
+  return bytes >= 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * bytes)) - 1;
+}
+
+/// A number fits the data when the data hold it, or its sign extension made by '~'.
+bool equals(std::uint64_t wanted, const Bytes& data, std::uint64_t mask) {
+  const auto width = width_mask(data.size());
+  const auto above = wanted & ~width;
+  if (above != 0 && above != ~width) return false;
+  return ((load_le(data) ^ wanted) & width & mask) == 0;
+}
+
+Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
+  using Kind = Demand::Kind;
+  switch (demand.kind) {
+    case Kind::measured: {
+      const auto found = actual.measured.find(demand.measure);
+      return found != actual.measured.end() && found->second >= demand.least && found->second <= demand.most;
+    }
+    case Kind::bytes: return actual.data == demand.bytes;
+    case Kind::visible_text:
+      return std::ranges::all_of(actual.data, [](std::uint8_t byte) { return byte == 0 || (byte >= 0x20 && byte <= 0x7E); });
+    case Kind::size: return demand.range.holds(actual.data.size(), scope);
+    case Kind::range:
+      if (actual.data.empty() || actual.data.size() > 8) return false;
+      return demand.range.holds(load_le(actual.data), scope);
+    case Kind::one_of:
+      for (const auto& expression : demand.values) {
+        auto wanted = expression.evaluate(scope);
+        if (!wanted) return std::unexpected(wanted.error());
+        if (wanted->number && actual.data.size() <= 8 && equals(*wanted->number, actual.data, ~std::uint64_t{0})) return true;
+      }
+      return false;
+    case Kind::value: break;
+  }
+  auto wanted = demand.value.evaluate(scope);
+  if (!wanted) return std::unexpected(wanted.error());
+  std::uint64_t mask = ~std::uint64_t{0};
+  if (!demand.mask.empty()) {
+    auto value = demand.mask.number(scope);
+    if (!value) return std::unexpected(value.error());
+    mask = *value;
+  } else if (wanted->bytes) {
+    return *wanted->bytes == actual.data;
+  }
+  if (!wanted->number) return fail("'" + demand.value.text() + "' is not a number");
+  return !actual.data.empty() && actual.data.size() <= 8 && equals(*wanted->number, actual.data, mask);
+}
+
+std::string value_words(const Expression& expression, Scope& scope, std::optional<canopen::DataType> type) {
+  auto value = expression.evaluate(scope);
+  if (!value) return expression.text();
+  if (type && canopen::is_integer(*type) && value->number) {
+    const auto size = canopen::size_bytes(*type).value_or(8);
+    return canopen::print(*type, to_le(*value->number, size));
+  }
+  return value->text();
+}
+
+std::string demand_words(const Demand& demand, Scope& scope, std::optional<canopen::DataType> type) {
+  using Kind = Demand::Kind;
+  switch (demand.kind) {
+    case Kind::value: {
+      auto text = "value " + value_words(demand.value, scope, type);
+      if (!demand.mask.empty()) text += " in the bits " + value_words(demand.mask, scope, type);
+      return text;
+    }
+    case Kind::one_of: {
+      std::vector<std::string> parts;
+      for (const auto& expression : demand.values) parts.push_back(value_words(expression, scope, type));
+      return "one of " + join(parts, ", ");
+    }
+    default: return demand.text;
+  }
+}
+
+std::optional<AbortCode> read_code(std::string_view text) {
+  const auto number = parse_number(text);
+  if (!number || *number > 0xFFFF'FFFFU) return std::nullopt;
+  return AbortCode(static_cast<std::uint32_t>(*number));
+}
+
+bool parse_abort(std::string_view text, const yaml::Field& field, std::vector<Outcome>& out) {
+  Outcome outcome;
+  text = trim(text);
+  if (text == "any") {
+    outcome.kind = Outcome::Kind::abort_any;
+    out.push_back(outcome);
+    return true;
+  }
+  outcome.kind = Outcome::Kind::abort_code;
+  const auto dots = text.find("..");
+  const auto first = read_code(trim(text.substr(0, dots)));
+  const auto last = dots == std::string_view::npos ? first : read_code(trim(text.substr(dots + 2)));
+  if (!first || !last || *last < *first) {
+    field.error("'" + std::string(text) + "' is not an abort code", "write 0609 0030h, or any");
+    return false;
+  }
+  if (*first == *last && canopen::meaning(*first).empty()) {
+    field.error("abort code " + to_string(*first) + " is reserved in CiA 301", "see the table of abort codes, 7.2.4.3.17");
+    return false;
+  }
+  outcome.code = *first;
+  outcome.last_code = *last;
+  out.push_back(outcome);
+  return true;
+}
+
+void check_names(const std::vector<std::string>& used, const yaml::Field& field, const NameCheck& names) {
+  for (const auto& name : used) {
+    if (name.starts_with("profile.") || std::ranges::find(names, name) != names.end()) continue;
+    std::vector<std::string_view> known(names.begin(), names.end());
+    const auto near = did_you_mean(name, known);
+    field.error("unknown name $" + name, near.empty() ? "names come from save, for_each, over and let"
+                                                       : "did you mean $" + std::string(near) + "?");
+  }
+}
+
+std::optional<Expression> read_expression(const yaml::Field& field, const NameCheck& names) {
+  const auto text = field.text();
+  if (!text) return std::nullopt;
+  auto expression = Expression::parse(*text);
+  if (!expression) {
+    field.error(expression.error().what, expression.error().hint);
+    return std::nullopt;
+  }
+  check_names(expression->names(), field, names);
+  return *expression;
+}
+
+/// "9..11", "90 ms..110 ms", "10": bounds of a measurement, times in nanoseconds.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::Field& field) {
+  const auto text = field.text();
+  if (!text) return std::nullopt;
+  const auto read = [](std::string_view part) -> std::optional<std::uint64_t> {
+    if (const auto number = parse_number(trim(part))) return number;
+    if (const auto time = parse_duration(trim(part))) return static_cast<std::uint64_t>(time->count());
+    return std::nullopt;
+  };
+  const auto dots = text->find("..");
+  const auto low_text = trim(std::string_view(*text).substr(0, dots));
+  const auto high_text = dots == std::string::npos ? low_text : trim(std::string_view(*text).substr(dots + 2));
+  const auto low = low_text.empty() ? std::optional<std::uint64_t>(0) : read(low_text);
+  const auto high = high_text.empty() ? std::optional<std::uint64_t>(~std::uint64_t{0}) : read(high_text);
+  if (!low || !high || *low > *high) {
+    field.error("'" + *text + "' is not a range", "write 9..11, 90 ms..110 ms or 10");
+    return std::nullopt;
+  }
+  return std::pair(*low, *high);
+}
+
+struct StateWord {
+  std::string_view word;
+  std::uint64_t code;
+};
+constexpr StateWord state_words[] = {{"stopped", 0x04}, {"operational", 0x05}, {"pre-operational", 0x7F}, {"boot-up", 0x00}};
+
+void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector<Outcome>& out) {
+  auto fields = field.fields("outcome");
+  if (const auto abort = fields.optional("abort")) {
+    for (const auto& item : abort.items_or_one()) {
+      if (const auto text = item.text()) parse_abort(*text, item, out);
+    }
+  }
+  Outcome outcome;
+  outcome.kind = Outcome::Kind::data;
+  const auto add = [&](Demand demand, std::string text) {
+    demand.text = std::move(text);
+    outcome.demands.push_back(std::move(demand));
+  };
+  const auto mask = fields.optional("mask");
+  if (const auto value = fields.optional("value")) {
+    Demand demand;
+    if (auto expression = read_expression(value, names)) demand.value = *expression;
+    if (mask) {
+      if (auto expression = read_expression(mask, names)) demand.mask = *expression;
+    }
+    if (!demand.value.empty()) add(demand, "");
+  } else if (mask) {
+    mask.error("'mask' needs 'value' beside it");
+  }
+  if (const auto one_of = fields.optional("one_of")) {
+    Demand demand;
+    demand.kind = Demand::Kind::one_of;
+    for (const auto& item : one_of.items()) {
+      if (auto expression = read_expression(item, names)) demand.values.push_back(*expression);
+    }
+    add(demand, "");
+  }
+  if (const auto range = fields.optional("range")) {
+    if (const auto text = range.text()) {
+      auto parsed = Range::parse(*text);
+      if (!parsed) {
+        range.error(parsed.error().what, parsed.error().hint);
+      } else {
+        check_names(parsed->low.names(), range, names);
+        check_names(parsed->high.names(), range, names);
+        Demand demand;
+        demand.kind = Demand::Kind::range;
+        demand.range = *parsed;
+        add(demand, "value " + *text);
+      }
+    }
+  }
+  if (const auto size = fields.optional("size")) {
+    if (const auto text = size.text()) {
+      auto parsed = Range::parse(text->find("..") == std::string::npos ? *text + ".." + *text : *text);
+      if (!parsed) {
+        size.error(parsed.error().what, "write 4 or 1..");
+      } else {
+        Demand demand;
+        demand.kind = Demand::Kind::size;
+        demand.range = *parsed;
+        add(demand, *text == "1" ? "1 byte" : *text + " bytes");
+      }
+    }
+  }
+  if (const auto bytes = fields.optional("bytes")) {
+    if (const auto data = bytes.bytes()) {
+      Demand demand;
+      demand.kind = Demand::Kind::bytes;
+      demand.bytes = *data;
+      add(demand, "bytes " + hex_bytes(*data));
+    }
+  }
+  if (const auto text = fields.optional("text")) {
+    if (text.one_of({"visible"})) {
+      Demand demand;
+      demand.kind = Demand::Kind::visible_text;
+      add(demand, "visible characters (20h-7Eh, 00h)");
+    }
+  }
+  for (const std::string_view name : {"count", "period", "shortest", "longest", "first", "register"}) {
+    const auto measure = fields.optional(name);
+    if (!measure) continue;
+    if (const auto bounds = read_bounds(measure)) {
+      Demand demand;
+      demand.kind = Demand::Kind::measured;
+      demand.measure = name;
+      demand.least = bounds->first;
+      demand.most = bounds->second;
+      add(demand, std::string(name) + " " + measure.text().value_or(""));
+    }
+  }
+  if (const auto state = fields.optional("state")) {
+    if (const auto word = state.text()) {
+      const auto found = std::ranges::find(state_words, std::string_view(*word), &StateWord::word);
+      if (found == std::end(state_words)) {
+        state.error("unknown NMT state '" + *word + "'", "pre-operational, operational, stopped or boot-up");
+      } else {
+        Demand demand;
+        demand.kind = Demand::Kind::measured;
+        demand.measure = "state";
+        demand.least = demand.most = found->code;
+        add(demand, "state " + *word);
+      }
+    }
+  }
+  if (!outcome.demands.empty()) out.push_back(std::move(outcome));
+}
+
+}  // namespace
+
+std::string Actual::words() const {
+  switch (kind) {
+    case Kind::confirmed:
+      if (!has_data) return detail.empty() ? "confirmed" : detail;
+      return type ? canopen::print(*type, data) : canopen::print_untyped(data);
+    case Kind::aborted: return "abort " + canopen::describe(code);
+    case Kind::silence: return detail.empty() ? "no answer" : detail;
+    case Kind::violation: return "protocol violation: " + detail;
+    case Kind::matched: return detail.empty() ? "as expected" : detail;
+    case Kind::mismatched: return detail;
+  }
+  return {};
+}
+
+Result<bool> Outcome::matches(const Actual& actual, Scope& scope) const {
+  using ActualKind = Actual::Kind;
+  switch (kind) {
+    case Kind::ok: return actual.kind == ActualKind::confirmed || actual.kind == ActualKind::matched;
+    case Kind::abort_any: return actual.kind == ActualKind::aborted;
+    case Kind::abort_code: return actual.kind == ActualKind::aborted && actual.code >= code && actual.code <= last_code;
+    case Kind::silence: return actual.kind == ActualKind::silence;
+    case Kind::unchanged:
+      if (actual.kind != ActualKind::confirmed) return false;
+      if (!actual.unchanged_from) return fail("'unchanged' has nothing to compare with: no value was noted before");
+      return actual.data == *actual.unchanged_from;
+    case Kind::data: break;
+  }
+  if (actual.kind != ActualKind::confirmed && actual.kind != ActualKind::matched) return false;
+  for (const auto& demand : demands) {
+    auto met = meets(demand, actual, scope);
+    if (!met || !*met) return met;
+  }
+  return true;
+}
+
+std::string Outcome::words(Scope& scope, std::optional<canopen::DataType> type) const {
+  switch (kind) {
+    case Kind::ok: return "success";
+    case Kind::abort_any: return "any abort";
+    case Kind::silence: return "no answer";
+    case Kind::unchanged: return "the value it had before";
+    case Kind::abort_code:
+      if (code == last_code) return "abort " + canopen::describe(code);
+      return "abort " + to_string(code) + " to " + to_string(last_code);
+    case Kind::data: break;
+  }
+  std::vector<std::string> parts;
+  for (const auto& demand : demands) parts.push_back(demand_words(demand, scope, type));
+  return join(parts, ", ");
+}
+
+std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& names) {
+  std::vector<Outcome> out;
+  for (const auto& item : field.items_or_one()) {
+    if (item.node()->is_mapping()) {
+      parse_mapping(item, names, out);
+      continue;
+    }
+    const auto text = item.text();
+    if (!text) continue;
+    Outcome outcome;
+    if (*text == "ok") {
+      out.push_back(outcome);
+    } else if (*text == "silence") {
+      outcome.kind = Outcome::Kind::silence;
+      out.push_back(outcome);
+    } else if (*text == "unchanged") {
+      outcome.kind = Outcome::Kind::unchanged;
+      out.push_back(outcome);
+    } else if (text->starts_with("abort ")) {
+      parse_abort(std::string_view(*text).substr(6), item, out);
+    } else {
+      const auto first = text->substr(0, text->find(' '));
+      static constexpr std::string_view known[] = {"ok", "abort", "silence", "unchanged", "value", "range", "size", "bytes"};
+      const auto near = did_you_mean(first, known);
+      item.error("unknown outcome '" + *text + "'",
+                 near.empty() ? "write ok, abort 0609 0030h, abort any, silence, unchanged or {value: ...}"
+                              : "did you mean '" + std::string(near) + "'?");
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> Expectation::pass_words(Scope& scope, std::optional<canopen::DataType> type) const {
+  std::vector<std::string> out;
+  for (const auto& outcome : pass) out.push_back(outcome.words(scope, type));
+  return out;
+}
+
+std::vector<std::string> Expectation::warn_words(Scope& scope, std::optional<canopen::DataType> type) const {
+  std::vector<std::string> out;
+  for (const auto& outcome : warn) out.push_back(outcome.words(scope, type));
+  return out;
+}
+
+Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::string_view level, bool strict, Scope& scope) {
+  using result::Verdict;
+  bool size_asked = false;
+  const auto in = [&](const std::vector<Outcome>& set) -> Result<bool> {
+    for (const auto& outcome : set) {
+      auto hit = outcome.matches(actual, scope);
+      size_asked = std::ranges::any_of(outcome.demands, [](const Demand& d) { return d.kind == Demand::Kind::size; });
+      if (!hit || *hit) return hit;
+    }
+    return false;
+  };
+  static const std::vector<Outcome> success{Outcome{}};
+  const auto& pass = expectation.pass.empty() ? success : expectation.pass;
+  auto hit = in(pass);
+  if (!hit) return std::unexpected(hit.error());
+  if (*hit) {
+    if (!actual.tolerated.empty()) return Grade{Verdict::warn, join(actual.tolerated, "; ")};
+    if (size_asked && actual.has_data && !actual.size_indicated) {
+      return Grade{Verdict::warn, "the expedited response leaves the size open (s = 0), so the length is not proven"};
+    }
+    return Grade{};
+  }
+  hit = in(expectation.warn);
+  if (!hit) return std::unexpected(hit.error());
+  if (*hit) return Grade{Verdict::warn, "tolerated, but not what the standard names"};
+  hit = in(expectation.fail);
+  if (!hit) return std::unexpected(hit.error());
+  if (*hit) return Grade{Verdict::fail, "an outcome that is ruled out"};
+  const bool binding = level != "recommended" && level != "optional";
+  if (!binding && !strict) {
+    return Grade{Verdict::warn, "not an expected outcome of a rule whose level is '" + std::string(level) + "'"};
+  }
+  return Grade{Verdict::fail, "not an outcome that the rule accepts"};
+}
+
+}  // namespace conform::steps

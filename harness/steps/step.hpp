@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// A step of a scenario: one verb, and what is expected of it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "steps/condition.hpp"
+#include "steps/outcome.hpp"
+#include "steps/session.hpp"
+#include "yaml/node.hpp"
+
+namespace conform::steps {
+
+/// What a verb does. One class per verb, private to its file.
+class Action {
+ public:
+  Action() = default;
+  Action(const Action&) = delete;
+  Action& operator=(const Action&) = delete;
+  virtual ~Action() = default;
+  /// "download 1003h:00 = 02h": with the values of this instance.
+  [[nodiscard]] virtual std::string words(Session& session) const = 0;
+  /// Error: the environment failed, or a name has no value (Error::where is then "scenario").
+  [[nodiscard]] virtual Result<Actual> run(Session& session) const = 0;
+  /// For alternatives in `either`: whether what comes next on the bus is how this action begins. Consumes nothing.
+  [[nodiscard]] virtual Result<bool> begins(Session& /*session*/) const { return false; }
+  /// Whether it sends something to the device (and so begins a new window for the steps that wait).
+  [[nodiscard]] virtual bool acts() const { return true; }
+  /// The entry it is about, for `current` and for printing values.
+  [[nodiscard]] virtual const ObjectReference* object() const { return nullptr; }
+};
+
+struct Step;
+
+/// One way a step with `either` may go on.
+struct Branch {
+  std::vector<Outcome> on;          ///< empty: the first step is a conversation that tells by its first line
+  result::Verdict verdict = result::Verdict::pass;  ///< grade of taking this way
+  std::vector<Step> steps;
+  yaml::Position position;
+};
+
+/// `over`: a name and the values it takes, one after the other, inside one step.
+struct Walk {
+  std::string name;
+  std::vector<Expression> values;
+  std::vector<Range> ranges;
+  std::vector<std::string> sets;  ///< named sets: "restricted CAN-IDs"
+  std::vector<Step> steps;
+};
+
+struct Step {
+  std::string verb;
+  std::unique_ptr<Action> action;   ///< absent for `over`
+  std::optional<Walk> walk;
+  Expectation expectation;
+  std::optional<Condition> when, unless;
+  std::vector<Branch> branches;     ///< `either`
+  std::string label;                ///< `as`
+  yaml::Position position;          ///< of the verb's key
+  int length = 1;
+};
+
+/// What the parser of a verb may use and report to.
+struct ParseContext {
+  yaml::Diagnostics& diagnostics;
+  /// The canonical id of a requirement (aliases resolved), or nullopt when there is none.
+  std::function<std::optional<std::string>(std::string_view)> requirement;
+  std::function<std::vector<std::string_view>()> all_requirements;  ///< for "did you mean"
+  NameCheck names;                  ///< known at this place; verbs that save add to it
+  std::vector<std::string> default_checks;
+  void know(std::string name) { names.push_back(std::move(name)); }
+};
+
+/// One row of the verb table.
+struct Verb {
+  std::string_view name;
+  std::string_view summary;     ///< one line
+  std::string_view parameters;  ///< one per line: "object: the entry, 1003h:00 or $name"
+  std::string_view example;     ///< YAML
+  std::unique_ptr<Action> (*parse)(const yaml::Field& value, ParseContext& context);
+};
+
+/// All verbs in the order of the reference page.
+[[nodiscard]] std::span<const Verb> verbs();
+[[nodiscard]] const Verb* find_verb(std::string_view name);
+
+/// Reads a list of steps. All mistakes go to the diagnostics; unusable steps are left out.
+[[nodiscard]] std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context);
+
+/// Ids at `checks`; "$name" stands for a word of the instance's row.
+[[nodiscard]] std::vector<std::string> parse_checks(const yaml::Field& field, const ParseContext& context);
+
+/// Reads an expression, an object or a condition at a field and reports what is wrong, unknown names included.
+[[nodiscard]] std::optional<Expression> parse_expression_at(const yaml::Field& field, const NameCheck& names);
+[[nodiscard]] std::optional<ObjectReference> parse_object_at(const yaml::Field& field, const NameCheck& names);
+[[nodiscard]] std::optional<Condition> parse_condition_at(const yaml::Field& field, const NameCheck& names);
+/// "100 ms" or "$profile.store_timeout"
+struct TimeReference {
+  Duration fixed{};
+  std::string profile_name;
+  [[nodiscard]] Duration resolve(const device::Profile& profile) const;
+  [[nodiscard]] std::string text() const;
+};
+[[nodiscard]] std::optional<TimeReference> parse_time_at(const yaml::Field& field);
+
+}  // namespace conform::steps
