@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/formats.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "reports/console.hpp"
+#include "reports/junit.hpp"
+
+namespace conform::reports {
+namespace {
+
+std::string write_junit(const result::RunResult& run, const can::Capture& /*capture*/) { return junit(run); }
+std::string write_text(const result::RunResult& run, const can::Capture& /*capture*/) { return summary(run, Style{}); }
+
+// A table and not self-registration: the linker drops registrars from static libraries.
+constexpr std::array<Format, 2> table{{
+    {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
+    {"text", "the summary of the terminal, without colours", ".txt", write_text},
+}};
+
+}  // namespace
+
+std::span<const Format> formats() { return table; }
+
+const Format* find_format(std::string_view name) {
+  const auto found = std::ranges::find(table, name, &Format::name);
+  return found == table.end() ? nullptr : &*found;
+}
+
+std::vector<std::string_view> format_names() {
+  std::vector<std::string_view> names;
+  for (const Format& format : table) names.push_back(format.name);
+  return names;
+}
+
+}  // namespace conform::reports

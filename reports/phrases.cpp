@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/phrases.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "reports/text_tools.hpp"
+
+namespace conform::reports {
+
+using result::CaseResult;
+using result::EvidenceFrame;
+using result::Finding;
+using result::Verdict;
+
+std::vector<LocatedFinding> findings_of(const CaseResult& one) {
+  std::vector<LocatedFinding> all;
+  for (const Finding& finding : one.setup_findings) all.push_back({&one, &finding, finding.verdict, true});
+  for (const result::Judgement& judgement : one.judgements) {
+    for (const Finding& finding : judgement.findings) {
+      all.push_back({&one, &finding, std::min(finding.verdict, judgement.verdict), false});
+    }
+  }
+  return all;
+}
+
+std::string_view verdict_words(Verdict verdict) {
+  return verdict == Verdict::not_applicable ? "not applicable" : result::to_string(verdict);
+}
+
+std::string headline(const Finding& finding) {
+  std::string text = log_safe(finding.step);
+  const std::string_view came = finding.actual.empty() ? std::string_view(finding.reason) : finding.actual;
+  if (!came.empty()) text += (text.empty() ? "" : " -> ") + log_safe(came);
+  if (finding.accepts.empty()) return text;
+  constexpr std::size_t shown = 3;
+  std::string expected;
+  for (std::size_t i = 0; i < std::min(shown, finding.accepts.size()); ++i) {
+    if (i != 0) expected += i + 1 == finding.accepts.size() ? " or " : ", ";
+    expected += log_safe(finding.accepts[i]);
+  }
+  if (finding.accepts.size() > shown) expected += fmt::format(" or {} more", finding.accepts.size() - shown);
+  return text + ", expected " + expected;
+}
+
+std::string headline(const CaseResult& one) {
+  const std::vector<LocatedFinding> all = findings_of(one);
+  const auto worst = std::ranges::max_element(all, {}, &LocatedFinding::verdict);
+  if (worst == all.end()) return prose(one.reason);
+  const std::string& requirement = worst->finding->requirement;
+  const std::string front = !requirement.empty() ? log_safe(requirement) : worst->setup ? "set-up" : "";
+  return (front.empty() ? "" : front + ": ") + headline(*worst->finding);
+}
+
+bool is_not_run(const CaseResult& one) {
+  return one.verdict == Verdict::error && !one.finished && one.reason.starts_with("not run");
+}
+
+std::string position_text(const result::SourcePosition& position) {
+  std::string text = log_safe(position.file);
+  if (text.empty() || position.line <= 0) return text;
+  text += fmt::format(":{}", position.line);
+  if (position.column > 0) text += fmt::format(":{}", position.column);
+  return text;
+}
+
+std::string level_text(const result::RequirementInfo* info) {
+  return info == nullptr || info->level.empty() ? "no level given" : prose(info->level);
+}
+
+std::string candump_frame(const can::Frame& frame) {
+  constexpr std::uint32_t error_flag = 0x20000000;  // CAN_ERR_FLAG of the kernel
+  std::string text = frame.error      ? fmt::format("{:08X}#", (frame.id & 0x1FFFFFFFU) | error_flag)
+                     : frame.extended ? fmt::format("{:08X}#", frame.id)
+                                      : fmt::format("{:03X}#", frame.id);
+  if (frame.remote) return text + (frame.dlc == 0 ? "R" : fmt::format("R{:X}", frame.dlc));
+  for (const std::uint8_t byte : frame.bytes()) text += fmt::format("{:02X}", byte);
+  if (frame.dlc > 8) text += fmt::format("_{:X}", frame.dlc);  // raw length code of a classical frame
+  return text;
+}
+
+std::string candump_line(const EvidenceFrame& one, std::string_view interface_name) {
+  const std::int64_t us = std::max<std::int64_t>(one.time.time_since_epoch().count() / 1000, 0);
+  return fmt::format("({:010}.{:06}) {} {}", us / 1'000'000, us % 1'000'000, interface_name, candump_frame(one.frame));
+}
+
+std::string interface_name(const result::RunResult& run) {
+  const auto found = std::ranges::find(run.properties, "can.interface", &result::Property::name);
+  if (found == run.properties.end() || found->value.empty()) return "can0";
+  const std::string name = printable(found->value);
+  return name.find(' ') == std::string::npos ? name : "can0";
+}
+
+std::string payload_text(const can::Frame& frame) {
+  if (frame.error) return fmt::format("error frame {} {}", hex(frame.id & 0x1FFFFFFFU, 8), hex_bytes(frame.bytes()));
+  if (frame.remote) return fmt::format("remote, {} byte{} asked for", frame.dlc, frame.dlc == 1 ? "" : "s");
+  if (frame.dlc > 8) return fmt::format("{} (DLC {})", hex_bytes(frame.bytes()), frame.dlc);
+  return frame.dlc == 0 ? "(no data)" : hex_bytes(frame.bytes());
+}
+
+std::string can_id_text(const can::Frame& frame) {
+  if (frame.error) return "error";
+  if (!frame.extended) return to_string(CanId{frame.id});
+  return fmt::format("{:04X} {:04X}h", frame.id >> 16U, frame.id & 0xFFFFU);
+}
+
+std::span<const EvidenceFrame> evidence_window(std::span<const EvidenceFrame> evidence, std::size_t before,
+                                               std::size_t after) {
+  if (evidence.empty()) return evidence;
+  const auto decisive = std::ranges::find_if(evidence, &EvidenceFrame::decisive);
+  const auto at = decisive == evidence.end() ? evidence.size() - 1
+                                             : static_cast<std::size_t>(decisive - evidence.begin());
+  const std::size_t first = at > before ? at - before : 0;
+  const std::size_t last = std::min(evidence.size(), at + after + 1);
+  return evidence.subspan(first, last - first);
+}
+
+std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size) {
+  constexpr std::size_t most = 256;
+  if (bytes.size() <= 8) return {hex_bytes(bytes)};
+  std::vector<std::string> rows;
+  for (std::size_t at = 0; at < std::min(bytes.size(), most); at += row_size) {
+    const ByteView part = bytes.subspan(at, std::min(row_size, bytes.size() - at));
+    std::string characters;
+    for (const std::uint8_t byte : part) characters += byte >= 0x20 && byte < 0x7F ? static_cast<char>(byte) : '.';
+    rows.push_back(fmt::format("{:04X}h  {}  |{}|", at, pad_right(hex_bytes(part), row_size * 3 - 1), log_safe(characters)));
+  }
+  if (bytes.size() > most) rows.push_back(fmt::format("... {} bytes more", bytes.size() - most));
+  return rows;
+}
+
+}  // namespace conform::reports

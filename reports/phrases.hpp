@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What several writers say in the same words: verdicts, findings in one line, frames as text.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "result/run_result.hpp"
+
+namespace conform::reports {
+
+/// A finding with the case it belongs to and the verdict that counts: the cap of a requirement's level may have made
+/// the judgement milder than the finding.
+struct LocatedFinding {
+  const result::CaseResult* owner = nullptr;
+  const result::Finding* finding = nullptr;
+  result::Verdict verdict = result::Verdict::fail;
+  bool setup = false;  ///< from a step that checks nothing
+};
+
+/// Set-up findings first, then those of the judgements in their order.
+[[nodiscard]] std::vector<LocatedFinding> findings_of(const result::CaseResult& one);
+
+/// "not applicable" instead of "not_applicable"; the other spellings are the same.
+[[nodiscard]] std::string_view verdict_words(result::Verdict verdict);
+/// "download 1003h:00 = 02h -> confirmed, expected abort 0609 0030h": sanitised, one line.
+[[nodiscard]] std::string headline(const result::Finding& finding);
+/// The headline of the finding that weighs most, its requirement (or "set-up") in front; the case's
+/// reason where there is none.
+[[nodiscard]] std::string headline(const result::CaseResult& one);
+/// A case that the run never came to.
+[[nodiscard]] bool is_not_run(const result::CaseResult& one);
+/// "file:line:column", as much of it as is known; may be empty.
+[[nodiscard]] std::string position_text(const result::SourcePosition& position);
+/// "conditional" or "no level given".
+[[nodiscard]] std::string level_text(const result::RequirementInfo* info);
+
+/// The frame as can-utils write it: "603#2F03100002000000", "000#R8", "12345678#".
+[[nodiscard]] std::string candump_frame(const can::Frame& frame);
+/// A line of a log file of can-utils: "(0000000000.012345) can0 603#2F03100002000000".
+[[nodiscard]] std::string candump_line(const result::EvidenceFrame& one, std::string_view interface_name);
+/// The value of property can.interface as can-utils can read it, else "can0".
+[[nodiscard]] std::string interface_name(const result::RunResult& run);
+/// "2F 03 10 00 02 00 00 00", "remote, 8 bytes asked for", "error frame 00000004h 00 00 ..."
+[[nodiscard]] std::string payload_text(const can::Frame& frame);
+/// "603h"; identifiers of 29 bits are written as such whatever their value.
+[[nodiscard]] std::string can_id_text(const can::Frame& frame);
+
+/// The part of the evidence worth printing: frames around the decisive one (the last one if none is).
+[[nodiscard]] std::span<const result::EvidenceFrame> evidence_window(std::span<const result::EvidenceFrame> evidence,
+                                                                     std::size_t before, std::size_t after);
+/// Rows of `row_size` bytes with offset and characters; one plain row up to eight bytes. At most 256 bytes are shown.
+[[nodiscard]] std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size = 16);
+
+}  // namespace conform::reports

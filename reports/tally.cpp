@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/tally.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace conform::reports {
+
+using result::CaseResult;
+using result::Counts;
+using result::Judgement;
+using result::RunResult;
+using result::Verdict;
+
+namespace {
+
+/// What one case says about one requirement it can judge.
+std::optional<Verdict> verdict_in(const CaseResult& one, const std::string& requirement) {
+  std::optional<Verdict> verdict;
+  for (const Judgement& judgement : one.judgements) {
+    if (judgement.requirement != requirement) continue;
+    verdict = verdict ? worst(*verdict, judgement.verdict) : judgement.verdict;
+  }
+  if (verdict) return verdict;
+  // Not judged although the case could have: a case that did not get to its judgements speaks for all of them, one
+  // that did took another branch.
+  const bool no_word = one.verdict == Verdict::not_applicable || one.verdict == Verdict::inconclusive ||
+                       one.verdict == Verdict::error;
+  return no_word ? std::optional(one.verdict) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<RequirementVerdict> requirement_verdicts(const RunResult& run) {
+  std::map<std::string, std::optional<Verdict>> by_id;
+  const auto take = [&](const CaseResult& one, const std::string& id) {
+    auto& known = by_id[id];
+    const auto verdict = verdict_in(one, id);
+    if (verdict) known = known ? worst(*known, *verdict) : *verdict;
+  };
+  for (const CaseResult& one : run.cases) {
+    for (const std::string& id : one.requirements) take(one, id);
+    for (const Judgement& judgement : one.judgements) take(one, judgement.requirement);
+  }
+  by_id.erase(std::string{});
+
+  std::vector<RequirementVerdict> all;
+  for (const result::RequirementInfo& info : run.requirements) {
+    const auto found = by_id.find(info.id);
+    if (found == by_id.end()) continue;
+    all.push_back({info.id, found->second});
+    by_id.erase(found);
+  }
+  for (const auto& [id, verdict] : by_id) all.push_back({id, verdict});
+  return all;
+}
+
+void count(Counts& counts, Verdict verdict) {
+  switch (verdict) {
+    case Verdict::not_applicable: ++counts.not_applicable; break;
+    case Verdict::pass: ++counts.pass; break;
+    case Verdict::warn: ++counts.warn; break;
+    case Verdict::inconclusive: ++counts.inconclusive; break;
+    case Verdict::error: ++counts.error; break;
+    case Verdict::fail: ++counts.fail; break;
+  }
+}
+
+std::vector<AreaTally> tally_by_area(const RunResult& run) {
+  std::vector<AreaTally> rows;
+  for (const RequirementVerdict& one : requirement_verdicts(run)) {
+    const result::RequirementInfo* info = run.requirement(one.id);
+    const std::string area = info == nullptr         ? "(not in the catalogue)"
+                             : info->area.empty() ? "(no area)"
+                                                  : info->area;
+    auto row = std::ranges::find(rows, area, &AreaTally::area);
+    if (row == rows.end()) row = rows.insert(rows.end(), {area, {}, 0});
+    if (one.verdict) {
+      count(row->counts, *one.verdict);
+    } else {
+      ++row->not_judged;
+    }
+  }
+  return rows;
+}
+
+AreaTally sum(const std::vector<AreaTally>& rows) {
+  AreaTally total{"total", {}, 0};
+  for (const AreaTally& row : rows) {
+    total.counts.pass += row.counts.pass;
+    total.counts.warn += row.counts.warn;
+    total.counts.fail += row.counts.fail;
+    total.counts.inconclusive += row.counts.inconclusive;
+    total.counts.not_applicable += row.counts.not_applicable;
+    total.counts.error += row.counts.error;
+    total.not_judged += row.not_judged;
+  }
+  return total;
+}
+
+std::vector<ReasonGroup> group_by_reason(const RunResult& run, Verdict verdict) {
+  std::vector<ReasonGroup> groups;
+  for (const CaseResult& one : run.cases) {
+    if (one.verdict != verdict) continue;
+    auto group = std::ranges::find(groups, one.reason, &ReasonGroup::reason);
+    if (group == groups.end()) group = groups.insert(groups.end(), {one.reason, {}});
+    group->cases.push_back(&one);
+  }
+  return groups;
+}
+
+}  // namespace conform::reports

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verdicts counted by requirement instead of by case: what the summary tables of all writers show.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result/run_result.hpp"
+
+namespace conform::reports {
+
+/// A requirement over all cases of the run that can judge it.
+struct RequirementVerdict {
+  std::string id;
+  std::optional<result::Verdict> verdict;  ///< the worst; none if only branches that were not taken would judge it
+};
+
+/// Every requirement the cases mention, in the order of RunResult::requirements, strays behind them.
+[[nodiscard]] std::vector<RequirementVerdict> requirement_verdicts(const result::RunResult& run);
+
+struct AreaTally {
+  std::string area;
+  result::Counts counts;       ///< of requirements
+  std::size_t not_judged = 0;  ///< requirements without a verdict
+};
+
+/// One row per area, in the order in which the requirements first name it.
+[[nodiscard]] std::vector<AreaTally> tally_by_area(const result::RunResult& run);
+/// The sum of the rows; its area is "total".
+[[nodiscard]] AreaTally sum(const std::vector<AreaTally>& rows);
+/// Adds one to the counter of `verdict`.
+void count(result::Counts& counts, result::Verdict verdict);
+
+/// Cases of one verdict that have the same reason, in the order of their first case.
+struct ReasonGroup {
+  std::string reason;
+  std::vector<const result::CaseResult*> cases;
+};
+[[nodiscard]] std::vector<ReasonGroup> group_by_reason(const result::RunResult& run, result::Verdict verdict);
+
+}  // namespace conform::reports
