@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "can/socket_loop.hpp"
+
+#include <sys/eventfd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "can/socketcan_transport.hpp"
+
+namespace conform::can {
+namespace {
+
+// on_time() calls for one reading of the clock; more means that the participant makes no progress.
+constexpr int wakeup_budget = 1000;
+// Without a timer the loop still comes round now and then: a transport without wake descriptor must notice
+// the flag.
+constexpr Duration longest_wait = std::chrono::seconds(1);
+
+}  // namespace
+
+StopFlag::StopFlag() : descriptor_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+
+void StopFlag::request() noexcept {
+  const int saved = errno;
+  requested_.store(true, std::memory_order_relaxed);
+  const std::uint64_t one = 1;
+  // Fails only when the counter is full, and then the descriptor is readable anyway.
+  [[maybe_unused]] const auto written = ::write(descriptor_.get(), &one, sizeof one);
+  errno = saved;
+}
+
+Result<LoopStatistics> run_participant(Participant& participant, Transport& transport, const StopFlag& stop) {
+  LoopStatistics statistics;
+  BusTime current = transport.now();
+  participant.attach(
+      [&](const Frame& frame) {
+        // A device goes on when a frame of its cannot be sent; a broken interface shows in receive() below.
+        if (transport.send(frame)) {
+          ++statistics.sent;
+        } else {
+          ++statistics.not_sent;
+        }
+      },
+      current);
+
+  while (!stop.requested()) {
+    current = std::max(current, transport.now());
+    int wakeups = 0;
+    std::optional<BusTime> wakeup = participant.next_wakeup();
+    while (wakeup && *wakeup <= current) {
+      if (++wakeups > wakeup_budget) {
+        return fail("the device asked for " + std::to_string(wakeup_budget) +
+                        " wake-ups at one instant without letting time pass",
+                    transport.info().name);
+      }
+      participant.on_time(current);
+      wakeup = participant.next_wakeup();
+    }
+    const BusTime deadline = std::min(wakeup.value_or(BusTime::max()), current + longest_wait);
+    const auto event = transport.receive(deadline);
+    if (!event) return std::unexpected(event.error());
+    if (!*event || (*event)->direction == Direction::transmitted || (*event)->frame.error) continue;
+    current = std::max(current, (*event)->time);
+    ++statistics.received;
+    participant.on_frame((*event)->frame, current);
+  }
+  return statistics;
+}
+
+Result<LoopStatistics> run_on_interface(Participant& participant, const std::string& interface_name,
+                                        const StopFlag& stop) {
+  SocketCanOptions options;
+  options.receive_own = false;
+  options.wake_descriptor = stop.descriptor();
+  options.send_bound = std::chrono::milliseconds(100);
+  const auto transport = SocketCanTransport::open(interface_name, options);
+  if (!transport) return std::unexpected(transport.error());
+  return run_participant(participant, **transport, stop);
+}
+
+}  // namespace conform::can

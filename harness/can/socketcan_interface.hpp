@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernel tells about a CAN interface, and what to type when something is wrong with it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace conform::can {
+
+struct InterfaceFacts {
+  std::string name;
+  int index = 0;
+  std::string kind;         ///< rtnetlink kind: "vcan", "vxcan", "can" (hardware, slcan)
+  std::string driver;       ///< kernel driver of the hardware, else the kind
+  bool up = false;          ///< administratively up
+  bool echo = false;        ///< IFF_ECHO: the driver returns own frames after the wire has seen them
+  bool is_virtual = false;  ///< vcan or vxcan: no wire at all
+  bool bus_off = false;
+  std::uint32_t bit_rate = 0;  ///< bit/s, 0 for virtual interfaces
+};
+
+/// Facts about the interface, whatever its state. Fails when it is missing or not CAN.
+[[nodiscard]] Result<InterfaceFacts> interface_facts(const std::string& name);
+
+/// Facts about an interface that is ready for use. Missing, not CAN, down, bus-off or a kernel without CAN is
+/// an error whose hint is the command to type.
+[[nodiscard]] Result<InterfaceFacts> preflight(const std::string& interface_name);
+
+/// Names of all CAN interfaces, sorted.
+[[nodiscard]] std::vector<std::string> can_interfaces();
+
+/// The command that brings this interface up: "sudo ip link set can0 up type can bitrate 500000".
+[[nodiscard]] std::string up_command(const std::string& name, bool is_virtual);
+
+}  // namespace conform::can

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A real or virtual CAN interface of Linux: raw socket, kernel stamps, no frame lost without being counted.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "can/descriptor.hpp"
+#include "can/realtime_stamps.hpp"
+#include "can/socketcan_interface.hpp"
+#include "can/transport.hpp"
+
+namespace conform::can {
+
+struct SocketCanOptions {
+  std::uint64_t receive_buffer =
+      64U << 20U;            ///< bytes asked for; without CAP_NET_ADMIN the kernel grants less
+  bool receive_own = true;   ///< own frames come back; a device does not want them
+  int wake_descriptor = -1;  ///< when readable, receive() returns before its deadline; not owned
+  Duration send_bound = std::chrono::milliseconds(500);  ///< how long send() waits for a full transmit queue
+};
+
+/// BusTime 0 is the moment of opening and runs with CLOCK_MONOTONIC.
+class SocketCanTransport final : public Transport {
+ public:
+  /// Opens the interface after preflight().
+  [[nodiscard]] static Result<std::unique_ptr<SocketCanTransport>> open(const std::string& interface_name,
+                                                                        const SocketCanOptions& options = {});
+  /// Takes over one end of a SOCK_SEQPACKET socket pair that carries `struct can_frame`, as a bus of two.
+  /// There is no kernel echo: it is made up when the frame has been handed over, so it proves nothing.
+  [[nodiscard]] static Result<std::unique_ptr<SocketCanTransport>> from_descriptor(
+      int fd, const std::string& name = "socketpair", const SocketCanOptions& options = {});
+
+  ~SocketCanTransport() override;
+  [[nodiscard]] BusTime now() const override { return clock_.now(); }
+  [[nodiscard]] Result<void> send(const Frame& frame) override;
+  [[nodiscard]] Result<std::optional<BusEvent>> receive(BusTime deadline) override;
+  [[nodiscard]] BusHealth health() override;
+  [[nodiscard]] TransportInfo info() const override { return info_; }
+
+ private:
+  struct Batch;
+
+  SocketCanTransport(Descriptor socket, InterfaceFacts facts, const SocketCanOptions& options, bool is_can);
+  [[nodiscard]] Result<void> configure();
+  [[nodiscard]] Result<void> drain();
+  [[nodiscard]] Result<void> take(std::size_t index, BusTime now);
+  void note_error_frame(const Frame& frame);
+  [[nodiscard]] std::optional<Error> not_usable();
+  [[nodiscard]] Error fault(int error);
+  [[nodiscard]] bool link_is_up() const;
+  /// False when the deadline has passed or the wake descriptor is readable.
+  [[nodiscard]] Result<bool> wait_until(BusTime deadline);
+  [[nodiscard]] Result<bool> wait_for_room(int error, BusTime give_up);
+
+  Descriptor socket_;
+  InterfaceFacts facts_;
+  SocketCanOptions options_;
+  bool is_can_;
+  TransportInfo info_;
+  RealtimeStamps clock_;
+  std::unique_ptr<Batch> batch_;
+  std::vector<BusEvent> events_;  // read and not yet handed out; bounded by the batch
+  std::size_t next_event_ = 0;
+  BusTime last_stamp_{};
+  BusHealth health_;
+  std::uint32_t overflow_count_ = 0;        // SO_RXQ_OVFL as of the last frame
+  std::uint64_t controller_overflows_ = 0;  // error frames that say so
+  std::uint64_t backlog_drops_at_start_ = 0;
+  bool link_down_ = false;
+  bool bus_off_now_ = false;
+  std::optional<Error> dead_;
+};
+
+}  // namespace conform::can
