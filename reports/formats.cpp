@@ -6,16 +6,19 @@
 
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
+#include "reports/markdown.hpp"
 
 namespace conform::reports {
 namespace {
 
 std::string write_junit(const result::RunResult& run, const can::Capture& /*capture*/) { return junit(run); }
+std::string write_markdown(const result::RunResult& run, const can::Capture& /*capture*/) { return markdown(run); }
 std::string write_text(const result::RunResult& run, const can::Capture& /*capture*/) { return summary(run, Style{}); }
 
 // A table and not self-registration: the linker drops registrars from static libraries.
-constexpr std::array<Format, 2> table{{
+constexpr std::array<Format, 3> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
+    {"markdown", "short report for pull requests and job summaries", ".md", write_markdown},
     {"text", "the summary of the terminal, without colours", ".txt", write_text},
 }};
 

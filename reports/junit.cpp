@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <locale>
+#include <map>
 #include <set>
 #include <span>
 #include <sstream>
@@ -189,19 +190,19 @@ std::string error_type(const CaseResult& one) {
 
 /// Plain lines for canplayer, cansend and Wireshark: the frames of all findings once, in the order of the bus.
 std::string evidence_log(const RunResult& run, const CaseResult& one) {
-  std::vector<const EvidenceFrame*> frames;
+  std::map<std::size_t, const EvidenceFrame*> frames;
   const std::vector<LocatedFinding> all = findings_of(one);
   for (const LocatedFinding& located : all) {
-    for (const EvidenceFrame& frame : evidence_window(located.finding->evidence, 150, 50)) frames.push_back(&frame);
+    for (const EvidenceFrame& frame : evidence_window(located.finding->evidence, 150, 50)) {
+      frames.emplace(frame.capture_index, &frame);
+    }
   }
-  std::ranges::stable_sort(frames, {}, &EvidenceFrame::capture_index);
-  const auto duplicates = std::ranges::unique(frames, {}, &EvidenceFrame::capture_index);
-  frames.erase(duplicates.begin(), duplicates.end());
   constexpr std::size_t most = 200;
   std::string text;
   const std::string interface = interface_name(run);
-  for (const EvidenceFrame* frame : std::span(frames).last(std::min(frames.size(), most))) {
-    text += candump_line(*frame, interface) + "\n";
+  std::size_t left = frames.size();
+  for (const auto& [index, frame] : frames) {
+    if (left-- <= most) text += candump_line(*frame, interface) + "\n";
   }
   return text;
 }

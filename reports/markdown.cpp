@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/markdown.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "reports/console.hpp"
+#include "reports/phrases.hpp"
+#include "reports/tally.hpp"
+#include "reports/text_tools.hpp"
+
+namespace conform::reports {
+namespace {
+
+using result::CaseResult;
+using result::Counts;
+using result::RunResult;
+using result::Verdict;
+
+/// Text of others between our marks: nothing in it is a heading, link, mention, HTML or the end of a table cell.
+std::string escaped(std::string_view text, std::size_t width = 400) {
+  constexpr std::string_view marks = "\\`*_{}[]>#!|~$";
+  std::string out;
+  for (const char c : clip(prose(text), width)) {
+    if (c == '@') {
+      out += "&#64;";  // a backslash does not keep a mention from notifying somebody
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else {
+      if (marks.find(c) != std::string_view::npos) out += '\\';
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// A code span that holds anything: its fence is longer than every run of backticks in it.
+std::string code(std::string_view text) {
+  const std::string content = clip(log_safe(text), 400);
+  std::size_t longest = 0;
+  std::size_t run = 0;
+  for (const char c : content) {
+    run = c == '`' ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  const std::string fence(longest + 1, '`');
+  std::string out = fence;
+  const bool padded = content.empty() || content.starts_with('`') || content.ends_with('`');
+  if (padded) out += ' ';
+  out += content;
+  if (padded) out += ' ';
+  return out += fence;
+}
+
+/// A block of text whose fence cannot occur in it: log_safe() lines never hold a line of tildes alone.
+std::string block(std::string_view text) { return fmt::format("~~~~~~text\n{}~~~~~~\n", text); }
+
+std::string_view banner(int exit_code) {
+  switch (exit_code) {
+    case 0: return "conforms";
+    case 1: return "does not conform";
+    case 2: return "nothing was judged";
+    default: return "not fully judged";
+  }
+}
+
+std::string counts_text(const Counts& counts) {
+  struct Part {
+    Verdict verdict;
+    std::size_t number;
+  };
+  const std::array<Part, 6> parts{{{Verdict::fail, counts.fail},
+                                   {Verdict::error, counts.error},
+                                   {Verdict::inconclusive, counts.inconclusive},
+                                   {Verdict::warn, counts.warn},
+                                   {Verdict::pass, counts.pass},
+                                   {Verdict::not_applicable, counts.not_applicable}}};
+  std::string text;
+  for (const Part& part : parts) {
+    if (part.number == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part.number, verdict_words(part.verdict));
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string areas_text(const RunResult& run) {
+  const std::vector<AreaTally> rows = tally_by_area(run);
+  if (rows.empty()) return {};
+  std::string text = "\n| Requirements | pass | warn | fail | inconclusive | error | n/a |\n|---|--:|--:|--:|--:|--:|--:|\n";
+  const auto cell = [](std::size_t number) { return number == 0 ? std::string() : fmt::format("{}", number); };
+  const auto add = [&](std::string_view name, const Counts& counts) {
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, cell(counts.pass), cell(counts.warn),
+                        cell(counts.fail), cell(counts.inconclusive), cell(counts.error), cell(counts.not_applicable));
+  };
+  for (const AreaTally& row : rows) add(escaped(row.area, 100), row.counts);
+  add("**total**", sum(rows).counts);
+  return text;
+}
+
+/// The headline to read, the card of the terminal to unfold.
+std::string finding_text(const RunResult& run, const LocatedFinding& located) {
+  const result::Finding& finding = *located.finding;
+  const result::RequirementInfo* info = run.requirement(finding.requirement);
+  std::string text = fmt::format("\n**{}**: {}\n", finding.requirement.empty() ? "set-up" : escaped(finding.requirement),
+                                 escaped(headline(finding)));
+  if (info != nullptr) text += fmt::format("{} ({})\n", escaped(info->statement), escaped(info->clause));
+  text += fmt::format("Case {}\n\n<details><summary>evidence</summary>\n\n", code(located.owner->name()));
+  text += block(finding_card(run, *located.owner, finding, Style{}));
+  return text + "\n</details>\n";
+}
+
+/// Adds sections until the limit; what is left out is counted.
+class Document {
+ public:
+  explicit Document(std::size_t limit) : limit_(limit) {}
+  void add(std::string_view text) { out_ += text; }
+  void section(std::string_view title, const std::vector<std::string>& items) {
+    if (items.empty()) return;
+    out_ += fmt::format("\n### {} ({})\n", title, items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      if (out_.size() + items[i].size() > limit_) {
+        out_ += fmt::format("\n... and {} more, see the other reports of this run\n", items.size() - i);
+        return;
+      }
+      out_ += items[i];
+    }
+  }
+  [[nodiscard]] std::string take() { return std::move(out_); }
+
+ private:
+  std::size_t limit_;
+  std::string out_;
+};
+
+std::vector<std::string> findings_text(const RunResult& run, Verdict verdict) {
+  std::vector<std::string> items;
+  for (const CaseResult& one : run.cases) {
+    const auto all = findings_of(one);
+    for (const LocatedFinding& located : all) {
+      if (located.verdict == verdict && !located.setup) items.push_back(finding_text(run, located));
+    }
+    if (one.verdict == verdict && all.empty()) {
+      items.push_back(fmt::format("\n- {}: {}\n", code(one.name()), escaped(one.reason)));
+    }
+  }
+  return items;
+}
+
+std::vector<std::string> unjudged_text(const RunResult& run) {
+  std::vector<std::string> items;
+  for (const Verdict verdict : {Verdict::error, Verdict::inconclusive}) {
+    for (const CaseResult& one : run.cases) {
+      if (one.verdict != verdict) continue;
+      items.push_back(fmt::format("\n- {}: {}, {}", code(one.name()), verdict_words(verdict), escaped(headline(one))));
+    }
+  }
+  if (!items.empty()) items.back() += "\n";
+  return items;
+}
+
+std::string facts_text(const RunResult& run) {
+  if (run.properties.empty()) return {};
+  std::string text = "\n<details><summary>device, bus and run</summary>\n\n| | |\n|---|---|\n";
+  for (const result::Property& property : run.properties) {
+    text += fmt::format("| {} | {} |\n", escaped(property.name), escaped(property.value));
+  }
+  return text + "\n</details>\n";
+}
+
+}  // namespace
+
+std::string markdown(const RunResult& run, const MarkdownOptions& options) {
+  const int exit_code = result::exit_code(run);
+  Document document(options.size_limit);
+  document.add(fmt::format("## {}: {}\n\n", escaped(run.device.empty() ? "CANopen conformance" : run.device, 100),
+                           banner(exit_code)));
+  document.add(fmt::format("{}, {}: {}. Exit code {}.\n", escaped(run.tool), counted(run.cases.size(), "case"),
+                           counts_text(run.counts()), exit_code));
+  if (run.aborted) document.add(fmt::format("\nStopped early: {}\n", escaped(*run.aborted)));
+  document.add(areas_text(run));
+  document.add(facts_text(run));
+  for (std::size_t i = 0; i < run.notes.size(); ++i) {
+    document.add(fmt::format("{}- {}\n", i == 0 ? "\n" : "", escaped(run.notes[i])));
+  }
+  document.section("Failures", findings_text(run, Verdict::fail));
+  document.section("Not judged", unjudged_text(run));
+  document.section("Warnings", findings_text(run, Verdict::warn));
+  return document.take();
+}
+
+}  // namespace conform::reports
