@@ -7,6 +7,52 @@
 
 namespace refnode {
 
+/// How the rules of one COB-ID parameter are broken.
+struct CobIdFaults {
+  bool lock_missing = false;         ///< the CAN-ID can be changed while the object exists
+  bool frame_bit_accepted = false;   ///< bit 29
+  bool bit30_accepted = false;       ///< SYNC and TIME: produce; EMCY: reserved
+  bool bit31_refused = false;        ///< SYNC: do not care
+  bool upper_bits_accepted = false;  ///< bits 28-11 with an 11-bit identifier
+  bool restricted_accepted = false;
+  bool rewrite_refused = false;      ///< the value in force is refused
+  bool change_refused = false;       ///< another CAN-ID is refused even while the object does not exist
+  bool new_id_not_used = false;      ///< the default CAN-ID stays in use
+  bool valid_bit_inverted = false;
+  bool valid_bit_ignored = false;
+  bool remote_bit_inverted = false;  ///< TPDO: bit 30
+  bool remote_bit_ignored = false;
+};
+
+/// How the rules of the parameters of a PDO are broken.
+struct PdoFaults {
+  bool reserved_type_accepted = false;
+  bool inhibit_lock_missing = false;
+  int inhibit_unit_us = 100;
+  int event_timer_factor = 1;
+  bool absent_object_mapped = false;
+  bool unmappable_object_mapped = false;
+  bool mapping_length_unchecked = false;
+  bool mapping_count_unchecked = false;
+  bool overlong_mapping_accepted = false;
+  bool mapping_writable_while_enabled = false;
+  bool mapping_writable_while_valid = false;
+};
+
+/// How 1010h or 1011h misbehaves.
+struct StoreFaults {
+  bool signature_unchecked = false;      ///< any value is taken for the signature
+  bool acts_on_wrong_signature = false;  ///< a wrong signature is refused, but acted on
+  bool byte_order_wrong = false;
+  bool case_ignored = false;
+  bool without_effect = false;
+  bool sub2_without_effect = false;
+  bool sub3_without_effect = false;
+  bool groups_mixed = false;             ///< every sub-index means all parameters
+  bool failure_confirmed = false;
+  bool effective_at_once = false;        ///< 1011h: defaults are valid before the reset
+};
+
 struct Behaviour {
   // Object dictionary
   bool accepts_long_values = false;        ///< surplus bytes of a download are cut off
@@ -84,10 +130,8 @@ struct Behaviour {
   bool second_error_suppressed = false;
   bool error_reset_too_early = false;
   bool error_reset_not_sent = false;
-  bool emergency_valid_bit_inverted = false;
   bool emergency_sent_when_not_valid = false;
   bool emergency_sent_in_stopped = false;
-  bool emergency_new_id_not_used = false;
   bool emergency_register_always_generic = false;
   int emergency_inhibit_unit_us = 100;
   bool records_error_reset = false;
@@ -105,6 +149,41 @@ struct Behaviour {
   bool history_clear_rejected = false;
   bool history_clear_ignored = false;
   bool history_clear_resets_errors = false;
+  bool sync_length_not_reported = false;
+
+  // COB-ID parameters
+  CobIdFaults sync_cob_id;
+  CobIdFaults time_cob_id;
+  CobIdFaults emergency_cob_id;
+  CobIdFaults rpdo_cob_id;
+  CobIdFaults tpdo_cob_id;
+  bool time_reserved_bits_kept = false;
+
+  // PDO
+  PdoFaults rpdo;
+  PdoFaults tpdo;
+  bool rpdo_processed_in_pre_operational = false;
+  bool short_rpdo_processed = false;
+  bool short_rpdo_not_reported = false;
+  bool long_rpdo_dropped = false;
+  bool sync_rpdo_applied_at_once = false;
+  bool rpdo_data_ignored = false;
+  bool rpdo_data_big_endian = false;
+  bool tpdo_sent_in_pre_operational = false;
+  bool tpdo_data_big_endian = false;
+  bool event_timer_in_synchronous_types = false;
+  bool remote_type_sends_at_sync = false;
+  bool acyclic_type_sends_every_sync = false;
+  bool sync_ratio_off_by_one = false;
+
+  // Storage and power-on values
+  StoreFaults store;
+  StoreFaults restore;
+  bool stored_values_ignored = false;
+  bool reset_communication_keeps_values = false;
+  bool reset_communication_resets_application = false;
+  bool reset_node_keeps_communication = false;
+  bool reset_node_keeps_application = false;
 };
 
 }  // namespace refnode

@@ -30,6 +30,31 @@ std::uint8_t register_bits(std::uint16_t code) {
 
 }  // namespace
 
+Emergency::Emergency(Device& device)
+    : device_(&device), cob_id_(device, CobIdUse::emergency, 0x1014, 0, 0x80U + device.node_id) {}
+
+void Emergency::add_objects() {
+  ObjectDictionary& od = device_->dictionary;
+  Entry& shown =
+      od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0));
+  shown.tx_mappable = true;
+  shown.read = [this]() -> Upload { return Bytes{error_register()}; };
+
+  od.add_complex(0x1003, "Pre-defined error field", ObjectKind::array);
+  for (std::uint8_t sub = 1; sub <= history_depth; ++sub) {
+    Entry& field = od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
+    field.read = [this, sub] { return read_history(sub); };
+  }
+  // Sub-index 00h of this array is the number of recorded errors and can be written to clear them.
+  Entry& count = od.add_sub(0x1003, 0, integer_entry("Number of errors", DataType::unsigned8, Access::rw, 0));
+  count.command = true;
+  count.read = [this]() -> Upload { return Bytes{recorded()}; };
+  count.check = [this](ByteView bytes) { return write_history_count(bytes); };
+
+  od.add_variable(0x1014, cob_id_.entry("COB-ID EMCY"));
+  od.add_variable(0x1015, integer_entry("Inhibit time EMCY", DataType::unsigned16, Access::rw, 0));
+}
+
 bool Emergency::known_class(std::uint16_t code) {
   constexpr std::uint8_t classes[] = {0x10, 0x20, 0x21, 0x22, 0x23, 0x30, 0x31, 0x32, 0x33, 0x40, 0x41, 0x42,
                                       0x50, 0x60, 0x61, 0x62, 0x63, 0x70, 0x80, 0x81, 0x82, 0x90, 0xF0, 0xFF};
@@ -137,9 +162,7 @@ Duration Emergency::inhibit_time() const {
 }
 
 void Emergency::report(const Message& message) {
-  const bool not_valid = (device_->dictionary.number(0x1014, 0) & 0x80000000U) != 0;
-  const bool silent = device_->behaviour.emergency_valid_bit_inverted ? !not_valid : not_valid;
-  if (silent && !device_->behaviour.emergency_sent_when_not_valid) return;
+  if (!cob_id_.valid() && !device_->behaviour.emergency_sent_when_not_valid) return;
   if (device_->state == NmtState::stopped && !device_->behaviour.emergency_sent_in_stopped) {
     // Only the latest is of interest afterwards, and an error reset only if the error had been reported.
     pending_.clear();
@@ -171,10 +194,8 @@ void Emergency::transmit(const Message& message) {
   const std::uint8_t shown = behaviour.emergency_register_always_generic && message.code != 0
                                  ? std::uint8_t{0x01}
                                  : message.error_register;
-  std::uint32_t id = static_cast<std::uint32_t>(device_->dictionary.number(0x1014, 0, 0x80U + device_->node_id)) & 0x7FFU;
-  if (behaviour.emergency_new_id_not_used) id = 0x80U + device_->node_id;
   device_->send(Service::emergency,
-                conform::can::data_frame(conform::CanId(id), {static_cast<std::uint8_t>(message.code & 0xFFU),
+                conform::can::data_frame(conform::CanId(cob_id_.can_id()), {static_cast<std::uint8_t>(message.code & 0xFFU),
                                                               static_cast<std::uint8_t>(message.code >> 8U), shown,
                                                               message.detail, message.source, 0, 0, 0}));
 }

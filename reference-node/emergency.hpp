@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cob_id_rules.hpp"
 #include "device.hpp"
 
 namespace refnode {
@@ -25,9 +26,13 @@ class Emergency {
   static constexpr std::uint8_t application_source = 0;
   static constexpr std::uint8_t heartbeat_source = 1;
   static constexpr std::uint8_t rpdo_source = 2;
+  static constexpr std::uint8_t sync_source = 3;
   static constexpr std::uint8_t history_depth = 8;
 
-  explicit Emergency(Device& device) : device_(&device) {}
+  explicit Emergency(Device& device);
+
+  /// 1001h, 1003h, 1014h, 1015h.
+  void add_objects();
 
   /// Whether a code belongs to a class of CiA 301, table 26.
   [[nodiscard]] static bool known_class(std::uint16_t code);
@@ -66,6 +71,7 @@ class Emergency {
   [[nodiscard]] Duration inhibit_time() const;
 
   Device* device_;
+  CobIdRules cob_id_;
   std::vector<ErrorCause> causes_;
   std::deque<std::uint32_t> history_;   ///< newest first
   std::deque<Message> pending_;         ///< waiting for the inhibit time or for the end of Stopped

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <utility>
 
+#include "application_objects.hpp"
 #include "base/text.hpp"
 #include "device.hpp"
 #include "emergency.hpp"
 #include "heartbeat.hpp"
 #include "manufacturer_objects.hpp"
 #include "nmt_slave.hpp"
+#include "parameter_store.hpp"
+#include "pdo.hpp"
 #include "sdo_server.hpp"
 #include "standard_objects.hpp"
+#include "sync_time.hpp"
 
 namespace refnode {
 
@@ -30,6 +34,11 @@ struct Node::Impl {
   Emergency emergency;
   HeartbeatProducer producer;
   HeartbeatConsumer consumer;
+  SyncConsumer sync;
+  TimeConsumer time;
+  ReceivePdo rpdo;
+  TransmitPdo tpdo;
+  ParameterStore store;
   NmtSlave nmt;
   SdoServer sdo;
 };
@@ -39,6 +48,11 @@ Node::Impl::Impl(const Options& options)
       emergency(device),
       producer(device),
       consumer(device, emergency),
+      sync(device, emergency),
+      time(device),
+      rpdo(device, emergency),
+      tpdo(device),
+      store(device, options.storage),
       nmt(device),
       sdo(device, options.turnaround) {
   nmt.on_reset = [this](Reset kind) { reset(kind); };
@@ -49,9 +63,14 @@ Node::Impl::Impl(const Options& options)
     const bool leaves = device.state == NmtState::operational && !device.behaviour.consumer_loss_keeps_operational;
     if (leaves) nmt.enter(NmtState::pre_operational);
   };
+  sync.on_sync = [this] {
+    rpdo.on_sync();
+    if (device.state == NmtState::operational) tpdo.on_sync();
+  };
   add_identity_objects(device);
-  add_error_objects(device, emergency);
+  emergency.add_objects();
   add_error_control_objects(device, producer, consumer);
+  add_application_objects(device, [this] { tpdo.on_application_change(); });
   add_sample_objects(device);
   add_error_trigger(device, emergency);
 }
@@ -62,6 +81,10 @@ void Node::Impl::reset(Reset kind) {
   producer.on_reset();
   consumer.on_reset();
   emergency.on_reset(kind == Reset::node);
+  store.load_power_on_values(kind == Reset::node);
+  mirror_outputs(device.dictionary);
+  rpdo.on_state_change();
+  tpdo.on_state_change();
 }
 
 void Node::Impl::boot_up() { producer.on_boot_up(); }
@@ -69,6 +92,8 @@ void Node::Impl::boot_up() { producer.on_boot_up(); }
 void Node::Impl::change_state(NmtState) {
   if (device.state == NmtState::stopped) sdo.reset();
   producer.on_state_change();
+  rpdo.on_state_change();
+  tpdo.on_state_change();
   emergency.on_state_change();
 }
 
@@ -77,6 +102,8 @@ void Node::Impl::run_timers() {
   consumer.on_time();
   emergency.on_time();
   producer.on_time();
+  rpdo.on_time();
+  tpdo.on_time();
   device.outbox.on_time(device.now);
 }
 
@@ -95,7 +122,11 @@ void Node::Impl::dispatch(const Frame& received) {
   if (frame.error) return;
   if (device.behaviour.accepts_extended_frames) frame.extended = false;
   if (device.behaviour.accepts_remote_frames) frame.remote = false;
-  if (frame.extended || frame.remote) return;
+  if (frame.extended) return;
+  if (frame.remote) {
+    tpdo.on_remote(frame);
+    return;
+  }
 
   if (frame.id == 0x000) return nmt.on_command(frame);
   const bool any_node = device.behaviour.answers_foreign_node_ids && frame.id >= 0x601 && frame.id <= 0x67F;
@@ -105,8 +136,11 @@ void Node::Impl::dispatch(const Frame& received) {
   }
   if (device.state == NmtState::initialising) return;
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {
-    consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U));
+    return consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U));
   }
+  if (device.state == NmtState::stopped) return;
+  if (sync.on_frame(frame) || time.on_frame(frame)) return;
+  rpdo.on_frame(frame);
 }
 
 Node::Node(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -165,7 +199,7 @@ void Node::on_time(conform::BusTime now) {
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.emergency.next_wakeup(),
-                   impl.producer.next_wakeup(), impl.device.outbox.next_wakeup()});
+                   impl.producer.next_wakeup(), impl.rpdo.next_wakeup(), impl.tpdo.next_wakeup(), impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

@@ -21,28 +21,6 @@ void add_identity_objects(Device& device) {
   od.add_sub(0x1200, 2, integer_entry("COB-ID server -> client", DataType::unsigned32, Access::ro, 0x580U + device.node_id));
 }
 
-void add_error_objects(Device& device, Emergency& emergency) {
-  ObjectDictionary& od = device.dictionary;
-  Emergency* errors = &emergency;
-  Entry& error_register =
-      od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0));
-  error_register.tx_mappable = true;
-  error_register.read = [errors]() -> Upload { return Bytes{errors->error_register()}; };
-
-  od.add_complex(0x1003, "Pre-defined error field", ObjectKind::array);
-  for (std::uint8_t sub = 1; sub <= Emergency::history_depth; ++sub) {
-    Entry& field = od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
-    field.read = [errors, sub] { return errors->read_history(sub); };
-  }
-  // Sub-index 00h of this array is the number of recorded errors and can be written to clear them.
-  Entry& count = od.add_sub(0x1003, 0, integer_entry("Number of errors", DataType::unsigned8, Access::rw, 0));
-  count.command = true;
-  count.read = [errors]() -> Upload { return Bytes{errors->recorded()}; };
-  count.check = [errors](ByteView bytes) { return errors->write_history_count(bytes); };
-
-  od.add_variable(0x1015, integer_entry("Inhibit time EMCY", DataType::unsigned16, Access::rw, 0));
-}
-
 void add_error_control_objects(Device& device, HeartbeatProducer& producer, HeartbeatConsumer& consumer) {
   ObjectDictionary& od = device.dictionary;
   HeartbeatConsumer* watch = &consumer;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parameter_store.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace refnode {
+
+namespace {
+
+constexpr std::uint8_t sub_all = 1;
+constexpr std::uint8_t sub_communication = 2;
+constexpr std::uint8_t sub_application = 3;
+constexpr Group all_groups[] = {Group::communication, Group::application, Group::manufacturer};
+
+// The signature in transmission order, least significant byte first.
+bool matches(std::string_view wanted, ByteView signature, const StoreFaults& fault) {
+  std::string given(signature.begin(), signature.end());
+  if (fault.byte_order_wrong) std::reverse(given.begin(), given.end());
+  if (fault.case_ignored) {
+    for (char& letter : given) {
+      if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+    }
+  }
+  return given == wanted;
+}
+
+bool is_parameter(const Entry& entry) {
+  return (entry.access == Access::rw || entry.access == Access::wo) && !entry.command && entry.storable;
+}
+
+std::vector<Group> groups_of(std::uint8_t sub, const StoreFaults& fault) {
+  const bool nothing = (sub == sub_communication && fault.sub2_without_effect) ||
+                       (sub == sub_application && fault.sub3_without_effect);
+  if (nothing) return {};
+  if (fault.groups_mixed) return {std::begin(all_groups), std::end(all_groups)};
+  switch (sub) {
+    case sub_all: return {std::begin(all_groups), std::end(all_groups)};
+    case sub_communication: return {Group::communication};
+    default: return {Group::application};
+  }
+}
+
+}  // namespace
+
+ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
+    : device_(&device), storage_(std::move(storage)) {
+  ObjectDictionary& od = device.dictionary;
+  od.add_complex(0x1010, "Store parameters", ObjectKind::array);
+  od.add_complex(0x1011, "Restore default parameters", ObjectKind::array);
+  constexpr const char* names[] = {"", "All parameters", "Communication parameters", "Application parameters"};
+  for (const std::uint8_t sub : {sub_all, sub_communication, sub_application}) {
+    // Reading gives the capability: bit 0, on command.
+    Entry& store = od.add_sub(0x1010, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, 1));
+    store.command = true;
+    store.check = [this, sub](ByteView signature) { return save(sub, signature); };
+    Entry& load = od.add_sub(0x1011, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, 1));
+    load.command = true;
+    load.check = [this, sub](ByteView signature) { return restore(sub, signature); };
+  }
+}
+
+Image ParameterStore::image_of(Group group) const {
+  Image image;
+  for (const auto& [index, object] : device_->dictionary.objects()) {
+    if (group_of(conform::Index(index)) != group) continue;
+    for (const auto& [sub, entry] : object.entries) {
+      if (is_parameter(entry)) image[{conform::Index(index), conform::SubIndex(sub)}] = entry.value;
+    }
+  }
+  return image;
+}
+
+Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
+  const StoreFaults& fault = device_->behaviour.store;
+  const bool good = matches("save", signature, fault);
+  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature) return refuse(abort_code::cannot_store);
+  if (!fault.without_effect) {
+    Images images = storage_->images();
+    for (const Group group : groups_of(sub, fault)) images[group] = image_of(group);
+    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed) return refuse(abort_code::hardware_error);
+  }
+  if (!good && !fault.signature_unchecked) return refuse(abort_code::cannot_store);
+  return {};
+}
+
+Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
+  const StoreFaults& fault = device_->behaviour.restore;
+  const bool good = matches("load", signature, fault);
+  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature) return refuse(abort_code::cannot_store);
+  if (!fault.without_effect) {
+    // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
+    Images images = storage_->images();
+    for (const Group group : groups_of(sub, fault)) images.erase(group);
+    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed) return refuse(abort_code::hardware_error);
+    if (fault.effective_at_once) {
+      for (const Group group : groups_of(sub, fault)) load(group);
+    }
+  }
+  if (!good && !fault.signature_unchecked) return refuse(abort_code::cannot_store);
+  return {};
+}
+
+bool ParameterStore::keeps(Group group, bool whole_node) const {
+  const Behaviour& behaviour = device_->behaviour;
+  if (group == Group::communication) {
+    return whole_node ? behaviour.reset_node_keeps_communication : behaviour.reset_communication_keeps_values;
+  }
+  return whole_node ? behaviour.reset_node_keeps_application : !behaviour.reset_communication_resets_application;
+}
+
+void ParameterStore::load_power_on_values(bool whole_node) {
+  for (const Group group : all_groups) {
+    if (!keeps(group, whole_node)) load(group);
+  }
+}
+
+void ParameterStore::load(Group group) {
+  const auto stored = storage_->images().find(group);
+  const bool usable = stored != storage_->images().end() && !device_->behaviour.stored_values_ignored;
+  for (auto& [index, object] : device_->dictionary.objects()) {
+    if (group_of(conform::Index(index)) != group) continue;
+    for (auto& [sub, entry] : object.entries) {
+      if (!is_parameter(entry)) continue;
+      entry.value = entry.default_value;
+      if (!usable) continue;
+      const auto value = stored->second.find({conform::Index(index), conform::SubIndex(sub)});
+      if (value == stored->second.end()) continue;
+      // An image of another version of the device may hold another length: such a value is left out.
+      const std::size_t fixed = fixed_size(entry.type);
+      const std::size_t size = value->second.size();
+      if (fixed != 0 ? size == fixed : size <= entry.max_size) entry.value = value->second;
+    }
+  }
+}
+
+}  // namespace refnode

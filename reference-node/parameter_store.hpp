@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Storing (1010h), restoring (1011h) and the power-on values (CiA 301, 7.5.2.13, 7.5.2.14, 7.3.2.2.1).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "device.hpp"
+#include "storage.hpp"
+
+namespace refnode {
+
+class ParameterStore {
+ public:
+  ParameterStore(Device& device, std::shared_ptr<Storage> storage);
+
+  /// Gives the parameters their stored or default values: all of them, or with reset communication 1000h-1FFFh.
+  void load_power_on_values(bool whole_node);
+
+ private:
+  [[nodiscard]] Accepted save(std::uint8_t sub, ByteView signature);
+  [[nodiscard]] Accepted restore(std::uint8_t sub, ByteView signature);
+  [[nodiscard]] std::vector<Group> groups_to_save(std::uint8_t sub) const;
+  [[nodiscard]] std::vector<Group> groups_to_restore(std::uint8_t sub) const;
+  [[nodiscard]] Image image_of(Group group) const;
+  void load(Group group);
+  [[nodiscard]] bool keeps(Group group, bool whole_node) const;
+
+  Device* device_;
+  std::shared_ptr<Storage> storage_;
+};
+
+}  // namespace refnode

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pdo.hpp"
+
+#include <algorithm>
+
+namespace refnode {
+
+namespace {
+
+constexpr std::uint8_t last_synchronous_type = 0xF0;
+constexpr std::uint8_t remote_synchronous_type = 0xFC;
+
+}  // namespace
+
+ReceivePdo::ReceivePdo(Device& device, Emergency& emergency)
+    : device_(&device),
+      emergency_(&emergency),
+      // Two digital outputs and an analog one: four bytes.
+      parameters_(device, PdoDirection::receive, 0, 0x200U + device.node_id, {0x62000108, 0x62000208, 0x64110110}) {}
+
+bool ReceivePdo::on_frame(const Frame& frame) {
+  const Behaviour& behaviour = device_->behaviour;
+  if (!parameters_.cob_id().valid() || frame.id != parameters_.cob_id().can_id()) return false;
+  if (device_->state != NmtState::operational && !behaviour.rpdo_processed_in_pre_operational) return true;
+  const std::size_t size = parameters_.mapped_size();
+  if (size == 0) return true;
+  const ErrorCause too_short{0x8210, Emergency::rpdo_source, 1};
+  if (frame.size() < size) {
+    if (!behaviour.short_rpdo_not_reported) emergency_->raise(too_short, frame.size());
+    if (!behaviour.short_rpdo_processed) return true;
+  } else {
+    emergency_->clear(too_short);
+  }
+  if (frame.size() > size && behaviour.long_rpdo_dropped) return true;
+
+  const Duration limit = parameters_.event_timer();
+  deadline_.reset();
+  if (limit > Duration::zero()) deadline_ = device_->now + limit;
+  emergency_->clear({0x8250, Emergency::rpdo_source, 1});
+
+  Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
+  const bool synchronous = parameters_.transmission_type() <= last_synchronous_type;
+  if (synchronous && !behaviour.sync_rpdo_applied_at_once) {
+    buffered_ = std::move(data);
+  } else {
+    apply(data);
+  }
+  return true;
+}
+
+void ReceivePdo::on_sync() {
+  if (buffered_ && device_->state == NmtState::operational) apply(*buffered_);
+  buffered_.reset();
+}
+
+void ReceivePdo::on_state_change() {
+  buffered_.reset();
+  deadline_.reset();
+}
+
+void ReceivePdo::on_time() {
+  if (!deadline_ || device_->now < *deadline_) return;
+  deadline_.reset();
+  emergency_->raise({0x8250, Emergency::rpdo_source, 1});
+}
+
+void ReceivePdo::apply(const Bytes& data) {
+  if (device_->behaviour.rpdo_data_ignored) return;
+  std::size_t position = 0;
+  for (const auto& mapped : parameters_.mapping()) {
+    const std::size_t size = mapped.bits / 8U;
+    if (position + size > data.size()) return;
+    Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);  // none: a placeholder
+    if (entry != nullptr && entry->value.size() == size) {
+      const auto first = data.begin() + static_cast<std::ptrdiff_t>(position);
+      entry->value.assign(first, first + static_cast<std::ptrdiff_t>(size));
+      if (device_->behaviour.rpdo_data_big_endian) std::reverse(entry->value.begin(), entry->value.end());
+      if (entry->written) entry->written();
+    }
+    position += size;
+  }
+}
+
+TransmitPdo::TransmitPdo(Device& device)
+    : device_(&device),
+      // Two digital inputs and an analog one: four bytes. Bit 30: not on remote request.
+      parameters_(device, PdoDirection::transmit, 0, 0x40000180U + device.node_id,
+                  {0x60000108, 0x60000208, 0x64010110}) {
+  parameters_.on_changed = [this] { restart(); };
+}
+
+bool TransmitPdo::enabled() const {
+  const bool state = device_->state == NmtState::operational ||
+                     (device_->state == NmtState::pre_operational && device_->behaviour.tpdo_sent_in_pre_operational);
+  return state && parameters_.cob_id().valid() && parameters_.mapped_size() > 0;
+}
+
+Bytes TransmitPdo::content() const {
+  Bytes data;
+  for (const auto& mapped : parameters_.mapping()) {
+    const Upload value = device_->dictionary.upload({conform::Index(mapped.index), conform::SubIndex(mapped.sub)});
+    Bytes part = value.value_or(Bytes{});
+    part.resize(mapped.bits / 8U);
+    if (device_->behaviour.tpdo_data_big_endian) std::reverse(part.begin(), part.end());
+    data.insert(data.end(), part.begin(), part.end());
+  }
+  if (data.size() > 8) data.resize(8);
+  return data;
+}
+
+void TransmitPdo::transmit(const Bytes& data) {
+  if (!enabled()) return;
+  device_->send(Service::tpdo, conform::can::data_frame(conform::CanId(parameters_.cob_id().can_id()), data));
+  reported_ = data;
+  event_ = false;
+  syncs_ = 0;
+  inhibited_until_.reset();
+  if (event_driven() && parameters_.inhibit_time() > Duration::zero()) {
+    inhibited_until_ = device_->now + parameters_.inhibit_time();
+  }
+  start_event_timer();
+}
+
+void TransmitPdo::start_event_timer() {
+  timer_.reset();
+  const bool applies = event_driven() || device_->behaviour.event_timer_in_synchronous_types;
+  if (applies && enabled() && parameters_.event_timer() > Duration::zero()) {
+    timer_ = device_->now + parameters_.event_timer();
+  }
+}
+
+void TransmitPdo::on_application_change() {
+  if (!enabled() || content() == reported_) return;
+  event_ = true;
+  if (!event_driven()) return;
+  if (inhibited_until_ && device_->now < *inhibited_until_) return;
+  transmit(content());
+}
+
+void TransmitPdo::on_sync() {
+  if (!enabled()) return;
+  const std::uint8_t type = parameters_.transmission_type();
+  if (type == remote_synchronous_type) {
+    sampled_ = content();
+    if (device_->behaviour.remote_type_sends_at_sync) transmit(sampled_);
+  } else if (type == 0) {
+    if (event_ || device_->behaviour.acyclic_type_sends_every_sync) transmit(content());
+  } else if (type <= last_synchronous_type) {
+    const std::uint32_t ratio = type + (device_->behaviour.sync_ratio_off_by_one ? 1U : 0U);
+    if (++syncs_ >= ratio) transmit(content());
+  }
+}
+
+bool TransmitPdo::on_remote(const Frame& frame) {
+  if (!enabled() || frame.id != parameters_.cob_id().can_id()) return false;
+  if (!parameters_.cob_id().remote_allowed()) return true;
+  const bool sampled = parameters_.transmission_type() == remote_synchronous_type && !sampled_.empty();
+  transmit(sampled ? sampled_ : content());
+  return true;
+}
+
+void TransmitPdo::on_state_change() { restart(); }
+
+void TransmitPdo::restart() {
+  event_ = false;
+  syncs_ = 0;
+  sampled_.clear();
+  inhibited_until_.reset();
+  timer_.reset();
+  if (!enabled()) return;
+  reported_ = content();
+  start_event_timer();
+}
+
+void TransmitPdo::on_time() {
+  if (inhibited_until_ && device_->now >= *inhibited_until_) {
+    inhibited_until_.reset();
+    if (event_ && event_driven()) transmit(content());
+  }
+  if (!timer_ || device_->now < *timer_) return;
+  timer_.reset();
+  const bool applies = event_driven() || device_->behaviour.event_timer_in_synchronous_types;
+  if (!applies || parameters_.event_timer() == Duration::zero()) return;
+  if (inhibited_until_) {
+    event_ = true;
+  } else {
+    transmit(content());
+  }
+}
+
+std::optional<BusTime> TransmitPdo::next_wakeup() const { return earliest({timer_, inhibited_until_}); }
+
+}  // namespace refnode

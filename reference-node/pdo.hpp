@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traffic of one RPDO and one TPDO (CiA 301, 7.2.2): in Operational only.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "device.hpp"
+#include "emergency.hpp"
+#include "pdo_parameters.hpp"
+
+namespace refnode {
+
+class ReceivePdo {
+ public:
+  ReceivePdo(Device& device, Emergency& emergency);
+
+  /// True when the frame carries this PDO.
+  bool on_frame(const Frame& frame);
+  void on_sync();
+  /// Buffered data and the deadline end with a state change or reset.
+  void on_state_change();
+  void on_time();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return deadline_; }
+
+ private:
+  void apply(const Bytes& data);
+
+  Device* device_;
+  Emergency* emergency_;
+  PdoParameters parameters_;
+  std::optional<Bytes> buffered_;      ///< synchronous types: waiting for the SYNC
+  std::optional<BusTime> deadline_;    ///< event timer, armed by the first RPDO
+};
+
+class TransmitPdo {
+ public:
+  explicit TransmitPdo(Device& device);
+
+  /// Something mapped may have changed.
+  void on_application_change();
+  void on_sync();
+  /// True when the remote frame asks for this PDO.
+  bool on_remote(const Frame& frame);
+  void on_state_change();
+  void on_time();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+
+ private:
+  [[nodiscard]] Bytes content() const;
+  [[nodiscard]] bool event_driven() const { return parameters_.transmission_type() >= 0xFE; }
+  [[nodiscard]] bool enabled() const;
+  void transmit(const Bytes& data);
+  void start_event_timer();
+  void restart();
+
+  Device* device_;
+  PdoParameters parameters_;
+  Bytes reported_;                     ///< content of the last TPDO, or at the start of Operational
+  Bytes sampled_;                      ///< type FCh: content at the last SYNC
+  bool event_ = false;                 ///< type 00h, or an event waiting for the inhibit time
+  std::uint32_t syncs_ = 0;            ///< SYNCs since the last TPDO
+  std::optional<BusTime> timer_;
+  std::optional<BusTime> inhibited_until_;
+};
+
+}  // namespace refnode

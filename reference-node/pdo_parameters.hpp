@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Communication and mapping parameters of one PDO (14xxh/16xxh or 18xxh/1Axxh) and the rules for changing them
+// (CiA 301, 7.5.2.35 to 7.5.2.38).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "cob_id_rules.hpp"
+#include "device.hpp"
+
+namespace refnode {
+
+enum class PdoDirection : std::uint8_t { receive, transmit };
+
+class PdoParameters {
+ public:
+  static constexpr std::uint8_t mapping_entries = 8;
+
+  /// `number` 0 is the first PDO of its direction; `mapping` are the default entries.
+  PdoParameters(Device& device, PdoDirection direction, std::uint8_t number, std::uint32_t cob_id,
+                const std::vector<std::uint32_t>& mapping);
+
+  std::function<void()> on_changed;  ///< a communication parameter or the number of mapped objects
+
+  [[nodiscard]] const CobIdRules& cob_id() const { return cob_id_; }
+  [[nodiscard]] std::uint8_t transmission_type() const;
+  [[nodiscard]] Duration inhibit_time() const;
+  [[nodiscard]] Duration event_timer() const;
+
+  struct Mapped {
+    std::uint16_t index;
+    std::uint8_t sub;
+    std::uint8_t bits;
+  };
+  /// The active mapping; empty when sub-index 00h is 00h.
+  [[nodiscard]] std::vector<Mapped> mapping() const;
+  /// Its length in bytes.
+  [[nodiscard]] std::size_t mapped_size() const;
+
+ private:
+  [[nodiscard]] Accepted check_type(ByteView bytes) const;
+  [[nodiscard]] Accepted check_locked(std::uint8_t sub, ByteView bytes) const;
+  [[nodiscard]] Accepted check_mapping_count(ByteView bytes) const;
+  [[nodiscard]] Accepted check_mapping_entry(std::uint8_t sub, ByteView bytes) const;
+  [[nodiscard]] Accepted mappable(const Mapped& mapped) const;
+  [[nodiscard]] static Mapped unpack(std::uint64_t value);
+  [[nodiscard]] const PdoFaults& faults() const;
+
+  Device* device_;
+  PdoDirection direction_;
+  std::uint16_t communication_;  ///< index of the communication parameter
+  std::uint16_t mapping_;        ///< index of the mapping parameter
+  CobIdRules cob_id_;
+};
+
+}  // namespace refnode

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Consumer of SYNC (1005h to 1007h) and TIME (1012h); the node produces neither.
+#pragma once
+
+#include <functional>
+
+#include "cob_id_rules.hpp"
+#include "device.hpp"
+#include "emergency.hpp"
+
+namespace refnode {
+
+class SyncConsumer {
+ public:
+  SyncConsumer(Device& device, Emergency& emergency);
+
+  std::function<void()> on_sync;
+
+  /// True when the frame was a SYNC.
+  bool on_frame(const Frame& frame);
+
+ private:
+  Device* device_;
+  Emergency* emergency_;
+  CobIdRules cob_id_;
+};
+
+class TimeConsumer {
+ public:
+  explicit TimeConsumer(Device& device);
+
+  /// Takes the time over into 2F10h; true when the frame was a TIME message to be consumed.
+  bool on_frame(const Frame& frame);
+
+ private:
+  Device* device_;
+  CobIdRules cob_id_;
+};
+
+}  // namespace refnode
