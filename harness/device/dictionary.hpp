@@ -45,8 +45,8 @@ struct Entry {
   ObjectCode object = ObjectCode::var;   ///< of the object this entry belongs to
   std::optional<Bytes> low;              ///< limits and default as on the wire
   std::optional<Bytes> high;
-  std::optional<Bytes> default_value;    ///< with the node-ID already added where it counts
-  bool default_adds_node_id = false;     ///< the default was (or is to be) a constant plus the node-ID
+  std::optional<Bytes> default_value;    ///< in a Dictionary with the node-ID already added where it counts
+  bool default_adds_node_id = false;     ///< the default is a constant plus the node-ID
   bool access_open = false;              ///< the standard leaves rw or const (ro) to the device: `access` is the wider one
   bool pdo_mappable = false;
   bool may_change = false;               ///< changes by itself: error register, process inputs, counters
@@ -62,6 +62,9 @@ struct Entry {
   /// Bytes on the wire; nullopt where the length varies.
   [[nodiscard]] std::optional<std::size_t> size() const { return canopen::size_bytes(type); }
 };
+
+/// `entry` with the node-ID added to a default that wants it: the step from a description to a device.
+[[nodiscard]] Entry at_node(Entry entry, NodeId node);
 
 /// Entries ordered by multiplexer, at most one each.
 class Dictionary {

@@ -77,8 +77,7 @@ struct Profile {
 
   std::set<std::string, std::less<>> claims;   ///< words of features()
   bool claims_given = false;                   ///< the profile has a list of claims, even an empty one
-  std::vector<Entry> objects;                  ///< claimed objects in file order, all with `claimed` set
-  std::vector<Multiplexer> absent;             ///< objects known not to be there, not even to be asked for
+  std::vector<Entry> objects;                  ///< claimed entries in file order, all with `claimed` set; defaults without the node-ID
   std::vector<ErrorTrigger> errors;
   std::vector<Multiplexer> safe_objects;       ///< entries that tests may write
   std::vector<Multiplexer> untouchable;        ///< entries no test may write
@@ -93,8 +92,8 @@ struct Profile {
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;
 };
 
-/// What CiA 301 defines, with the claimed objects of the profile laid over it and the absent ones taken out. Objects of the
-/// standard that the profile names get `claimed`; a claimed object of its own is added as it stands.
+/// What CiA 301 defines, with the claimed entries of the profile laid over it and the node-ID in the defaults. Records and arrays of
+/// the profile's own get their sub-index 00h when it is not listed.
 [[nodiscard]] Dictionary dictionary_of(const Profile& profile);
 
 /// The profile used when there is none: node-ID, defaults, the heartbeat error trigger with node 7Eh.

@@ -13,14 +13,11 @@ namespace conform::device {
 inline constexpr int max_pdos = 512;
 
 /// The standard's entry at `mux`, for every index and sub-index it defines (PDO 1..512, SDO servers 1..128, EMCY and
-/// heartbeat consumers 1..127, error fields 1..254); nullopt for everything else. Node-ID dependent defaults hold the
+/// heartbeat consumers 1..127, error fields 1..254, PDO mapping entries 1..64); nullopt for everything else. Node-ID dependent defaults hold the
 /// constant part and are marked default_adds_node_id.
 [[nodiscard]] std::optional<Entry> standard_entry(Multiplexer mux);
 
-/// The same with the node-ID added to the defaults of the pre-defined connection set.
-[[nodiscard]] std::optional<Entry> standard_entry(Multiplexer mux, NodeId node);
-
-/// Objects 1000h-1029h and 1200h with their sub-indices 00h and those the standard names one by one, and PDO 1..4 with sub-index
+/// With the node-ID in the defaults: objects 1000h-1029h and 1200h with their sub-indices 00h and those the standard names one by one, and PDO 1..4 with sub-index
 /// 00h..08h of the mapping. Arrays show sub-index 00h and 01h: how far they go is for the device to say.
 [[nodiscard]] Dictionary standard_dictionary(NodeId node);
 

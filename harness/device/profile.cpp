@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/profile.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "device/profile_fields.hpp"
+#include "device/standard_objects.hpp"
+
+namespace conform::device {
+namespace {
+
+constexpr std::array<Feature, 33> feature_table{{
+    {"emcy", "sends emergency messages (1014h)"},
+    {"emcy consumer", "consumes emergency messages of other nodes (1028h)"},
+    {"error behaviour", "offers the error behaviour object 1029h"},
+    {"heartbeat producer", "sends heartbeats (1017h)"},
+    {"heartbeat consumer", "watches heartbeats of other nodes (1016h)"},
+    {"node guarding", "answers guarding requests"},
+    {"life guarding", "watches guarding requests (100Ch, 100Dh)"},
+    {"sync producer", "can send SYNC (1005h, 1006h)"},
+    {"sync consumer", "acts on SYNC (1005h)"},
+    {"sync counter", "knows SYNC messages with a counter (1019h)"},
+    {"time producer", "can send TIME (1012h)"},
+    {"time consumer", "acts on TIME (1012h)"},
+    {"rpdo", "receives PDOs"},
+    {"tpdo", "transmits PDOs"},
+    {"variable mapping", "the PDO mapping can be changed"},
+    {"mpdo", "multiplex PDOs"},
+    {"remote frames", "answers remote frames for TPDOs"},
+    {"store", "stores parameters on command (1010h)"},
+    {"restore", "restores default parameters on command (1011h)"},
+    {"autonomous storing", "stores parameters by itself"},
+    {"segmented sdo", "segmented SDO transfer"},
+    {"block sdo", "SDO block transfer"},
+    {"additional sdo servers", "SDO servers beyond the default one (1201h and up)"},
+    {"sdo client", "SDO client (1280h and up)"},
+    {"base frames only", "11-bit identifiers only: bit 29 of COB-IDs cannot be set"},
+    {"fixed cob-ids", "COB-IDs cannot be changed"},
+    {"nmt master", "sends NMT commands"},
+    {"application profile", "follows an application profile, with COB-IDs of its own"},
+    {"profile device", "follows a device profile (low word of 1000h)"},
+    {"logical devices", "holds more than one logical device"},
+    {"modular device", "lists its modules in 1027h"},
+    {"lss", "layer setting services (CiA 305)"},
+    {"program download", "takes programs (1F50h)"},
+}};
+
+}  // namespace
+
+std::span<const Feature> features() { return feature_table; }
+
+bool is_feature(std::string_view word) {
+  return std::ranges::find(feature_table, word, &Feature::word) != feature_table.end();
+}
+
+bool Profile::is_safe(Multiplexer mux) const { return std::ranges::find(safe_objects, mux) != safe_objects.end(); }
+bool Profile::is_untouchable(Multiplexer mux) const { return std::ranges::find(untouchable, mux) != untouchable.end(); }
+
+std::optional<Duration> Profile::duration(std::string_view wanted) const {
+  for (const DurationField& field : duration_fields()) {
+    if (field.key == wanted || field.symbol == wanted) return this->*field.member;
+  }
+  return std::nullopt;
+}
+
+std::span<const DurationField> duration_fields() {
+  static constexpr std::array<DurationField, 8> fields{{
+      {"boot_time", "T_BOOT", &Profile::boot_time},
+      {"sdo_timeout", "T_SDO", &Profile::sdo_timeout},
+      {"store_timeout", "T_NVM", &Profile::store_timeout},
+      {"nmt_time", "T_NMT", &Profile::nmt_time},
+      {"quiet_time", "T_QUIET", &Profile::quiet_time},
+      {"server_timeout", "T_SRVTO", &Profile::server_timeout},
+      {"block_timeout", "T_BLK", &Profile::block_timeout},
+      {"lss_timeout", "T_LSS", &Profile::lss_timeout},
+  }};
+  return fields;
+}
+
+Dictionary dictionary_of(const Profile& profile) {
+  Dictionary dictionary = standard_dictionary(profile.node);
+  for (const Entry& entry : profile.objects) dictionary.add(at_node(entry, profile.node));
+  for (const Entry& entry : profile.objects) {
+    const Multiplexer count{entry.mux.index, SubIndex{0}};
+    if (entry.mux.sub.value() == 0 || dictionary.has(count)) continue;
+    Entry added = standard_entry(count).value_or(Entry{});
+    if (added.name.empty()) {
+      added.mux = count;
+      added.name = "Highest sub-index supported";
+      added.type = canopen::DataType::unsigned8;
+      added.access = Access::constant;
+      added.category = Category::conditional;
+      added.object = entry.object;
+    }
+    added.claimed = true;
+    dictionary.add(at_node(added, profile.node));
+  }
+  return dictionary;
+}
+
+Profile default_profile(NodeId node) {
+  Profile profile;
+  profile.name = "unnamed device";
+  profile.node = node;
+  profile.errors.push_back(heartbeat_trigger(NodeId{0x7E}));
+  return profile;
+}
+
+ErrorTrigger heartbeat_trigger(NodeId producer) {
+  ErrorTrigger trigger;
+  trigger.name = "heartbeat loss";
+  trigger.code = 0x8130;
+  trigger.heartbeat_node = producer;
+  return trigger;
+}
+
+Result<ProfileDocument> load_profile_file(const std::string& path) {
+  auto document = yaml::load_file(path);
+  if (!document) return std::unexpected(document.error());
+  ProfileDocument out{.profile = {}, .diagnostics = std::move(document->diagnostics)};
+  if (document->root) out.profile = load_profile(*document->root, out.diagnostics);
+  return out;
+}
+
+}  // namespace conform::device
