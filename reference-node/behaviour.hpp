@@ -59,6 +59,7 @@ struct Behaviour {
   bool accepts_short_values = false;       ///< missing bytes of a download are taken as zero
   bool stores_refused_values = false;      ///< a value out of range is refused and stored all the same
   bool clamps_to_high_limit = false;       ///< a value above the limit is confirmed and limited
+  bool variables_ignore_sub_index = false; ///< a variable answers on every sub-index
 
   // SDO server
   bool upload_toggle_unchecked = false;
@@ -76,6 +77,10 @@ struct Behaviour {
   bool sdo_served_before_boot_up = false;
   bool transfer_survives_reset = false;
   bool answers_foreign_node_ids = false;   ///< SDO requests to other nodes are served
+  bool answers_broadcast = false;          ///< SDO requests on 600h are served
+  bool answers_on_response_id = false;     ///< requests on 580h + node-ID are served
+  bool short_requests_completed = false;   ///< missing bytes of a request are those of the last one
+  bool long_numbers_truncated = false;     ///< numbers of more than four bytes are sent expedited
   bool accepts_extended_frames = false;    ///< 29-bit identifiers are taken for 11-bit ones
   bool accepts_remote_frames = false;      ///< remote frames are taken for data frames
 

@@ -69,7 +69,7 @@ std::uint8_t Emergency::error_register() const {
   if (behaviour.error_register_without_generic) bits &= 0xFEU;
   if (behaviour.error_register_bit6_set && bits != 0) bits |= 0x40U;
   if (behaviour.communication_bit_missing) bits &= static_cast<std::uint8_t>(~0x10U);
-  if (bits == 0 && behaviour.error_register_sticks && reported_) bits = 0x01;
+  if (bits == 0 && behaviour.error_register_sticks && raised_) bits = 0x01;
   return bits;
 }
 
@@ -77,6 +77,7 @@ void Emergency::raise(const ErrorCause& cause, std::uint8_t detail) {
   if (std::find(causes_.begin(), causes_.end(), cause) != causes_.end()) return;
   const bool others = !causes_.empty();
   causes_.push_back(cause);
+  raised_ = true;
   record(cause.code, cause.source, detail);
   if (others && device_->behaviour.second_error_suppressed) return;
   report({cause.code, error_register(), detail, cause.source});

@@ -29,6 +29,7 @@ struct Node::Impl {
   void run_timers();
   void dispatch(const Frame& frame);
   [[nodiscard]] bool serves_sdo() const;
+  [[nodiscard]] bool is_sdo_request(std::uint32_t id) const;
 
   Device device;
   Emergency emergency;
@@ -117,6 +118,14 @@ bool Node::Impl::serves_sdo() const {
   return false;
 }
 
+bool Node::Impl::is_sdo_request(std::uint32_t id) const {
+  const Behaviour& behaviour = device.behaviour;
+  if (behaviour.answers_foreign_node_ids && id >= 0x601 && id <= 0x67F) return true;
+  if (behaviour.answers_broadcast && id == 0x600) return true;
+  if (behaviour.answers_on_response_id && id == 0x580U + device.node_id) return true;
+  return id == 0x600U + device.node_id;
+}
+
 void Node::Impl::dispatch(const Frame& received) {
   Frame frame = received;
   if (frame.error) return;
@@ -129,8 +138,7 @@ void Node::Impl::dispatch(const Frame& received) {
   }
 
   if (frame.id == 0x000) return nmt.on_command(frame);
-  const bool any_node = device.behaviour.answers_foreign_node_ids && frame.id >= 0x601 && frame.id <= 0x67F;
-  if (frame.id == 0x600U + device.node_id || any_node) {
+  if (is_sdo_request(frame.id)) {
     if (serves_sdo()) sdo.on_request(frame);
     return;
   }

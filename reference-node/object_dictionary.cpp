@@ -158,6 +158,10 @@ Accepted ObjectDictionary::check_exists(Multiplexer mux) const {
 }
 
 Upload ObjectDictionary::upload(Multiplexer mux) const {
+  if (behaviour_->variables_ignore_sub_index) {
+    const auto object = objects_.find(mux.index.value());
+    if (object != objects_.end() && object->second.kind == ObjectKind::variable) mux.sub = conform::SubIndex(0);
+  }
   if (const auto exists = check_exists(mux); !exists) return refuse(exists.error());
   const Entry& found = *entry(mux.index.value(), mux.sub.value());
   if (found.access == Access::wo) return refuse(abort_code::write_only);

@@ -26,13 +26,15 @@ std::array<std::uint8_t, 8> with_mux(std::uint8_t command, Multiplexer mux) {
 }  // namespace
 
 void SdoServer::on_request(const Frame& frame) {
-  if (frame.size() != 8) return;  // SDO frames have eight bytes; anything else is no request
+  // SDO frames have eight bytes; anything else is no request.
+  if (frame.size() != 8 && !device_->behaviour.short_requests_completed) return;
+  std::copy_n(frame.data.begin(), frame.size(), last_request_.begin());
   SdoExchange exchange;
-  exchange.request = frame.data;
-  exchange.mux = mux_of(frame.data);
+  exchange.request = last_request_;
+  exchange.mux = mux_of(exchange.request);
 
   Reply reply;
-  switch (frame.data[0] >> 5U) {
+  switch (exchange.request[0] >> 5U) {
     case download_segment_request: reply = download_segment(exchange); break;
     case download_initiate_request: reply = initiate_download(exchange); break;
     case upload_initiate_request: reply = initiate_upload(exchange); break;
@@ -68,6 +70,7 @@ SdoServer::Reply SdoServer::initiate_upload(SdoExchange& exchange) {
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return abort(exchange, data.error());
 
+  if (device_->behaviour.long_numbers_truncated && data->size() <= 8) data->resize(std::min<std::size_t>(data->size(), 4));
   const std::size_t size = data->size();
   if (size >= 1 && size <= 4) {
     // 010x nnes: expedited with size, n = bytes without data.

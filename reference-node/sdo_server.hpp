@@ -40,6 +40,7 @@ class SdoServer {
   Device* device_;
   Duration turnaround_;
   std::optional<Transfer> transfer_;
+  std::array<std::uint8_t, 8> last_request_{};  ///< used by a defect only
 };
 
 }  // namespace refnode

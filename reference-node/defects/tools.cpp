@@ -71,6 +71,20 @@ DictionaryEdit extra(std::uint16_t index, std::uint8_t sub, Entry entry) {
   };
 }
 
+DictionaryEdit not_stored(std::uint16_t index, std::uint8_t sub) {
+  return [index, sub](ObjectDictionary& od, std::uint8_t) {
+    if (Entry* entry = od.entry(index, sub)) entry->command = true;
+  };
+}
+
+DictionaryEdit everywhere(void (*change)(Entry&)) {
+  return [change](ObjectDictionary& od, std::uint8_t) {
+    for (auto& [index, object] : od.objects()) {
+      for (auto& [sub, entry] : object.entries) change(entry);
+    }
+  };
+}
+
 DictionaryEdit both(DictionaryEdit first, DictionaryEdit second) {
   return [first = std::move(first), second = std::move(second)](ObjectDictionary& od, std::uint8_t node_id) {
     first(od, node_id);
@@ -129,6 +143,12 @@ Filter reshape(Service service, void (*change)(const FilterContext&, Frame&)) {
   return [service, change](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.service != service) return;
     for (Outgoing& outgoing : frames) change(context, outgoing.frame);
+  };
+}
+
+Filter mute(Service service, NmtState state) {
+  return [service, state](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == service && context.state == state) frames.clear();
   };
 }
 

@@ -14,6 +14,16 @@ namespace refnode::defect {
 /// behave(&Behaviour::heartbeat_period_factor, 2): sets a number.
 [[nodiscard]] BehaviourSwitch behave(int Behaviour::*number, int value);
 
+/// behave(&Behaviour::store, &StoreFaults::without_effect): sets a switch of a part.
+template <typename Part>
+[[nodiscard]] BehaviourSwitch behave(Part Behaviour::*part, bool Part::*flag) {
+  return [part, flag](Behaviour& behaviour) { (behaviour.*part).*flag = true; };
+}
+template <typename Part>
+[[nodiscard]] BehaviourSwitch behave(Part Behaviour::*part, int Part::*number, int value) {
+  return [part, number, value](Behaviour& behaviour) { (behaviour.*part).*number = value; };
+}
+
 // Dictionary edits.
 [[nodiscard]] DictionaryEdit absent(std::uint16_t index);
 [[nodiscard]] DictionaryEdit absent_sub(std::uint16_t index, std::uint8_t sub);
@@ -26,6 +36,10 @@ namespace refnode::defect {
 [[nodiscard]] DictionaryEdit bytes(std::uint16_t index, std::uint8_t sub, Bytes value);
 /// Adds a variable, or a sub-index to an existing object.
 [[nodiscard]] DictionaryEdit extra(std::uint16_t index, std::uint8_t sub, Entry entry);
+/// Writes are confirmed and forgotten.
+[[nodiscard]] DictionaryEdit not_stored(std::uint16_t index, std::uint8_t sub);
+/// Changes every entry of the dictionary.
+[[nodiscard]] DictionaryEdit everywhere(void (*change)(Entry&));
 [[nodiscard]] DictionaryEdit both(DictionaryEdit first, DictionaryEdit second);
 
 // Filters on SDO responses. A condition looks at the exchange.
@@ -37,12 +51,14 @@ using Range = std::pair<std::uint16_t, std::uint16_t>;
 [[nodiscard]] Filter wrong_abort_at(Multiplexer mux, AbortCode right, AbortCode wrong);
 /// No response where `when` holds.
 [[nodiscard]] Filter silent(Condition when);
-/// The response with these eight bytes where `when` holds; bytes 1-3 are the multiplexer of the exchange.
+/// Command byte and data instead of those of the response where `when` holds; bytes 1-3 stay.
 [[nodiscard]] Filter respond(Condition when, std::uint8_t command, std::uint32_t data);
 /// Changes the eight bytes of a response where `when` holds.
 [[nodiscard]] Filter patch(Condition when, void (*change)(const SdoExchange&, std::array<std::uint8_t, 8>& data));
 /// Changes every frame of a service other than SDO.
 [[nodiscard]] Filter reshape(Service service, void (*change)(const FilterContext&, Frame&));
+/// Drops the frames of a service in one state.
+[[nodiscard]] Filter mute(Service service, NmtState state);
 /// Sends every frame of a service twice.
 [[nodiscard]] Filter repeat(Service service);
 

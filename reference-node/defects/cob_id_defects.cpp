@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of the COB-ID parameters 1005h, 1012h, 1014h, 1400h:01 and 1800h:01.
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+DefectTable cob_id_defects() {
+  using B = Behaviour;
+  using C = CobIdFaults;
+  constexpr AbortCode right = abort_code::invalid_value;
+  constexpr AbortCode wrong = abort_code::unsupported_access;
+  return {
+      {"1005-gen-bit-accepted", "1005h accepts bit 30 although the node generates no SYNC", {"OD-1005-03", "SYNC-COB-03", "OD-CID-05"}, behave(&B::sync_cob_id, &C::bit30_accepted)},
+      {"1005-frame-bit-accepted", "1005h accepts bit 29 although the node knows base frames only", {"OD-1005-04", "SYNC-COB-04", "OD-CID-05"}, behave(&B::sync_cob_id, &C::frame_bit_accepted)},
+      {"1005-wrong-abort", "1005h refuses with 0601 0000h instead of 0609 0030h", {"OD-1005-03", "OD-1005-04", "SYNC-COB-03", "SYNC-COB-04", "OD-CID-05"}, wrong_abort_at(mux(0x1005, 0), right, wrong)},
+      {"1005-change-refused", "1005h refuses another CAN-ID", {"OD-1005-06"}, behave(&B::sync_cob_id, &C::change_refused)},
+      {"1005-new-id-not-used", "The node goes on listening on 080h after 1005h was changed", {"OD-1005-07", "SYNC-COB-02"}, behave(&B::sync_cob_id, &C::new_id_not_used)},
+      {"1005-bit31-treated-as-valid", "1005h refuses bit 31", {"OD-1005-11"}, behave(&B::sync_cob_id, &C::bit31_refused)},
+      {"1005-upper-id-bits-accepted", "1005h accepts bits 28-11 with an 11-bit identifier", {"OD-1005-12"}, behave(&B::sync_cob_id, &C::upper_bits_accepted)},
+      {"1005-restricted-id-accepted", "1005h accepts restricted CAN-IDs", {"CAN-RID-01", "OD-CID-03"}, behave(&B::sync_cob_id, &C::restricted_accepted)},
+      {"1012-produce-bit-accepted", "1012h accepts bit 30 although the node produces no TIME", {"OD-1012-03", "TIME-COB-02", "OD-CID-05"}, behave(&B::time_cob_id, &C::bit30_accepted)},
+      {"1012-frame-bit-accepted", "1012h accepts bit 29 although the node knows base frames only", {"OD-1012-04", "TIME-COB-03", "OD-CID-05"}, behave(&B::time_cob_id, &C::frame_bit_accepted)},
+      {"1012-wrong-abort", "1012h refuses with 0601 0000h instead of 0609 0030h", {"OD-1012-03", "OD-1012-04", "OD-1012-05", "TIME-COB-02", "TIME-COB-03"}, wrong_abort_at(mux(0x1012, 0), right, wrong)},
+      {"1012-lock-missing", "The CAN-ID of 1012h can be changed while TIME is consumed", {"OD-1012-05", "TIME-COB-04"}, behave(&B::time_cob_id, &C::lock_missing)},
+      {"1012-change-refused", "1012h refuses another CAN-ID", {"OD-1012-06"}, behave(&B::time_cob_id, &C::change_refused)},
+      {"1012-consumes-when-disabled", "TIME is consumed whatever bit 31 of 1012h says", {"OD-1012-07", "TIME-CON-04"}, behave(&B::time_cob_id, &C::valid_bit_ignored)},
+      {"1012-consume-bit-inverted", "Bit 31 of 1012h = 0 consumes TIME", {"OD-1012-07", "TIME-CON-01", "TIME-CON-04"}, behave(&B::time_cob_id, &C::valid_bit_inverted)},
+      {"1012-restricted-id-accepted", "1012h accepts restricted CAN-IDs", {"CAN-RID-02", "OD-CID-03"}, behave(&B::time_cob_id, &C::restricted_accepted)},
+      {"time-reserved-bits-not-masked", "The reserved bits of a TIME message are taken for milliseconds", {"TIME-CON-02"}, behave(&B::time_reserved_bits_kept)},
+      {"1014-lock-missing", "The CAN-ID of 1014h can be changed while EMCY is valid", {"OD-1014-06", "EMCY-COB-04"}, behave(&B::emergency_cob_id, &C::lock_missing)},
+      {"1014-frame-bit-accepted", "1014h accepts bit 29 although the node knows base frames only", {"OD-1014-05", "EMCY-COB-05"}, behave(&B::emergency_cob_id, &C::frame_bit_accepted)},
+      {"1014-frame-bit-wrong-abort", "1014h refuses with 0601 0000h instead of 0609 0030h", {"OD-1014-05", "OD-1014-06", "OD-1014-04", "EMCY-COB-05"}, wrong_abort_at(mux(0x1014, 0), right, wrong)},
+      {"1014-reserved-bit30-writable", "Bit 30 of 1014h can be set", {"OD-1014-04", "OD-1014-03"}, behave(&B::emergency_cob_id, &C::bit30_accepted)},
+      {"1014-valid-bit-polarity-inverted", "EMCY is sent with bit 31 of 1014h set and not without", {"OD-1014-08", "EMCY-COB-03", "EMCY-FMT-01", "OD-1014-07"}, behave(&B::emergency_cob_id, &C::valid_bit_inverted)},
+      {"1014-change-refused", "1014h refuses another CAN-ID even while EMCY is not valid", {"OD-1014-07", "EMCY-COB-02"}, behave(&B::emergency_cob_id, &C::change_refused)},
+      {"1014-new-id-not-used", "EMCY stays on 80h + node-ID after 1014h was changed", {"OD-1014-07", "EMCY-COB-02", "NMT-FSA-29"}, behave(&B::emergency_cob_id, &C::new_id_not_used)},
+      {"1014-restricted-id-accepted", "1014h accepts restricted CAN-IDs", {"CAN-RID-03", "OD-CID-03"}, behave(&B::emergency_cob_id, &C::restricted_accepted)},
+      {"1014-upper-id-bits-accepted", "1014h accepts bits 28-11 with an 11-bit identifier", {"OD-CID-01"}, behave(&B::emergency_cob_id, &C::upper_bits_accepted)},
+      {"1014-rewrite-refused", "1014h refuses the value it holds", {"OD-CID-04", "SDO-DNL-21"}, behave(&B::emergency_cob_id, &C::rewrite_refused)},
+      {"1400-lock-missing", "The CAN-ID of a valid RPDO can be changed", {"OD-1400-10", "PDO-RX-10"}, behave(&B::rpdo_cob_id, &C::lock_missing)},
+      {"1400-frame-bit-accepted", "1400h:01 accepts bit 29 although the node knows base frames only", {"OD-1400-13", "PDO-RX-11"}, behave(&B::rpdo_cob_id, &C::frame_bit_accepted)},
+      {"1400-frame-bit-wrong-abort", "1400h:01 refuses with 0601 0000h instead of 0609 0030h", {"OD-1400-13", "OD-1400-10", "PDO-RX-11"}, wrong_abort_at(mux(0x1400, 1), right, wrong)},
+      {"1400-valid-bit-polarity-inverted", "The RPDO is received with bit 31 set and not without", {"OD-1400-09", "PDO-RX-08", "PDO-RX-01"}, behave(&B::rpdo_cob_id, &C::valid_bit_inverted)},
+      {"1400-disable-ignored", "The RPDO is received whatever bit 31 says", {"OD-1400-09", "PDO-RX-08"}, behave(&B::rpdo_cob_id, &C::valid_bit_ignored)},
+      {"1400-change-refused", "1400h:01 refuses another CAN-ID even while the RPDO is not valid", {"OD-1400-11", "PDO-RX-09"}, behave(&B::rpdo_cob_id, &C::change_refused)},
+      {"1400-new-id-not-used", "The RPDO stays on its default CAN-ID", {"OD-1400-11", "PDO-RX-09"}, behave(&B::rpdo_cob_id, &C::new_id_not_used)},
+      {"1400-restricted-id-accepted", "1400h:01 accepts restricted CAN-IDs", {"CAN-RID-04", "OD-CID-03"}, behave(&B::rpdo_cob_id, &C::restricted_accepted)},
+      {"rpdo1-default-without-node-id", "The default of 1400h:01 lacks the node-ID", {"OD-1400-04", "PDO-DEF-01"}, preset(0x1400, 1, 0x200)},
+      {"rpdo1-default-cob-id-wrong", "The default of 1400h:01 is 300h + node-ID", {"OD-1400-04", "PDO-DEF-01"}, preset_with_node_id(0x1400, 1, 0x300)},
+      {"1800-lock-missing", "The CAN-ID of a valid TPDO can be changed", {"OD-1800-10", "PDO-TX-23"}, behave(&B::tpdo_cob_id, &C::lock_missing)},
+      {"1800-frame-bit-accepted", "1800h:01 accepts bit 29 although the node knows base frames only", {"OD-1800-13", "PDO-TX-24"}, behave(&B::tpdo_cob_id, &C::frame_bit_accepted)},
+      {"1800-frame-bit-wrong-abort", "1800h:01 refuses with 0601 0000h instead of 0609 0030h", {"OD-1800-13", "OD-1800-10", "PDO-TX-24"}, wrong_abort_at(mux(0x1800, 1), right, wrong)},
+      {"1800-valid-bit-polarity-inverted", "The TPDO is sent with bit 31 set and not without", {"OD-1800-09", "PDO-TX-03"}, behave(&B::tpdo_cob_id, &C::valid_bit_inverted)},
+      {"1800-disable-ignored", "The TPDO is sent whatever bit 31 says", {"OD-1800-09", "PDO-TX-03"}, behave(&B::tpdo_cob_id, &C::valid_bit_ignored)},
+      {"1800-change-refused", "1800h:01 refuses another CAN-ID even while the TPDO is not valid", {"OD-1800-11", "PDO-TX-04"}, behave(&B::tpdo_cob_id, &C::change_refused)},
+      {"1800-new-id-not-used", "The TPDO stays on its default CAN-ID", {"OD-1800-11", "PDO-TX-04", "NMT-FSA-29"}, behave(&B::tpdo_cob_id, &C::new_id_not_used)},
+      {"1800-restricted-id-accepted", "1800h:01 accepts restricted CAN-IDs", {"CAN-RID-05", "OD-CID-03"}, behave(&B::tpdo_cob_id, &C::restricted_accepted)},
+      {"1800-upper-id-bits-accepted", "1800h:01 accepts bits 28-11 with an 11-bit identifier", {"CAN-RID-08"}, behave(&B::tpdo_cob_id, &C::upper_bits_accepted)},
+      {"1800-answers-rtr-when-forbidden", "Remote frames are answered although bit 30 forbids it", {"OD-1800-14", "PDO-TX-21"}, behave(&B::tpdo_cob_id, &C::remote_bit_ignored)},
+      {"1800-rtr-bit-polarity-inverted", "Remote frames are answered with bit 30 set and not without", {"OD-1800-14", "PDO-TX-21", "PDO-TX-19"}, behave(&B::tpdo_cob_id, &C::remote_bit_inverted)},
+      {"tpdo1-default-without-node-id", "The default of 1800h:01 lacks the node-ID", {"OD-1800-04", "PDO-DEF-02"}, preset(0x1800, 1, 0x40000180)},
+      {"tpdo1-default-cob-id-wrong", "The default of 1800h:01 is 280h + node-ID", {"OD-1800-04", "PDO-DEF-02"}, preset_with_node_id(0x1800, 1, 0x40000280)},
+  };
+}
+
+}  // namespace refnode
