@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/time.hpp"
 #include "can/descriptor.hpp"
@@ -25,6 +26,12 @@ class RealtimeStamps {
   /// A stamp taken between `previous` and `now`, in nanoseconds of CLOCK_REALTIME. The result lies between
   /// them, too: stamps from both sides of a step are told apart by which conversion is possible.
   [[nodiscard]] BusTime convert(std::int64_t realtime_ns, BusTime previous, BusTime now);
+  /// The same without looking at the clock: nullopt when the stamp does not lie between the two.
+  [[nodiscard]] std::optional<BusTime> convert_if_between(std::int64_t realtime_ns, BusTime first,
+                                                          BusTime last) const {
+    const BusTime time(Duration(realtime_ns - offset_ns_ - origin_ns_));
+    return time >= first && time <= last ? std::optional(time) : std::nullopt;
+  }
   /// Whether the clock was set since construction.
   [[nodiscard]] bool stepped() const { return stepped_; }
 

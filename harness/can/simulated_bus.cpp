@@ -42,6 +42,7 @@ SimulatedBus::SimulatedBus(const Options& options)
   CONFORM_CHECK(options_.node_turnaround.least >= Duration::zero());
   CONFORM_CHECK(options_.node_turnaround.most >= options_.node_turnaround.least);
   nodes_.emplace_back().name = "harness";
+  wakeups_.push_back(never);
 }
 
 void SimulatedBus::attach(Participant& participant, std::string name) {
@@ -50,9 +51,9 @@ void SimulatedBus::attach(Participant& participant, std::string name) {
   Node& node = nodes_.emplace_back();
   node.participant = &participant;
   node.name = std::move(name);
+  wakeups_.push_back(never);
   participant.attach([this, index](const Frame& frame) { enqueue(index, frame); }, now_);
-  // The callback may have attached further participants: nodes_ may have moved.
-  nodes_[index].wakeup = participant.next_wakeup();
+  wakeups_stale_ = true;
 }
 
 std::size_t SimulatedBus::index_of(const Participant& participant) const {
@@ -82,7 +83,9 @@ void SimulatedBus::unplug(const Participant& participant, BusTime at) {
   Node& node = nodes_[index];
   node.participant = nullptr;
   node.queue.clear();
-  node.wakeup.reset();
+  wakeups_[index] = never;
+  wakeups_stale_ = true;
+  std::erase(waiting_, index);
   // What it was sending is cut off: the receivers see an error and discard it, the wire is free again later.
   if (in_flight_ && in_flight_->sender == index) in_flight_.reset();
 }
@@ -130,54 +133,76 @@ void SimulatedBus::enqueue(std::size_t index, const Frame& frame) {
     ready += *drawn_;
   }
   if (!node.queue.empty()) ready = std::max(ready, node.queue.back().ready);
+  if (node.queue.empty()) waiting_.push_back(index);
   node.queue.push(frame, ready);
 }
 
-void SimulatedBus::advance(BusTime to) {
-  if (to <= now_) return;
-  now_ = to;
-  for (Node& node : nodes_) node.wakeups_now = 0;
+void SimulatedBus::set_wakeup(std::size_t index) {
+  const Participant* participant = nodes_[index].participant;
+  wakeups_[index] = participant == nullptr ? never : participant->next_wakeup().value_or(never);
 }
 
 void SimulatedBus::refresh_wakeups() {
-  for (Node& node : nodes_) {
-    if (node.participant != nullptr) node.wakeup = node.participant->next_wakeup();
+  for (std::size_t i = 1; i < nodes_.size(); ++i) set_wakeup(i);
+  find_first_sleeper();
+  wakeups_stale_ = false;
+}
+
+void SimulatedBus::find_first_sleeper() {
+  BusTime first = wakeups_[0];
+  first_sleeper_ = 0;
+  for (std::size_t i = 1; i < wakeups_.size(); ++i) {
+    if (wakeups_[i] >= first) continue;
+    first = wakeups_[i];
+    first_sleeper_ = i;
   }
+}
+
+BusTime SimulatedBus::first_ready() const {
+  BusTime first = never;
+  for (const std::size_t index : waiting_) first = std::min(first, nodes_[index].queue.front().ready);
+  return first;
 }
 
 void SimulatedBus::wake(std::size_t index) {
-  if (++nodes_[index].wakeups_now > options_.wakeup_budget) {
-    fault(nodes_[index], "asked for " + std::to_string(options_.wakeup_budget) +
-                             " wake-ups at one instant (" + to_string(now_.time_since_epoch()) +
-                             ") without letting time pass");
+  Node& node = nodes_[index];
+  if (node.last_wakeup != now_) {
+    node.last_wakeup = now_;
+    node.wakeups_at_once = 0;
+  }
+  if (++node.wakeups_at_once > options_.wakeup_budget) {
+    fault(node, "asked for " + std::to_string(options_.wakeup_budget) + " wake-ups at one instant (" +
+                    to_string(now_.time_since_epoch()) + ") without letting time pass");
     return;
   }
-  Participant& participant = *nodes_[index].participant;
-  participant.on_time(now_);
-  Node& node = nodes_[index];
-  if (node.participant != nullptr) node.wakeup = participant.next_wakeup();
+  node.participant->on_time(now_);
+  // The callback may have attached further participants: nodes_ may have moved.
+  set_wakeup(index);
+  find_first_sleeper();
 }
 
-// All heads that are ready take part in the arbitration; the smallest arbitration field wins.
+// All heads that are ready take part in the arbitration; the smallest arbitration field wins, and of equal
+// ones the sender attached first.
 void SimulatedBus::start_frame() {
   std::size_t winner = nodes_.size();
   std::uint32_t best = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Queue& queue = nodes_[i].queue;
-    if (queue.empty() || queue.front().ready > now_) continue;
-    const std::uint32_t key = arbitration_key(queue.front().frame);
-    if (winner == nodes_.size() || key < best) {
-      winner = i;
+  for (const std::size_t index : waiting_) {
+    const Pending& head = nodes_[index].queue.front();
+    if (head.ready > now_) continue;
+    const std::uint32_t key = arbitration_key(head.frame);
+    if (winner == nodes_.size() || key < best || (key == best && index < winner)) {
+      winner = index;
       best = key;
     }
   }
   CONFORM_CHECK(winner < nodes_.size());
   Queue& queue = nodes_[winner].queue;
-  const Frame& frame = queue.front().frame;
+  const Frame frame = queue.front().frame;
   const std::uint32_t bits = frame_bits(frame);
   in_flight_ = InFlight{frame, winner, now_ + bit_time(bits, options_.bit_rate)};
   bus_free_ = now_ + bit_time(bits + intermission_bits, options_.bit_rate);
   queue.pop();
+  if (queue.empty()) std::erase(waiting_, winner);
 }
 
 std::optional<BusEvent> SimulatedBus::deliver() {
@@ -194,8 +219,8 @@ std::optional<BusEvent> SimulatedBus::deliver() {
       drawn_.reset();
       participant->on_frame(done.frame, now_);
       reacting_ = false;
-      if (nodes_[i].participant != nullptr) nodes_[i].wakeup = participant->next_wakeup();
     }
+    wakeups_stale_ = true;
   }
   if (lost && !own) return std::nullopt;
   if (!dropped_at_harness_.empty() &&
@@ -229,38 +254,30 @@ Result<std::optional<BusEvent>> SimulatedBus::run_until(BusTime deadline) {
     return fail("the deadline lies beyond every real one", "simulated bus", "wait for a finite time");
   }
   deadline = std::max(deadline, now_);
-  refresh_wakeups();
+  wakeups_stale_ = true;  // participants may have been changed from outside
   for (std::uint64_t wakeups = 0;;) {
     if (error_) return std::unexpected(*error_);
+    if (wakeups_stale_) refresh_wakeups();
     // At one instant: scheduled faults, then the end of a frame, then timers, then the start of the next
     // frame, so that everything wanted by then takes part in its arbitration.
     const BusTime fault_at = scheduled_.empty() ? never : scheduled_.front().at;
     const BusTime end_at = in_flight_ ? in_flight_->end : never;
-    BusTime wake_at = never;
-    BusTime start_at = never;
-    std::size_t sleeper = 0;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const Node& node = nodes_[i];
-      if (node.wakeup && *node.wakeup < wake_at) {
-        wake_at = *node.wakeup;
-        sleeper = i;
-      }
-      if (!node.queue.empty()) start_at = std::min(start_at, node.queue.front().ready);
-    }
-    if (in_flight_) start_at = never;
+    const BusTime wake_at = wakeups_[first_sleeper_];
+    BusTime start_at = in_flight_ ? never : first_ready();
     if (start_at != never) start_at = std::max(start_at, bus_free_);
 
     const BusTime next = std::max(std::min({fault_at, end_at, wake_at, start_at}), now_);
     if (next > deadline) {
-      advance(deadline);
+      now_ = deadline;
       return std::nullopt;
     }
-    advance(next);
+    now_ = next;
     if (fault_at <= next) {
       if (auto event = apply_scheduled()) return event;
     } else if (end_at <= next) {
       if (auto event = deliver()) return event;
     } else if (wake_at <= next) {
+      const std::size_t sleeper = first_sleeper_;
       if (++wakeups > options_.silent_wakeups) {
         fault(nodes_[sleeper], "used up the budget of wake-ups while nothing happened on the bus");
       } else {

@@ -96,8 +96,8 @@ class SimulatedBus {
     Participant* participant = nullptr;  // nullptr: the harness, or unplugged
     std::string name;
     Queue queue;
-    std::optional<BusTime> wakeup;
-    std::uint32_t wakeups_now = 0;
+    BusTime last_wakeup{};
+    std::uint32_t wakeups_at_once = 0;
     std::uint64_t overruns = 0;
   };
   struct InFlight {
@@ -132,7 +132,9 @@ class SimulatedBus {
   void wake(std::size_t index);
   void refresh_wakeups();
   void fault(const Node& node, const std::string& what);
-  void advance(BusTime to);
+  void set_wakeup(std::size_t index);
+  void find_first_sleeper();
+  [[nodiscard]] BusTime first_ready() const;
   [[nodiscard]] Duration turnaround();
   [[nodiscard]] std::size_t index_of(const Participant& participant) const;
   void schedule(Scheduled item);
@@ -141,7 +143,11 @@ class SimulatedBus {
   std::uint64_t random_state_;
   BusTime now_{};
   BusTime bus_free_{};
-  std::vector<Node> nodes_;  // [0] is the harness
+  std::vector<Node> nodes_;           // [0] is the harness
+  std::vector<BusTime> wakeups_;      // per node, BusTime::max() for never
+  std::size_t first_sleeper_ = 0;     // the one that wakes up first
+  bool wakeups_stale_ = true;         // participants were called since next_wakeup() was asked
+  std::vector<std::size_t> waiting_;  // nodes whose queue is not empty, in no order
   std::optional<InFlight> in_flight_;
   bool reacting_ = false;             // inside a participant's on_frame()
   std::optional<Duration> drawn_;     // turnaround of the on_frame() call being made

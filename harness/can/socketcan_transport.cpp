@@ -28,6 +28,9 @@ namespace {
 
 constexpr std::size_t batch_size = 64;
 
+// How far behind the last clock read an own frame's stamp may lie before the clock is asked again.
+constexpr Duration fresh = std::chrono::milliseconds(100);
+
 std::string reason(int error) { return std::generic_category().message(error); }
 
 template <typename T>
@@ -241,6 +244,7 @@ Result<void> SocketCanTransport::send(const Frame& frame) {
         last_stamp_ = std::max(last_stamp_, handed_over);
         events_.push_back({frame, last_stamp_, Direction::transmitted});
       }
+      echo_expected_ = is_can_ && options_.receive_own;
       return {};
     }
     const int error = errno;
@@ -289,7 +293,7 @@ Result<void> SocketCanTransport::drain() {
     if (errno == EAGAIN || errno == EINTR) return {};
     return std::unexpected(fault(errno));
   }
-  const BusTime current = now();
+  std::optional<BusTime> current;  // read once, and only when needed
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     auto done = take(i, current);
     batch_->reset(i);
@@ -298,7 +302,7 @@ Result<void> SocketCanTransport::drain() {
   return {};
 }
 
-Result<void> SocketCanTransport::take(std::size_t index, BusTime now) {
+Result<void> SocketCanTransport::take(std::size_t index, std::optional<BusTime>& current) {
   mmsghdr& message = batch_->messages[index];
   const can_frame& raw = batch_->frames[index];
   if (message.msg_len == 0) return std::unexpected(fault(EPIPE));  // only a socket pair has an end
@@ -307,24 +311,34 @@ Result<void> SocketCanTransport::take(std::size_t index, BusTime now) {
     dead_ = Error{"what arrived is not a classical CAN frame", facts_.name, ""};
     return std::unexpected(*dead_);
   }
-  BusTime stamp = now;
+  const bool own = is_can_ && (message.msg_hdr.msg_flags & MSG_CONFIRM) != 0;
+  std::optional<std::int64_t> kernel_stamp;
   for (cmsghdr* part = CMSG_FIRSTHDR(&message.msg_hdr); part != nullptr;
        part = CMSG_NXTHDR(&message.msg_hdr, part)) {
     if (part->cmsg_level != SOL_SOCKET) continue;
     if (part->cmsg_type == SCM_TIMESTAMPNS) {
       timespec time{};
       std::memcpy(&time, CMSG_DATA(part), sizeof time);
-      stamp = clock_.convert(static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec,
-                             last_stamp_, now);
+      kernel_stamp = static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
     } else if (part->cmsg_type == SO_RXQ_OVFL) {
       std::memcpy(&overflow_count_, CMSG_DATA(part), sizeof overflow_count_);
     }
   }
-  last_stamp_ = std::max(last_stamp_, stamp);
+  const auto read_clock = [&] {
+    if (!current) current = now();
+    return *current;
+  };
+  if (!kernel_stamp) {
+    last_stamp_ = std::max(last_stamp_, read_clock());
+  } else if (const auto quick = clock_.convert_if_between(*kernel_stamp, last_stamp_, last_now_ + fresh);
+             own && quick) {
+    last_stamp_ = *quick;
+  } else {
+    last_stamp_ = clock_.convert(*kernel_stamp, last_stamp_, read_clock());
+  }
   const Frame frame = from_kernel(raw);
   if (frame.error) note_error_frame(frame);
-  const bool own = is_can_ && (message.msg_hdr.msg_flags & MSG_CONFIRM) != 0;
-  if (!own) health_.worst_lateness = std::max<Duration>(health_.worst_lateness, now - last_stamp_);
+  if (!own) health_.worst_lateness = std::max<Duration>(health_.worst_lateness, read_clock() - last_stamp_);
   events_.push_back({frame, last_stamp_, own ? Direction::transmitted : Direction::received});
   return {};
 }
@@ -348,9 +362,13 @@ Result<std::optional<BusEvent>> SocketCanTransport::receive(BusTime deadline) {
     }
     if (auto error = not_usable()) return std::unexpected(*error);
     if (last_look) return std::nullopt;
-    const auto more_time = wait_until(deadline);
-    if (!more_time) return std::unexpected(more_time.error());
-    last_look = !*more_time;
+    if (echo_expected_) {
+      echo_expected_ = false;  // most interfaces have it ready: look without asking poll() first
+    } else {
+      const auto more_time = wait_until(deadline);
+      if (!more_time) return std::unexpected(more_time.error());
+      last_look = !*more_time;
+    }
     // A fault behind good frames waits: dead_ and link_down_ report it when the frames have been handed out.
     if (auto done = drain(); !done && next_event_ == events_.size()) return std::unexpected(done.error());
   }

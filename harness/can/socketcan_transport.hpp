@@ -37,7 +37,7 @@ class SocketCanTransport final : public Transport {
       int fd, const std::string& name = "socketpair", const SocketCanOptions& options = {});
 
   ~SocketCanTransport() override;
-  [[nodiscard]] BusTime now() const override { return clock_.now(); }
+  [[nodiscard]] BusTime now() const override { return last_now_ = clock_.now(); }
   [[nodiscard]] Result<void> send(const Frame& frame) override;
   [[nodiscard]] Result<std::optional<BusEvent>> receive(BusTime deadline) override;
   [[nodiscard]] BusHealth health() override;
@@ -49,7 +49,7 @@ class SocketCanTransport final : public Transport {
   SocketCanTransport(Descriptor socket, InterfaceFacts facts, const SocketCanOptions& options, bool is_can);
   [[nodiscard]] Result<void> configure();
   [[nodiscard]] Result<void> drain();
-  [[nodiscard]] Result<void> take(std::size_t index, BusTime now);
+  [[nodiscard]] Result<void> take(std::size_t index, std::optional<BusTime>& current);
   void note_error_frame(const Frame& frame);
   [[nodiscard]] std::optional<Error> not_usable();
   [[nodiscard]] Error fault(int error);
@@ -68,6 +68,9 @@ class SocketCanTransport final : public Transport {
   std::vector<BusEvent> events_;  // read and not yet handed out; bounded by the batch
   std::size_t next_event_ = 0;
   BusTime last_stamp_{};
+  // Clock reads are system calls on some machines; the last one often is good enough to judge a stamp by.
+  mutable BusTime last_now_{};
+  bool echo_expected_ = false;  // something was sent, so a look at the socket is worth while before waiting
   BusHealth health_;
   std::uint32_t overflow_count_ = 0;        // SO_RXQ_OVFL as of the last frame
   std::uint64_t controller_overflows_ = 0;  // error frames that say so

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -120,6 +121,38 @@ int main(int argc, char** argv) {
       if (::write(fd, &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame) ||
           ::epoll_wait(poller, &event, 1, 1000) != 1 ||
           ::read(fd, &answer, sizeof answer) != static_cast<ssize_t>(sizeof answer)) {
+        die("a raw round trip failed");
+      }
+    });
+    ::close(poller);
+    ::close(fd);
+  }
+  {
+    // The same with what a verdict needs: time stamps and loss counters come as control messages.
+    const int fd = open_raw(name, answer_id);
+    const int on = 1;
+    ::setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+    ::setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+    const int poller = ::epoll_create1(0);
+    epoll_event wanted{};
+    wanted.events = EPOLLIN;
+    ::epoll_ctl(poller, EPOLL_CTL_ADD, fd, &wanted);
+    can_frame frame{};
+    frame.can_id = request_id;
+    frame.len = 8;
+    measure("raw epoll and recvmsg:", count, [&] {
+      can_frame answer{};
+      epoll_event event{};
+      alignas(cmsghdr) std::array<char, 128> control;
+      iovec vector{.iov_base = &answer, .iov_len = sizeof answer};
+      msghdr message{};
+      message.msg_iov = &vector;
+      message.msg_iovlen = 1;
+      message.msg_control = control.data();
+      message.msg_controllen = control.size();
+      if (::write(fd, &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame) ||
+          ::epoll_wait(poller, &event, 1, 1000) != 1 ||
+          ::recvmsg(fd, &message, 0) != static_cast<ssize_t>(sizeof answer)) {
         die("a raw round trip failed");
       }
     });

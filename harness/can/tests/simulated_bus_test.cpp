@@ -237,6 +237,40 @@ TEST_CASE("an unplugged participant neither hears nor says anything, not even th
   CHECK(silent_until(bus.transport(), zero + 3s));
 }
 
+TEST_CASE("unplugging the participant that would wake up first leaves the timers of the others alone") {
+  SimulatedBus bus;
+  ScriptedParticipant first;
+  ScriptedParticipant second;
+  first.wakeup = zero + 20ms;
+  second.wakeup = zero + 30ms;
+  second.when_time = [](ScriptedParticipant& self, BusTime) {
+    self.wakeup.reset();
+    self.send(sync_frame);
+  };
+  bus.attach(first);
+  bus.attach(second);
+  bus.unplug(first, zero + 10ms);
+  CHECK(must_receive(bus.transport(), zero + 1s).time > zero + 30ms);
+}
+
+TEST_CASE("a participant may be attached and unplugged from inside a callback") {
+  SimulatedBus bus;
+  ScriptedParticipant late;
+  ScriptedParticipant node;
+  node.wakeup = zero + 1ms;
+  node.when_time = [&](ScriptedParticipant& self, BusTime) {
+    self.wakeup.reset();
+    bus.attach(late);
+    late.send(sync_frame);
+    bus.unplug(self);
+    self.send(sync_frame);
+  };
+  bus.attach(node);
+  CHECK(must_receive(bus.transport(), zero + 1s).frame == sync_frame);
+  CHECK(late.attached_at == zero + 1ms);
+  CHECK(silent_until(bus.transport(), zero + 1s));
+}
+
 TEST_CASE("an injected error frame is delivered and counted") {
   SimulatedBus bus;
   bus.inject_error_frame(zero + 5ms, 0x04);
