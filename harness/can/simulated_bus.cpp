@@ -206,6 +206,7 @@ void SimulatedBus::start_frame() {
 }
 
 std::optional<BusEvent> SimulatedBus::deliver() {
+  CONFORM_CHECK(in_flight_.has_value());
   const InFlight done = *in_flight_;
   in_flight_.reset();
   ++frame_count_;
