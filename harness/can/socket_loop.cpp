@@ -58,12 +58,13 @@ Result<LoopStatistics> run_participant(Participant& participant, Transport& tran
       wakeup = participant.next_wakeup();
     }
     const BusTime deadline = std::min(wakeup.value_or(BusTime::max()), current + longest_wait);
-    const auto event = transport.receive(deadline);
-    if (!event) return std::unexpected(event.error());
-    if (!*event || (*event)->direction == Direction::transmitted || (*event)->frame.error) continue;
-    current = std::max(current, (*event)->time);
+    const auto received = transport.receive(deadline);
+    if (!received) return std::unexpected(received.error());
+    const std::optional<BusEvent>& event = *received;
+    if (!event || event->direction == Direction::transmitted || event->frame.error) continue;
+    current = std::max(current, event->time);
     ++statistics.received;
-    participant.on_frame((*event)->frame, current);
+    participant.on_frame(event->frame, current);
   }
   return statistics;
 }
