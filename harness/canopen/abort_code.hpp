@@ -21,8 +21,8 @@ inline constexpr AbortCode sequence_number{0x0504'0003};
 inline constexpr AbortCode crc{0x0504'0004};
 inline constexpr AbortCode out_of_memory{0x0504'0005};
 inline constexpr AbortCode unsupported_access{0x0601'0000};
-inline constexpr AbortCode write_only{0x0601'0001};   ///< attempt to read a write-only entry
-inline constexpr AbortCode read_only{0x0601'0002};    ///< attempt to write a read-only entry
+inline constexpr AbortCode write_only{0x0601'0001};  ///< attempt to read a write-only entry
+inline constexpr AbortCode read_only{0x0601'0002};   ///< attempt to write a read-only entry
 inline constexpr AbortCode no_object{0x0602'0000};
 inline constexpr AbortCode not_mappable{0x0604'0041};
 inline constexpr AbortCode pdo_length{0x0604'0042};

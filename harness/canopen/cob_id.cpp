@@ -20,7 +20,9 @@ constexpr std::array<CanIdRange, 8> ranges{{
     {0x780, 0x7FF, "reserved"},
 }};
 
-constexpr bool within(std::uint16_t index, std::uint16_t first, std::uint16_t last) { return index >= first && index <= last; }
+constexpr bool within(std::uint16_t index, std::uint16_t first, std::uint16_t last) {
+  return index >= first && index <= last;
+}
 
 }  // namespace
 
@@ -77,7 +79,8 @@ ConnectionSet connection_set(NodeId node) {
 std::span<const CanIdRange> restricted_ranges() { return ranges; }
 
 bool is_restricted(CanId id) {
-  return std::ranges::any_of(ranges, [&](const CanIdRange& range) { return id.value() >= range.first && id.value() <= range.last; });
+  return std::ranges::any_of(
+      ranges, [&](const CanIdRange& range) { return id.value() >= range.first && id.value() <= range.last; });
 }
 
 }  // namespace conform::canopen

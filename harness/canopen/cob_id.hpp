@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// COB-ID entries, the pre-defined connection set (CiA 301, 7.3.3) and the restricted CAN-IDs (7.3.5, table 40).
+// COB-ID entries, the pre-defined connection set (CiA 301, 7.3.3) and the restricted CAN-IDs (7.3.5, table
+// 40).
 //
 // Bits of the entries:       31                  30                 29      28..0
 //   1005h SYNC               reserved            1: generates SYNC  frame   CAN-ID
@@ -38,10 +39,11 @@ enum class CobIdKind : std::uint8_t { sync, time, emcy, emcy_consumer, sdo, rpdo
 [[nodiscard]] bool is_extended(CobId value);
 /// The bits that lock bits 0-29: bit 31 for most, bit 30 for SYNC, both for TIME.
 [[nodiscard]] std::uint32_t control_mask(CobIdKind kind);
-/// Whether the service works with this value, so that its CAN-ID must not change: bit 31 = 0 for most, bit 30 = 1 for
-/// SYNC, bit 30 or 31 = 1 for TIME.
+/// Whether the service works with this value, so that its CAN-ID must not change: bit 31 = 0 for most, bit 30
+/// = 1 for SYNC, bit 30 or 31 = 1 for TIME.
 [[nodiscard]] bool is_active(CobIdKind kind, CobId value);
-/// `value` with the service switched off, everything else kept: the first of the three writes that change a COB-ID.
+/// `value` with the service switched off, everything else kept: the first of the three writes that change a
+/// COB-ID.
 [[nodiscard]] CobId deactivated(CobIdKind kind, CobId value);
 
 /// CAN-IDs of the pre-defined connection set for one node.

@@ -14,7 +14,16 @@
 namespace conform::canopen {
 namespace {
 
-enum class Class : std::uint8_t { boolean, signed_integer, unsigned_integer, real, visible, octets, unicode, raw };
+enum class Class : std::uint8_t {
+  boolean,
+  signed_integer,
+  unsigned_integer,
+  real,
+  visible,
+  octets,
+  unicode,
+  raw
+};
 
 struct Row {
   DataType type;
@@ -55,10 +64,12 @@ static_assert(std::ranges::is_sorted(rows, {}, &Row::type));
 const Row& row_of(DataType type) { return *std::ranges::lower_bound(rows, type, {}, &Row::type); }
 
 std::unexpected<Error> not_a(DataType type, std::string_view literal, std::string hint) {
-  return fail(fmt::format("'{}' is not a value of {}", printable(literal), to_string(type)), {}, std::move(hint));
+  return fail(fmt::format("'{}' is not a value of {}", printable(literal), to_string(type)), {},
+              std::move(hint));
 }
 
-/// The value of a sign and one of our number forms as 64-bit two's complement; nullopt when it is none, or below -2^63.
+/// The value of a sign and one of our number forms as 64-bit two's complement; nullopt when it is none, or
+/// below -2^63.
 std::optional<std::uint64_t> parse_signed(std::string_view literal) {
   const bool negative = literal.starts_with('-');
   const auto magnitude = parse_number(negative ? literal.substr(1) : literal);
@@ -77,7 +88,8 @@ Result<Bytes> encode_real(DataType type, std::string_view literal) {
   // Parsed again as float: a detour over double could round twice.
   float narrow = 0;
   const auto parsed = std::from_chars(literal.data(), literal.data() + literal.size(), narrow);
-  if (parsed.ec != std::errc{} || !std::isfinite(narrow)) return not_a(type, literal, "out of the range of REAL32");
+  if (parsed.ec != std::errc{} || !std::isfinite(narrow))
+    return not_a(type, literal, "out of the range of REAL32");
   return to_le(std::bit_cast<std::uint32_t>(narrow), 4);
 }
 
@@ -89,7 +101,8 @@ std::size_t utf8_length(unsigned char lead) {
   return lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
 }
 
-/// UTF-8 to UTF-16 little endian (UNICODE_STRING is an array of UNSIGNED16, 7.1.4.6); nullopt for invalid UTF-8.
+/// UTF-8 to UTF-16 little endian (UNICODE_STRING is an array of UNSIGNED16, 7.1.4.6); nullopt for invalid
+/// UTF-8.
 std::optional<Bytes> utf16_of(std::string_view text) {
   Bytes out;
   const auto put = [&](std::uint32_t unit) {
@@ -170,7 +183,8 @@ std::string quoted(std::string_view text, std::size_t total) {
   return fmt::format("\"{}\" .. ({})", printable(text.substr(0, max_printed * 4)), count_of(total));
 }
 
-/// Hexadecimal with all digits of the type, in groups of four where that divides evenly: what parse_number reads back.
+/// Hexadecimal with all digits of the type, in groups of four where that divides evenly: what parse_number
+/// reads back.
 std::string print_unsigned(std::uint64_t value, std::size_t size) {
   const std::string digits = fmt::format("{:0{}X}", value, size * 2);
   std::string out;
@@ -235,18 +249,15 @@ Result<Bytes> encode(DataType type, std::string_view literal) {
       if (!value || wrapped) return not_a(type, literal, "write a number such as -5, 17 or 11h");
       return encode_integer(type, *value);
     }
-    case Class::real:
-      return encode_real(type, literal);
-    case Class::visible:
-      return Bytes(literal.begin(), literal.end());
+    case Class::real: return encode_real(type, literal);
+    case Class::visible: return Bytes(literal.begin(), literal.end());
     case Class::unicode: {
       auto units = utf16_of(literal);
       if (!units) return not_a(type, literal, "the text is not valid UTF-8");
       return *std::move(units);
     }
     case Class::octets:
-    case Class::raw:
-      break;
+    case Class::raw: break;
   }
   auto bytes = parse_bytes(literal);
   if (!bytes) return not_a(type, literal, "write bytes such as 4F 6B");
@@ -265,7 +276,8 @@ Result<Bytes> encode_integer(DataType type, std::uint64_t value) {
       break;
     case Class::unsigned_integer:
       if (bits < 64 && value >> bits != 0) {
-        return fail(fmt::format("{} is out of the range 0..{} of {}", value, (std::uint64_t{1} << bits) - 1, row.name));
+        return fail(fmt::format("{} is out of the range 0..{} of {}", value, (std::uint64_t{1} << bits) - 1,
+                                row.name));
       }
       break;
     case Class::signed_integer: {
@@ -276,8 +288,7 @@ Result<Bytes> encode_integer(DataType type, std::uint64_t value) {
       }
       break;
     }
-    default:
-      return fail(fmt::format("{} does not hold a number", row.name));
+    default: return fail(fmt::format("{} does not hold a number", row.name));
   }
   return to_le(value, row.size);
 }
@@ -287,26 +298,25 @@ std::string print(DataType type, ByteView bytes) {
   if (row.size != 0 && bytes.size() != row.size) {
     const std::string remark = fmt::format("({}, {} has {})", count_of(bytes.size()), row.name, row.size);
     if (bytes.empty()) return remark;
-    return hex_bytes(bytes.first(std::min(bytes.size(), max_printed))) + (bytes.size() > max_printed ? " .. " : " ") + remark;
+    return hex_bytes(bytes.first(std::min(bytes.size(), max_printed))) +
+           (bytes.size() > max_printed ? " .. " : " ") + remark;
   }
   switch (row.kind) {
     case Class::boolean:
       return bytes[0] == 0 ? "false" : bytes[0] == 1 ? "true" : print_unsigned(bytes[0], 1);
     case Class::signed_integer:
       return fmt::format("{}", static_cast<std::int64_t>(sign_extended(load_le(bytes), row.size)));
-    case Class::unsigned_integer:
-      return print_unsigned(load_le(bytes), row.size);
+    case Class::unsigned_integer: return print_unsigned(load_le(bytes), row.size);
     case Class::real:
-      if (row.size == 4) return fmt::format("{}", std::bit_cast<float>(static_cast<std::uint32_t>(load_le(bytes))));
+      if (row.size == 4)
+        return fmt::format("{}", std::bit_cast<float>(static_cast<std::uint32_t>(load_le(bytes))));
       return fmt::format("{}", std::bit_cast<double>(load_le(bytes)));
-    case Class::visible:
-      return quoted(std::string(bytes.begin(), bytes.end()), bytes.size());
+    case Class::visible: return quoted(std::string(bytes.begin(), bytes.end()), bytes.size());
     case Class::unicode:
       if (bytes.size() % 2 != 0) return clipped_bytes(bytes) + " (odd number of bytes)";
       return quoted(utf8_of(bytes), bytes.size());
     case Class::octets:
-    case Class::raw:
-      break;
+    case Class::raw: break;
   }
   return bytes.empty() ? "(no bytes)" : clipped_bytes(bytes);
 }

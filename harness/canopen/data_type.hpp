@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The basic data types of CiA 301 (7.1.4, 7.4.7; indices 0001h-001Bh): sizes, literals to wire bytes and back to our notation.
+// The basic data types of CiA 301 (7.1.4, 7.4.7; indices 0001h-001Bh): sizes, literals to wire bytes and back
+// to our notation.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@
 
 namespace conform::canopen {
 
-/// The value is the index of the type in the object dictionary (table 44). The holes 0Ch-0Eh have wire formats of
-/// their own (TIME_OF_DAY, TIME_DIFFERENCE) or are reserved (0Eh, 17h).
+/// The value is the index of the type in the object dictionary (table 44). The holes 0Ch-0Eh have wire
+/// formats of their own (TIME_OF_DAY, TIME_DIFFERENCE) or are reserved (0Eh, 17h).
 enum class DataType : std::uint16_t {
   boolean = 0x01,
   integer8 = 0x02,
@@ -58,16 +59,18 @@ enum class DataType : std::uint16_t {
 /// VISIBLE_STRING, OCTET_STRING, UNICODE_STRING.
 [[nodiscard]] bool is_string(DataType type);
 
-/// A literal of a scenario or profile as wire bytes: numbers as in conform::parse_number (INTEGERn also "-5"), BOOLEAN "0", "1",
-/// "false", "true", REAL as decimal number, VISIBLE_STRING and UNICODE_STRING as the text itself (UTF-8), OCTET_STRING, DOMAIN and the
-/// time types as bytes "4F 6B".
+/// A literal of a scenario or profile as wire bytes: numbers as in conform::parse_number (INTEGERn also
+/// "-5"), BOOLEAN "0", "1", "false", "true", REAL as decimal number, VISIBLE_STRING and UNICODE_STRING as the
+/// text itself (UTF-8), OCTET_STRING, DOMAIN and the time types as bytes "4F 6B".
 [[nodiscard]] Result<Bytes> encode(DataType type, std::string_view literal);
-/// A number as wire bytes. For INTEGERn `value` is either non-negative and in range, or a negative number as 64-bit two's complement.
-/// BOOLEAN takes 0 and 1. Fails for types that are not numbers of up to 64 bits, and for values out of range.
+/// A number as wire bytes. For INTEGERn `value` is either non-negative and in range, or a negative number as
+/// 64-bit two's complement. BOOLEAN takes 0 and 1. Fails for types that are not numbers of up to 64 bits, and
+/// for values out of range.
 [[nodiscard]] Result<Bytes> encode_integer(DataType type, std::uint64_t value);
 
-/// Wire bytes in our notation: "05h", "01F4h", "0000 0191h", "-5", "true", "1.5", "\"text\"", "4F 6B". Bytes whose number
-/// does not fit the type are printed as bytes with a remark: "91 01 (2 bytes, UNSIGNED32 has 4)".
+/// Wire bytes in our notation: "05h", "01F4h", "0000 0191h", "-5", "true", "1.5", "\"text\"", "4F 6B". Bytes
+/// whose number does not fit the type are printed as bytes with a remark: "91 01 (2 bytes, UNSIGNED32 has
+/// 4)".
 [[nodiscard]] std::string print(DataType type, ByteView bytes);
 /// Bytes of unknown type: "91 01 00 00 (4 bytes)"; "(no bytes)".
 [[nodiscard]] std::string print_untyped(ByteView bytes);

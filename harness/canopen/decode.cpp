@@ -14,7 +14,8 @@ namespace {
 std::string nmt_text(const can::Frame& frame) {
   if (frame.dlc != 2) return fmt::format("NMT command with DLC {} instead of 2", frame.dlc);
   const auto command = nmt_command_at(frame.data[0]);
-  const std::string words = command ? std::string(to_string(*command)) : fmt::format("command {}", hex(frame.data[0], 2));
+  const std::string words =
+      command ? std::string(to_string(*command)) : fmt::format("command {}", hex(frame.data[0], 2));
   const std::string target = frame.data[1] == 0 ? "all nodes" : fmt::format("node {}", frame.data[1]);
   return fmt::format("NMT {} -> {}", words, target);
 }
@@ -49,7 +50,8 @@ std::string sync_text(const can::Frame& frame) {
 }
 
 std::string lss_text(std::string_view direction, const can::Frame& frame) {
-  return fmt::format("LSS {} {}", direction, frame.size() > 0 ? hex(frame.data[0], 2) : std::string("without data"));
+  return fmt::format("LSS {} {}", direction,
+                     frame.size() > 0 ? hex(frame.data[0], 2) : std::string("without data"));
 }
 
 int number_of(const std::map<int, CanId>& pdos, CanId id) {
@@ -91,7 +93,8 @@ void Decoder::set_rpdo_can_id(int number, std::optional<CanId> id) { assign(rpdo
 std::string Decoder::remote(CanId id) const {
   const std::uint32_t value = id.value();
   if (value > 0x700 && value <= 0x77F) return fmt::format("guarding request to node {}", value - 0x700);
-  if (const int number = number_of(tpdo_, id); number != 0) return fmt::format("remote request for TPDO {}", number);
+  if (const int number = number_of(tpdo_, id); number != 0)
+    return fmt::format("remote request for TPDO {}", number);
   return fmt::format("remote frame {}", to_string(id));
 }
 
@@ -121,7 +124,8 @@ std::string Decoder::meaning(const can::Frame& frame, can::Direction direction) 
   if (id == sync_) return sync_text(frame);
   if (id == time_) return frame.dlc == 6 ? "TIME" : fmt::format("TIME with DLC {} instead of 6", frame.dlc);
   if (const int number = number_of(rpdo_, id); number != 0) return fmt::format("RPDO {}", number);
-  if (value > 0x700 && value <= 0x77F) return error_control_text(frame, NodeId{static_cast<std::uint8_t>(value - 0x700)});
+  if (value > 0x700 && value <= 0x77F)
+    return error_control_text(frame, NodeId{static_cast<std::uint8_t>(value - 0x700)});
   if (id == lss_request_can_id) return lss_text("request", frame);
   if (id == lss_response_can_id) return lss_text("response", frame);
   return fmt::format("CAN-ID {}", to_string(id));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame means, in the words of the console and of capture comments, seen from the bus of one device under test.
+// What a frame means, in the words of the console and of capture comments, seen from the bus of one device
+// under test.
 #pragma once
 
 #include <map>
@@ -18,8 +19,9 @@ class Decoder {
  public:
   explicit Decoder(NodeId node);
 
-  /// "SDO upload request 1003h:00", "heartbeat of node 5: pre-operational", "TPDO 1", "CAN-ID 6A0h"; never empty. `direction` is
-  /// seen from the harness: what it sends with an identifier of the device is named as such.
+  /// "SDO upload request 1003h:00", "heartbeat of node 5: pre-operational", "TPDO 1", "CAN-ID 6A0h"; never
+  /// empty. `direction` is seen from the harness: what it sends with an identifier of the device is named as
+  /// such.
   [[nodiscard]] std::string meaning(const can::Frame& frame, can::Direction direction);
 
   /// COB-IDs that were moved away from the pre-defined connection set; nullopt: the service is switched off.

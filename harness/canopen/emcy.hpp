@@ -22,7 +22,8 @@ struct Emcy {
 /// Exactly eight bytes, else nullopt.
 [[nodiscard]] std::optional<Emcy> decode_emcy(ByteView bytes);
 [[nodiscard]] std::array<std::uint8_t, 8> encode(const Emcy& emcy);
-/// The class (tables 26 and 27) in a few words, the most specific one known: "heartbeat or life guarding", "voltage", "device specific"; "" when reserved.
+/// The class (tables 26 and 27) in a few words, the most specific one known: "heartbeat or life guarding",
+/// "voltage", "device specific"; "" when reserved.
 [[nodiscard]] std::string_view emcy_class(std::uint16_t code);
 /// "8130h (heartbeat or life guarding)"
 [[nodiscard]] std::string describe_emcy_code(std::uint16_t code);

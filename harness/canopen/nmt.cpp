@@ -33,14 +33,16 @@ std::string_view name_in(const Table& table, Value value) {
 }
 
 template <typename Table>
-auto value_in(const Table& table, std::string_view word) -> std::optional<typename Table::value_type::first_type> {
+auto value_in(const Table& table, std::string_view word)
+    -> std::optional<typename Table::value_type::first_type> {
   const auto found = std::ranges::find(table, word, &Table::value_type::second);
   if (found == table.end()) return std::nullopt;
   return found->first;
 }
 
 template <typename Table>
-auto defined_in(const Table& table, std::uint8_t code) -> std::optional<typename Table::value_type::first_type> {
+auto defined_in(const Table& table, std::uint8_t code)
+    -> std::optional<typename Table::value_type::first_type> {
   for (const auto& row : table) {
     if (static_cast<std::uint8_t>(row.first) == code) return row.first;
   }

@@ -39,7 +39,8 @@ enum class NmtState : std::uint8_t {
 [[nodiscard]] std::optional<NmtState> parse_nmt_state(std::string_view word);
 [[nodiscard]] std::optional<NmtState> nmt_state_at(std::uint8_t code);
 
-/// The command for one node, which must not be 0: a command for all nodes needs encode_broadcast, so that it cannot happen by mistake.
+/// The command for one node, which must not be 0: a command for all nodes needs encode_broadcast, so that it
+/// cannot happen by mistake.
 [[nodiscard]] can::Frame encode(NmtCommand command, NodeId node);
 [[nodiscard]] can::Frame encode_broadcast(NmtCommand command);
 /// A heartbeat of `node` as the harness produces it.
@@ -47,13 +48,14 @@ enum class NmtState : std::uint8_t {
 
 /// One byte on 700h + node-ID: boot-up message, heartbeat or guarding response.
 struct ErrorControl {
-  std::uint8_t code = 0;             ///< bits 0-6: the state as sent, legal or not
-  bool toggle = false;               ///< bit 7: toggle bit of guarding, reserved in heartbeats
-  std::optional<NmtState> state;     ///< the state, when `code` is one of the defined
+  std::uint8_t code = 0;          ///< bits 0-6: the state as sent, legal or not
+  bool toggle = false;            ///< bit 7: toggle bit of guarding, reserved in heartbeats
+  std::optional<NmtState> state;  ///< the state, when `code` is one of the defined
   [[nodiscard]] bool is_boot_up() const { return code == 0 && !toggle; }
 };
 
-/// Decodes any data frame on 700h + `node` with at least one byte; nullopt for others. Check `dlc` apart: 1 is legal.
+/// Decodes any data frame on 700h + `node` with at least one byte; nullopt for others. Check `dlc` apart: 1
+/// is legal.
 [[nodiscard]] std::optional<ErrorControl> decode_error_control(const can::Frame& frame, NodeId node);
 
 }  // namespace conform::canopen

@@ -40,8 +40,9 @@ SdoBytes encode_upload_request(Multiplexer mux) { return message(0x40, mux); }
 
 SdoBytes encode_download_expedited(Multiplexer mux, ByteView data, bool size_indicated) {
   CONFORM_CHECK(!data.empty() && data.size() <= 4);
-  const auto unused = static_cast<std::uint8_t>(4 - data.size());
-  SdoBytes bytes = message(size_indicated ? static_cast<std::uint8_t>(0x23U | unused << 2U) : std::uint8_t{0x22}, mux);
+  const auto unused = static_cast<unsigned>(4 - data.size());
+  SdoBytes bytes =
+      message(size_indicated ? static_cast<std::uint8_t>(0x23U | unused << 2U) : std::uint8_t{0x22}, mux);
   std::ranges::copy(data, bytes.begin() + 4);
   return bytes;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO initiate and abort messages (CiA 301, 7.2.4.3.3, 7.2.4.3.5, 7.2.4.3.17): eight bytes, the command in byte 0,
-// the multiplexer in bytes 1-3 (index little endian, sub-index), data or size in bytes 4-7.
+// SDO initiate and abort messages (CiA 301, 7.2.4.3.3, 7.2.4.3.5, 7.2.4.3.17): eight bytes, the command in
+// byte 0, the multiplexer in bytes 1-3 (index little endian, sub-index), data or size in bytes 4-7.
 #pragma once
 
 #include <array>
@@ -36,7 +36,9 @@ struct Initiate {
   std::uint32_t value = 0;      ///< bytes 4-7: data or size
 
   /// Number of data bytes of an expedited transfer (4 when the size is not indicated).
-  [[nodiscard]] std::size_t expedited_size() const { return size_indicated ? std::size_t{4} - unused : std::size_t{4}; }
+  [[nodiscard]] std::size_t expedited_size() const {
+    return size_indicated ? std::size_t{4} - unused : std::size_t{4};
+  }
 };
 
 struct Abort {

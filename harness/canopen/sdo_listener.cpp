@@ -20,16 +20,19 @@ std::string content(const Initiate& initiate, ByteView bytes) {
     if (!initiate.size_indicated) return fmt::format(" = {} (size not told)", hex_bytes(bytes.subspan(4)));
     return fmt::format(" = {}", print_untyped(bytes.subspan(4, initiate.expedited_size())));
   }
-  return initiate.size_indicated ? fmt::format(", segmented, {}", count_of(initiate.value)) : ", segmented, size not told";
+  return initiate.size_indicated ? fmt::format(", segmented, {}", count_of(initiate.value))
+                                 : ", segmented, size not told";
 }
 
 std::string segment_text(const Segment& segment) {
-  return fmt::format(", toggle {}, {}{}", segment.toggle ? 1 : 0, count_of(segment.size()), segment.last ? ", last" : "");
+  return fmt::format(", toggle {}, {}{}", segment.toggle ? 1 : 0, count_of(segment.size()),
+                     segment.last ? ", last" : "");
 }
 
 /// Size in bytes 4-7 of a block initiate.
 std::string block_size_text(ByteView bytes) {
-  return (bytes[0] & 0x02U) != 0 ? fmt::format(", {}", count_of(load_le(bytes.subspan(4, 4)))) : ", size not told";
+  return (bytes[0] & 0x02U) != 0 ? fmt::format(", {}", count_of(load_le(bytes.subspan(4, 4))))
+                                 : ", size not told";
 }
 
 std::string unknown(std::string_view direction, ByteView bytes) {
@@ -38,7 +41,9 @@ std::string unknown(std::string_view direction, ByteView bytes) {
 
 }  // namespace
 
-std::string SdoListener::object() const { return open_ ? fmt::format(" {}", to_string(*open_)) : std::string(); }
+std::string SdoListener::object() const {
+  return open_ ? fmt::format(" {}", to_string(*open_)) : std::string();
+}
 
 std::string SdoListener::abort(ByteView bytes) {
   const auto found = decode_abort(bytes);
@@ -67,19 +72,14 @@ std::string SdoListener::request(ByteView bytes) {
       open_ = initiate->mux;
       return fmt::format("SDO download request{}{}", object(), content(*initiate, bytes));
     }
-    case 2:
-      open_ = sdo_multiplexer(bytes);
-      return fmt::format("SDO upload request{}", object());
+    case 2: open_ = sdo_multiplexer(bytes); return fmt::format("SDO upload request{}", object());
     case 3:
-      return fmt::format("SDO upload segment request{}, toggle {}", object(), (bytes[0] & 0x10U) != 0 ? 1 : 0);
-    case 4:
-      return abort(bytes);
-    case 5:
-      return block_request_of_upload(bytes);
-    case 6:
-      return block_request_of_download(bytes);
-    default:
-      return unknown("request", bytes);
+      return fmt::format("SDO upload segment request{}, toggle {}", object(),
+                         (bytes[0] & 0x10U) != 0 ? 1 : 0);
+    case 4: return abort(bytes);
+    case 5: return block_request_of_upload(bytes);
+    case 6: return block_request_of_download(bytes);
+    default: return unknown("request", bytes);
   }
 }
 
@@ -95,7 +95,8 @@ std::string SdoListener::response(ByteView bytes) {
       return text;
     }
     case 1:
-      return fmt::format("SDO download segment response{}, toggle {}", object(), (bytes[0] & 0x10U) != 0 ? 1 : 0);
+      return fmt::format("SDO download segment response{}, toggle {}", object(),
+                         (bytes[0] & 0x10U) != 0 ? 1 : 0);
     case 2: {
       const auto initiate = decode_upload_response(bytes);
       open_ = initiate->mux;
@@ -106,14 +107,10 @@ std::string SdoListener::response(ByteView bytes) {
     case 3:
       // The multiplexer as the server says it; a segmented download stays open, so it is kept.
       return fmt::format("SDO download response {}", to_string(sdo_multiplexer(bytes)));
-    case 4:
-      return abort(bytes);
-    case 5:
-      return block_response_of_download(bytes);
-    case 6:
-      return block_response_of_upload(bytes);
-    default:
-      return unknown("response", bytes);
+    case 4: return abort(bytes);
+    case 5: return block_response_of_download(bytes);
+    case 6: return block_response_of_upload(bytes);
+    default: return unknown("response", bytes);
   }
 }
 
@@ -129,10 +126,12 @@ std::string SdoListener::block_request_of_upload(ByteView bytes) {
       return text;
     }
     case 2:
-      // The last segment acknowledged ends the data; anything less makes the server go on after the acknowledged one.
+      // The last segment acknowledged ends the data; anything less makes the server go on after the
+      // acknowledged one.
       phase_ = last_seen_ && bytes[1] == last_number_ ? Phase::other : Phase::block_upload;
       last_seen_ = false;
-      return fmt::format("SDO block upload{}: segments up to {} received, {} in the next block", object(), bytes[1], bytes[2]);
+      return fmt::format("SDO block upload{}: segments up to {} received, {} in the next block", object(),
+                         bytes[1], bytes[2]);
     default:
       phase_ = Phase::block_upload;
       last_seen_ = false;
@@ -140,19 +139,23 @@ std::string SdoListener::block_request_of_upload(ByteView bytes) {
   }
 }
 
-// Server commands of a block upload: C0 initiate (bit 2: CRC, bit 1: size), C1 | n<<2 end with CRC in bytes 1-2.
+// Server commands of a block upload: C0 initiate (bit 2: CRC, bit 1: size), C1 | n<<2 end with CRC in bytes
+// 1-2.
 std::string SdoListener::block_response_of_upload(ByteView bytes) {
   if ((bytes[0] & 0x01U) != 0) {
-    return fmt::format("SDO block upload end{}, {} unused in the last segment", object(), count_of(bytes[0] >> 2U & 0x07U));
+    return fmt::format("SDO block upload end{}, {} unused in the last segment", object(),
+                       count_of(bytes[0] >> 2U & 0x07U));
   }
   open_ = sdo_multiplexer(bytes);
   return fmt::format("SDO block upload response{}{}", object(), block_size_text(bytes));
 }
 
-// Client commands of a block download: C0 initiate (bit 2: CRC, bit 1: size), C1 | n<<2 end with CRC in bytes 1-2.
+// Client commands of a block download: C0 initiate (bit 2: CRC, bit 1: size), C1 | n<<2 end with CRC in bytes
+// 1-2.
 std::string SdoListener::block_request_of_download(ByteView bytes) {
   if ((bytes[0] & 0x01U) != 0) {
-    return fmt::format("SDO block download end{}, {} unused in the last segment", object(), count_of(bytes[0] >> 2U & 0x07U));
+    return fmt::format("SDO block download end{}, {} unused in the last segment", object(),
+                       count_of(bytes[0] >> 2U & 0x07U));
   }
   open_ = sdo_multiplexer(bytes);
   return fmt::format("SDO block download request{}{}", object(), block_size_text(bytes));
@@ -174,9 +177,9 @@ std::string SdoListener::block_response_of_download(ByteView bytes) {
     case 2:
       phase_ = last_seen_ && bytes[1] == last_number_ ? Phase::other : Phase::block_download;
       last_seen_ = false;
-      return fmt::format("SDO block download{}: segments up to {} received, {} in the next block", object(), bytes[1], bytes[2]);
-    default:
-      return unknown("response", bytes);
+      return fmt::format("SDO block download{}: segments up to {} received, {} in the next block", object(),
+                         bytes[1], bytes[2]);
+    default: return unknown("response", bytes);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names the frames of one SDO channel as a listener sees them. Segments of block transfers look like any other command, so that the
-// open transfer has to be followed.
+// Names the frames of one SDO channel as a listener sees them. Segments of block transfers look like any
+// other command, so that the open transfer has to be followed.
 #pragma once
 
 #include <cstdint>

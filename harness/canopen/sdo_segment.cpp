@@ -8,7 +8,7 @@
 namespace conform::canopen {
 namespace {
 
-constexpr std::uint8_t toggle_bit(bool toggle) { return toggle ? 0x10 : 0x00; }
+constexpr unsigned toggle_bit(bool toggle) { return toggle ? 0x10U : 0x00U; }
 
 }  // namespace
 
@@ -21,7 +21,7 @@ SdoBytes encode_upload_segment_request(bool toggle) {
 SdoBytes encode_download_segment_request(bool toggle, ByteView data, bool last) {
   CONFORM_CHECK(data.size() <= 7);
   SdoBytes bytes{};
-  const auto unused = static_cast<std::uint8_t>(7 - data.size());
+  const auto unused = static_cast<unsigned>(7 - data.size());
   bytes[0] = static_cast<std::uint8_t>(toggle_bit(toggle) | unused << 1U | (last ? 1U : 0U));
   std::ranges::copy(data, bytes.begin() + 1);
   return bytes;
@@ -39,7 +39,8 @@ std::optional<Segment> decode_segment(ByteView bytes) {
 
 std::optional<SegmentAck> decode_download_segment_response(ByteView bytes) {
   if (bytes.size() < 8 || bytes[0] >> 5U != 1) return std::nullopt;
-  const bool bytes_set = std::ranges::any_of(bytes.subspan(1, 7), [](std::uint8_t byte) { return byte != 0; });
+  const bool bytes_set =
+      std::ranges::any_of(bytes.subspan(1, 7), [](std::uint8_t byte) { return byte != 0; });
   return SegmentAck{.toggle = (bytes[0] & 0x10U) != 0, .reserved_set = bytes_set || (bytes[0] & 0x0FU) != 0};
 }
 

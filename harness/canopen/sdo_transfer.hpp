@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Client side of one SDO transfer, expedited or segmented, as a passive object: it is handed the server's frames and says
-// what to send next or how it ended. No I/O, no clock: a time-out is the caller's (it sends encode_abort(timed_out)).
+// Client side of one SDO transfer, expedited or segmented, as a passive object: it is handed the server's
+// frames and says what to send next or how it ended. No I/O, no clock: a time-out is the caller's (it sends
+// encode_abort(timed_out)).
 #pragma once
 
 #include <cstddef>
@@ -23,14 +24,17 @@ struct TransferResult {
     violation,  ///< the server broke the protocol, see `detail`
   };
   Kind kind = Kind::confirmed;
-  Bytes data;                   ///< upload: what was received, also when the transfer ended badly
+  Bytes data;  ///< upload: what was received, also when the transfer ended badly
   bool expedited = false;
   bool size_indicated = false;  ///< the server told the size (upload)
-  std::optional<std::uint32_t> announced_size;  ///< size of the initiate response of a segmented upload, or of an expedited one
+  std::optional<std::uint32_t>
+      announced_size;  ///< size of the initiate response of a segmented upload, or of an expedited one
   AbortCode code{};
-  std::string detail;              ///< violation: one precise sentence without full stop
-  std::optional<AbortCode> reply;  ///< abort that the client should send now, as CiA 301 has it; none when the channel is closed
-  std::vector<std::string> remarks;  ///< reserved or unused bits and bytes that were not zero; they do not end a transfer
+  std::string detail;  ///< violation: one precise sentence without full stop
+  std::optional<AbortCode>
+      reply;  ///< abort that the client should send now, as CiA 301 has it; none when the channel is closed
+  std::vector<std::string>
+      remarks;  ///< reserved or unused bits and bytes that were not zero; they do not end a transfer
 };
 
 /// Next request, or the end.
@@ -65,11 +69,11 @@ class SdoUpload {
 class SdoDownload {
  public:
   enum class Mode : std::uint8_t {
-    automatic,           ///< expedited with size for 1..4 bytes, else segmented with size
-    expedited,           ///< 1..4 bytes with size
-    expedited_unsized,   ///< 1..4 bytes without size (22h)
-    segmented,           ///< any length, also 0..4 bytes, with size
-    segmented_unsized,   ///< without size (20h)
+    automatic,          ///< expedited with size for 1..4 bytes, else segmented with size
+    expedited,          ///< 1..4 bytes with size
+    expedited_unsized,  ///< 1..4 bytes without size (22h)
+    segmented,          ///< any length, also 0..4 bytes, with size
+    segmented_unsized,  ///< without size (20h)
   };
   SdoDownload(Multiplexer mux, Bytes data, Mode mode = Mode::automatic);
   [[nodiscard]] SdoBytes first_request() const;

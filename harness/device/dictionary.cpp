@@ -34,7 +34,8 @@ std::string_view word_of(const Table& table, Value value) {
 }
 
 template <typename Table>
-auto value_of(const Table& table, std::string_view word) -> std::optional<typename Table::value_type::first_type> {
+auto value_of(const Table& table, std::string_view word)
+    -> std::optional<typename Table::value_type::first_type> {
   const auto found = std::ranges::find(table, word, &Table::value_type::second);
   if (found == table.end()) return std::nullopt;
   return found->first;
@@ -87,7 +88,8 @@ Entry* Dictionary::find(Multiplexer mux) {
 }
 
 std::span<const Entry> Dictionary::object(Index index) const {
-  const auto range = std::ranges::equal_range(entries_, index, {}, [](const Entry& entry) { return entry.mux.index; });
+  const auto range =
+      std::ranges::equal_range(entries_, index, {}, [](const Entry& entry) { return entry.mux.index; });
   return {range.begin(), range.end()};
 }
 

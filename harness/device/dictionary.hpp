@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of the object dictionary of the device under test: CiA 301's table, the EDS, the profile, discovery.
+// What is known of the object dictionary of the device under test: CiA 301's table, the EDS, the profile,
+// discovery.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,9 @@ enum class Access : std::uint8_t { ro, wo, rw, rwr, rww, constant };
 [[nodiscard]] std::string_view to_string(Access access);
 [[nodiscard]] std::optional<Access> parse_access(std::string_view word);
 [[nodiscard]] constexpr bool is_readable(Access access) { return access != Access::wo; }
-[[nodiscard]] constexpr bool is_writable(Access access) { return access != Access::ro && access != Access::constant; }
+[[nodiscard]] constexpr bool is_writable(Access access) {
+  return access != Access::ro && access != Access::constant;
+}
 
 /// Whether the standard asks for the entry.
 enum class Category : std::uint8_t { mandatory, conditional, optional };
@@ -42,16 +45,17 @@ struct Entry {
   canopen::DataType type = canopen::DataType::unsigned32;
   Access access = Access::rw;
   Category category = Category::optional;
-  ObjectCode object = ObjectCode::var;   ///< of the object this entry belongs to
-  std::optional<Bytes> low;              ///< limits and default as on the wire
+  ObjectCode object = ObjectCode::var;  ///< of the object this entry belongs to
+  std::optional<Bytes> low;             ///< limits and default as on the wire
   std::optional<Bytes> high;
-  std::optional<Bytes> default_value;    ///< in a Dictionary with the node-ID already added where it counts
-  bool default_adds_node_id = false;     ///< the default is a constant plus the node-ID
-  bool access_open = false;              ///< the standard leaves rw or const (ro) to the device: `access` is the wider one
+  std::optional<Bytes> default_value;  ///< in a Dictionary with the node-ID already added where it counts
+  bool default_adds_node_id = false;   ///< the default is a constant plus the node-ID
+  bool access_open =
+      false;  ///< the standard leaves rw or const (ro) to the device: `access` is the wider one
   bool pdo_mappable = false;
-  bool may_change = false;               ///< changes by itself: error register, process inputs, counters
-  bool command = false;                  ///< a write has an effect other than storing: 1003h:00, 1010h, 1011h, 1F50h ...
-  bool claimed = false;                  ///< the EDS or the profile says that it is there
+  bool may_change = false;  ///< changes by itself: error register, process inputs, counters
+  bool command = false;     ///< a write has an effect other than storing: 1003h:00, 1010h, 1011h, 1F50h ...
+  bool claimed = false;     ///< the EDS or the profile says that it is there
 
   [[nodiscard]] Presence presence() const {
     if (category == Category::mandatory) return Presence::claimed_mandatory;

@@ -54,8 +54,12 @@ bool is_feature(std::string_view word) {
   return std::ranges::find(feature_table, word, &Feature::word) != feature_table.end();
 }
 
-bool Profile::is_safe(Multiplexer mux) const { return std::ranges::find(safe_objects, mux) != safe_objects.end(); }
-bool Profile::is_untouchable(Multiplexer mux) const { return std::ranges::find(untouchable, mux) != untouchable.end(); }
+bool Profile::is_safe(Multiplexer mux) const {
+  return std::ranges::find(safe_objects, mux) != safe_objects.end();
+}
+bool Profile::is_untouchable(Multiplexer mux) const {
+  return std::ranges::find(untouchable, mux) != untouchable.end();
+}
 
 std::optional<Duration> Profile::duration(std::string_view wanted) const {
   for (const DurationField& field : duration_fields()) {

@@ -41,10 +41,10 @@ struct TriggerWrite {
 /// A way to raise and clear one error of the device.
 struct ErrorTrigger {
   std::string name;
-  std::uint16_t code = 0;                  ///< EMCY error code that is raised
-  std::optional<TriggerWrite> raise;       ///< by writing an object, or
+  std::uint16_t code = 0;             ///< EMCY error code that is raised
+  std::optional<TriggerWrite> raise;  ///< by writing an object, or
   std::optional<TriggerWrite> clear;
-  std::optional<NodeId> heartbeat_node;    ///< by the heartbeat of this (otherwise unused) node that stays away
+  std::optional<NodeId> heartbeat_node;  ///< by the heartbeat of this (otherwise unused) node that stays away
 };
 
 /// Wanted content of 1018h; what is absent is not compared.
@@ -54,52 +54,55 @@ struct Identity {
 
 /// A deviation the user accepts by name, with the reason that reports print.
 struct KnownDeviation {
-  std::string requirement;   ///< "OD-1014-06"
-  std::string case_name;     ///< case id; empty: every case of the requirement
+  std::string requirement;  ///< "OD-1014-06"
+  std::string case_name;    ///< case id; empty: every case of the requirement
   std::string reason;
 };
 
 struct Profile {
-  std::string name;              ///< of the device, for reports
+  std::string name;  ///< of the device, for reports
   std::string about;
   NodeId node{1};
-  std::string interface;         ///< empty: given on the command line
-  std::string eds;               ///< path as written, relative to the profile's folder; empty: none
+  std::string interface;  ///< empty: given on the command line
+  std::string eds;        ///< path as written, relative to the profile's folder; empty: none
 
-  Duration boot_time = std::chrono::seconds{5};              ///< T_BOOT
-  Duration sdo_timeout = std::chrono::milliseconds{1000};    ///< T_SDO
-  Duration store_timeout = std::chrono::seconds{10};         ///< T_NVM
-  Duration nmt_time = std::chrono::milliseconds{100};        ///< T_NMT
-  Duration quiet_time = std::chrono::milliseconds{300};      ///< T_QUIET
-  Duration server_timeout = std::chrono::seconds{30};        ///< T_SRVTO
-  Duration block_timeout = std::chrono::seconds{3};          ///< T_BLK
-  Duration lss_timeout = std::chrono::milliseconds{500};     ///< T_LSS
+  Duration boot_time = std::chrono::seconds{5};            ///< T_BOOT
+  Duration sdo_timeout = std::chrono::milliseconds{1000};  ///< T_SDO
+  Duration store_timeout = std::chrono::seconds{10};       ///< T_NVM
+  Duration nmt_time = std::chrono::milliseconds{100};      ///< T_NMT
+  Duration quiet_time = std::chrono::milliseconds{300};    ///< T_QUIET
+  Duration server_timeout = std::chrono::seconds{30};      ///< T_SRVTO
+  Duration block_timeout = std::chrono::seconds{3};        ///< T_BLK
+  Duration lss_timeout = std::chrono::milliseconds{500};   ///< T_LSS
 
-  std::set<std::string, std::less<>> claims;   ///< words of features()
-  bool claims_given = false;                   ///< the profile has a list of claims, even an empty one
-  std::vector<Entry> objects;                  ///< claimed entries in file order, all with `claimed` set; defaults without the node-ID
+  std::set<std::string, std::less<>> claims;  ///< words of features()
+  bool claims_given = false;                  ///< the profile has a list of claims, even an empty one
+  std::vector<Entry>
+      objects;  ///< claimed entries in file order, all with `claimed` set; defaults without the node-ID
   std::vector<ErrorTrigger> errors;
-  std::vector<Multiplexer> safe_objects;       ///< entries that tests may write
-  std::vector<Multiplexer> untouchable;        ///< entries no test may write
-  bool factory_defaults = false;               ///< nothing is stored: values after a reset are the defaults
+  std::vector<Multiplexer> safe_objects;  ///< entries that tests may write
+  std::vector<Multiplexer> untouchable;   ///< entries no test may write
+  bool factory_defaults = false;          ///< nothing is stored: values after a reset are the defaults
   Identity identity;
   std::vector<KnownDeviation> deviations;
 
   [[nodiscard]] bool claimed(std::string_view feature) const { return claims.contains(feature); }
   [[nodiscard]] bool is_safe(Multiplexer mux) const;
   [[nodiscard]] bool is_untouchable(Multiplexer mux) const;
-  /// T_BOOT, T_SDO, T_NVM, T_NMT, T_QUIET, T_SRVTO, T_BLK, T_LSS by name, as conversations write them; also the keys of the file ("boot_time").
+  /// T_BOOT, T_SDO, T_NVM, T_NMT, T_QUIET, T_SRVTO, T_BLK, T_LSS by name, as conversations write them; also
+  /// the keys of the file ("boot_time").
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;
 };
 
-/// What CiA 301 defines, with the claimed entries of the profile laid over it and the node-ID in the defaults. Records and arrays of
-/// the profile's own get their sub-index 00h when it is not listed.
+/// What CiA 301 defines, with the claimed entries of the profile laid over it and the node-ID in the
+/// defaults. Records and arrays of the profile's own get their sub-index 00h when it is not listed.
 [[nodiscard]] Dictionary dictionary_of(const Profile& profile);
 
 /// The profile used when there is none: node-ID, defaults, the heartbeat error trigger with node 7Eh.
 [[nodiscard]] Profile default_profile(NodeId node);
 
-/// Reads a profile out of a YAML document. All mistakes are in `diagnostics`; the result is usable when it has no errors.
+/// Reads a profile out of a YAML document. All mistakes are in `diagnostics`; the result is usable when it
+/// has no errors.
 [[nodiscard]] Profile load_profile(const yaml::Node& root, yaml::Diagnostics& diagnostics);
 
 struct ProfileDocument {

@@ -77,7 +77,8 @@ void read_default(const Field& field, Entry& entry) {
   entry.default_adds_node_id = false;
   const std::string& written = field.node()->text();
   const std::size_t plus = written.rfind('+');
-  const bool adds = canopen::is_integer(entry.type) && plus != std::string::npos && trim(std::string_view(written).substr(plus + 1)) == "N";
+  const bool adds = canopen::is_integer(entry.type) && plus != std::string::npos &&
+                    trim(std::string_view(written).substr(plus + 1)) == "N";
   if (!adds) {
     entry.default_value = read_value(field, entry.type);
     return;
@@ -106,23 +107,27 @@ int compare(DataType type, ByteView a, ByteView b) {
 
 void check_limits(const Field& field, const Entry& entry) {
   if (entry.low && entry.high && compare(entry.type, *entry.low, *entry.high) > 0) {
-    field.error(fmt::format("the limits of {} are crossed", to_string(entry.mux)), "'low' must not be above 'high'");
+    field.error(fmt::format("the limits of {} are crossed", to_string(entry.mux)),
+                "'low' must not be above 'high'");
   }
   if (!entry.default_value || entry.default_adds_node_id) return;
   const bool below = entry.low && compare(entry.type, *entry.default_value, *entry.low) < 0;
   const bool above = entry.high && compare(entry.type, *entry.default_value, *entry.high) > 0;
-  if (below || above) field.error(fmt::format("the default of {} is outside its limits", to_string(entry.mux)));
+  if (below || above)
+    field.error(fmt::format("the default of {} is outside its limits", to_string(entry.mux)));
 }
 
 class Reader {
  public:
-  Reader(const yaml::Node& root, yaml::Diagnostics& diagnostics) : fields_(root, diagnostics, "device profile") {}
+  Reader(const yaml::Node& root, yaml::Diagnostics& diagnostics)
+      : fields_(root, diagnostics, "device profile") {}
 
   Profile read() {
     if (fields_.present()) static_cast<void>(fields_.required("format").number(1, 1));
     profile_.name = fields_.required("name").text().value_or("");
     profile_.about = fields_.optional("about").text().value_or("");
-    if (const auto node = fields_.required("node").number(1, 127)) profile_.node = NodeId{static_cast<std::uint8_t>(*node)};
+    if (const auto node = fields_.required("node").number(1, 127))
+      profile_.node = NodeId{static_cast<std::uint8_t>(*node)};
     profile_.interface = fields_.optional("interface").text().value_or("");
     profile_.eds = fields_.optional("eds").text().value_or("");
     read_durations();
@@ -159,12 +164,14 @@ class Reader {
     for (const Feature& feature : features()) words.push_back(feature.word);
     for (const Field& item : claims.items()) {
       const auto word = one_feature(item, words);
-      if (word && !profile_.claims.insert(*word).second) item.error(fmt::format("'{}' is claimed twice", *word));
+      if (word && !profile_.claims.insert(*word).second)
+        item.error(fmt::format("'{}' is claimed twice", *word));
     }
   }
 
   /// Like Field::one_of, but without printing thirty words.
-  static std::optional<std::string> one_feature(const Field& item, const std::vector<std::string_view>& words) {
+  static std::optional<std::string> one_feature(const Field& item,
+                                                const std::vector<std::string_view>& words) {
     const auto word = item.text();
     if (!word) return std::nullopt;
     if (is_feature(*word)) return word;
@@ -190,7 +197,8 @@ class Reader {
       const Multiplexer mux{range.first.index, SubIndex{static_cast<std::uint8_t>(sub)}};
       auto entry = standard_entry(mux);
       if (!entry) {
-        item.error(fmt::format("CiA 301 defines no {}", to_string(mux)), "give it a name, type and access: {object: .., name: .., type: .., access: ..}");
+        item.error(fmt::format("CiA 301 defines no {}", to_string(mux)),
+                   "give it a name, type and access: {object: .., name: .., type: .., access: ..}");
         return;
       }
       add_object(item, *std::move(entry));
@@ -208,21 +216,28 @@ class Reader {
     const Field type_field = standard ? fields.optional("type") : fields.required("type");
     const auto type = read_type(type_field);
     if (standard && type && *type != standard->type) {
-      type_field.warning(fmt::format("CiA 301 makes {} {}", to_string(range->first), canopen::to_string(standard->type)));
+      type_field.warning(
+          fmt::format("CiA 301 makes {} {}", to_string(range->first), canopen::to_string(standard->type)));
       entry.default_value.reset();
       entry.low.reset();
       entry.high.reset();
     }
     if (type) entry.type = *type;
     const Field access = standard ? fields.optional("access") : fields.required("access");
-    if (const auto word = access.one_of<Access>({{"ro", Access::ro}, {"wo", Access::wo}, {"rw", Access::rw}, {"rwr", Access::rwr},
-                                                 {"rww", Access::rww}, {"const", Access::constant}})) {
+    if (const auto word = access.one_of<Access>({{"ro", Access::ro},
+                                                 {"wo", Access::wo},
+                                                 {"rw", Access::rw},
+                                                 {"rwr", Access::rwr},
+                                                 {"rww", Access::rww},
+                                                 {"const", Access::constant}})) {
       entry.access = *word;
       entry.access_open = false;
     }
     const Field code = fields.optional("kind");
-    if (const auto word = code.one_of<ObjectCode>({{"VAR", ObjectCode::var}, {"ARRAY", ObjectCode::array},
-                                                   {"RECORD", ObjectCode::record}, {"DOMAIN", ObjectCode::domain}})) {
+    if (const auto word = code.one_of<ObjectCode>({{"VAR", ObjectCode::var},
+                                                   {"ARRAY", ObjectCode::array},
+                                                   {"RECORD", ObjectCode::record},
+                                                   {"DOMAIN", ObjectCode::domain}})) {
       entry.object = *word;
     } else if (!standard && range && range->last_sub > 0) {
       entry.object = ObjectCode::record;
@@ -272,7 +287,8 @@ class Reader {
       trigger.name = fields.required("name").text().value_or("");
       const bool by_heartbeat = fields.has("heartbeat");
       const Field code = by_heartbeat ? fields.optional("code") : fields.required("code");
-      trigger.code = static_cast<std::uint16_t>(code.number(0x0001, 0xFFFF).value_or(by_heartbeat ? 0x8130 : 0));
+      trigger.code =
+          static_cast<std::uint16_t>(code.number(0x0001, 0xFFFF).value_or(by_heartbeat ? 0x8130 : 0));
       const Field source = fields.exactly_one_of({"raise", "heartbeat"});
       trigger.raise = by_heartbeat ? std::nullopt : read_write(source, "raise");
       trigger.clear = read_write(fields.optional("clear"), "clear");
@@ -282,10 +298,12 @@ class Reader {
         if (producer) trigger.heartbeat_node = NodeId{static_cast<std::uint8_t>(*producer)};
         heartbeat.finish();
         if (producer && *producer == profile_.node.value()) {
-          item.error("the heartbeat of an error trigger cannot be that of the device itself", "name an unused node-ID such as 7Eh");
+          item.error("the heartbeat of an error trigger cannot be that of the device itself",
+                     "name an unused node-ID such as 7Eh");
         }
       }
-      const bool twice = std::ranges::find(profile_.errors, trigger.name, &ErrorTrigger::name) != profile_.errors.end();
+      const bool twice =
+          std::ranges::find(profile_.errors, trigger.name, &ErrorTrigger::name) != profile_.errors.end();
       if (twice) item.error(fmt::format("the error trigger '{}' is listed twice", trigger.name));
       profile_.errors.push_back(std::move(trigger));
     }
@@ -302,7 +320,8 @@ class Reader {
     const Entry* own = listed(*mux);
     const auto standard = standard_entry(*mux);
     if (own == nullptr && !standard) {
-      object.error(fmt::format("the type of {} is not known", to_string(*mux)), "list the object under 'objects'");
+      object.error(fmt::format("the type of {} is not known", to_string(*mux)),
+                   "list the object under 'objects'");
       return std::nullopt;
     }
     auto bytes = read_value(value, own != nullptr ? own->type : standard->type);
@@ -329,7 +348,10 @@ class Reader {
       if (!value) return std::nullopt;
       return static_cast<std::uint32_t>(*value);
     };
-    profile_.identity = {.vendor = number("vendor"), .product = number("product"), .revision = number("revision"), .serial = number("serial")};
+    profile_.identity = {.vendor = number("vendor"),
+                         .product = number("product"),
+                         .revision = number("revision"),
+                         .serial = number("serial")};
     fields.finish();
   }
 
@@ -345,7 +367,8 @@ class Reader {
         return other.requirement == deviation.requirement && other.case_name == deviation.case_name;
       });
       if (twice) item.error(fmt::format("the deviation from {} is listed twice", deviation.requirement));
-      if (!deviation.requirement.empty() && !deviation.reason.empty()) profile_.deviations.push_back(std::move(deviation));
+      if (!deviation.requirement.empty() && !deviation.reason.empty())
+        profile_.deviations.push_back(std::move(deviation));
     }
   }
 
@@ -355,6 +378,8 @@ class Reader {
 
 }  // namespace
 
-Profile load_profile(const yaml::Node& root, yaml::Diagnostics& diagnostics) { return Reader(root, diagnostics).read(); }
+Profile load_profile(const yaml::Node& root, yaml::Diagnostics& diagnostics) {
+  return Reader(root, diagnostics).read();
+}
 
 }  // namespace conform::device

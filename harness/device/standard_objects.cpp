@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/standard_objects.hpp"
 
-
 #include "base/check.hpp"
 
 namespace conform::device {
@@ -10,8 +9,8 @@ namespace {
 using canopen::DataType;
 
 // What a row says beyond type and access.
-constexpr unsigned open = 1U;          ///< the device may make it const (or ro) instead of rw
-constexpr unsigned adds_node = 2U;     ///< default is a constant plus the node-ID
+constexpr unsigned open = 1U;       ///< the device may make it const (or ro) instead of rw
+constexpr unsigned adds_node = 2U;  ///< default is a constant plus the node-ID
 constexpr unsigned mappable = 4U;
 constexpr unsigned may_change = 8U;
 constexpr unsigned command = 16U;
@@ -50,7 +49,8 @@ constexpr auto rw = Access::rw;
 constexpr auto constant = Access::constant;
 constexpr std::string_view highest = "Highest sub-index supported";
 
-// Conditional: required with its feature, or (sub-indices) with its object. Mandatory is only what every device has.
+// Conditional: required with its feature, or (sub-indices) with its object. Mandatory is only what every
+// device has.
 constexpr Row rows[] = {
     {0x1000, 0x1000, 0x00, 0x00, "Device type", u32, ro, M, var},
     {0x1001, 0x1001, 0x00, 0x00, "Error register", u8, ro, M, var, mappable | may_change},
@@ -75,7 +75,8 @@ constexpr Row rows[] = {
     {0x1011, 0x1011, 0x01, 0x01, "Restore all default parameters", u32, rw, C, array, command},
     {0x1011, 0x1011, 0x02, 0x02, "Restore communication default parameters", u32, rw, O, array, command},
     {0x1011, 0x1011, 0x03, 0x03, "Restore application default parameters", u32, rw, O, array, command},
-    {0x1011, 0x1011, 0x04, 0x7F, "Restore manufacturer defined default parameters", u32, rw, O, array, command},
+    {0x1011, 0x1011, 0x04, 0x7F, "Restore manufacturer defined default parameters", u32, rw, O, array,
+     command},
     {0x1012, 0x1012, 0x00, 0x00, "COB-ID time stamp object", u32, rw, O, var, open, 0x100},
     {0x1013, 0x1013, 0x00, 0x00, "High resolution time stamp", u32, rw, O, var, mappable | may_change, 0},
     {0x1014, 0x1014, 0x00, 0x00, "COB-ID emergency message", u32, rw, C, var, open | adds_node, 0x80},
@@ -128,8 +129,8 @@ constexpr Row rows[] = {
     {0x1280, 0x12FF, 0x01, 0x01, "COB-ID client to server", u32, rw, C, record, mappable | open, 0x8000'0000},
     {0x1280, 0x12FF, 0x02, 0x02, "COB-ID server to client", u32, rw, C, record, mappable | open, 0x8000'0000},
     {0x1280, 0x12FF, 0x03, 0x03, "Node-ID of the SDO server", u8, rw, C, record, 0, none, 1, 0x7F},
-    // PDO 1..4 have the COB-IDs of the pre-defined connection set; whether they are valid is the device's choice. From the
-    // fifth on only bit 31 is prescribed, so that there is no default to compare.
+    // PDO 1..4 have the COB-IDs of the pre-defined connection set; whether they are valid is the device's
+    // choice. From the fifth on only bit 31 is prescribed, so that there is no default to compare.
     {0x1400, 0x15FF, 0x00, 0x00, highest, u8, constant, C, record, 0, none, 2, 6},
     {0x1400, 0x1400, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open | adds_node, 0x200},
     {0x1401, 0x1401, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open | adds_node, 0x300},
@@ -196,7 +197,8 @@ std::optional<Entry> standard_entry(Multiplexer mux) {
   const std::uint16_t index = mux.index.value();
   const std::uint8_t sub = mux.sub.value();
   for (const Row& row : rows) {
-    const bool found = index >= row.first_index && index <= row.last_index && sub >= row.first_sub && sub <= row.last_sub;
+    const bool found =
+        index >= row.first_index && index <= row.last_index && sub >= row.first_sub && sub <= row.last_sub;
     if (found) return entry_of(row, mux);
   }
   return std::nullopt;
@@ -209,7 +211,8 @@ Dictionary standard_dictionary(NodeId node) {
     if (further_sdo) continue;
     const bool is_pdo = row.first_index >= 0x1400;
     for (int i = 0; i < (is_pdo ? 4 : 1); ++i) {
-      const auto index = static_cast<std::uint16_t>((is_pdo ? row.first_index & 0xFE00U : row.first_index) + static_cast<unsigned>(i));
+      const auto index = static_cast<std::uint16_t>((is_pdo ? row.first_index & 0xFE00U : row.first_index) +
+                                                    static_cast<unsigned>(i));
       if (index < row.first_index || index > row.last_index) continue;
       for (int sub = row.first_sub; sub <= shown_until(row); ++sub) {
         const Multiplexer mux{Index{index}, SubIndex{static_cast<std::uint8_t>(sub)}};

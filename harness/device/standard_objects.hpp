@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The communication objects that CiA 301 v4.2 defines (7.5.2), as entries: the dictionary of a device nobody described.
+// The communication objects that CiA 301 v4.2 defines (7.5.2), as entries: the dictionary of a device nobody
+// described.
 #pragma once
 
 #include <optional>
@@ -12,13 +13,14 @@ namespace conform::device {
 /// PDO parameter objects per direction (1400h-15FFh and so on).
 inline constexpr int max_pdos = 512;
 
-/// The standard's entry at `mux`, for every index and sub-index it defines (PDO 1..512, SDO servers 1..128, EMCY and
-/// heartbeat consumers 1..127, error fields 1..254, PDO mapping entries 1..64); nullopt for everything else. Node-ID dependent defaults hold the
-/// constant part and are marked default_adds_node_id.
+/// The standard's entry at `mux`, for every index and sub-index it defines (PDO 1..512, SDO servers 1..128,
+/// EMCY and heartbeat consumers 1..127, error fields 1..254, PDO mapping entries 1..64); nullopt for
+/// everything else. Node-ID dependent defaults hold the constant part and are marked default_adds_node_id.
 [[nodiscard]] std::optional<Entry> standard_entry(Multiplexer mux);
 
-/// With the node-ID in the defaults: objects 1000h-1029h and 1200h with their sub-indices 00h and those the standard names one by one, and PDO 1..4 with sub-index
-/// 00h..08h of the mapping. Arrays show sub-index 00h and 01h: how far they go is for the device to say.
+/// With the node-ID in the defaults: objects 1000h-1029h and 1200h with their sub-indices 00h and those the
+/// standard names one by one, and PDO 1..4 with sub-index 00h..08h of the mapping. Arrays show sub-index 00h
+/// and 01h: how far they go is for the device to say.
 [[nodiscard]] Dictionary standard_dictionary(NodeId node);
 
 }  // namespace conform::device

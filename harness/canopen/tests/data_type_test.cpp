@@ -87,8 +87,10 @@ TEST_CASE("Signed literals become two's complement of their length") {
   CHECK(ok(DataType::integer64, "-9223372036854775808") == Bytes{0, 0, 0, 0, 0, 0, 0, 0x80});
   CHECK(error(DataType::integer8, "128") == "128 is out of the range -128..127 of INTEGER8");
   CHECK(error(DataType::integer8, "-129") == "-129 is out of the range -128..127 of INTEGER8");
-  CHECK(error(DataType::integer64, "9223372036854775808") == "'9223372036854775808' is not a value of INTEGER64");
-  CHECK(error(DataType::integer64, "-9223372036854775809") == "'-9223372036854775809' is not a value of INTEGER64");
+  CHECK(error(DataType::integer64, "9223372036854775808") ==
+        "'9223372036854775808' is not a value of INTEGER64");
+  CHECK(error(DataType::integer64, "-9223372036854775809") ==
+        "'-9223372036854775809' is not a value of INTEGER64");
   CHECK(error(DataType::integer16, "--1") == "'--1' is not a value of INTEGER16");
 }
 
@@ -138,7 +140,8 @@ TEST_CASE("Values are printed in the notation of the field") {
   CHECK(print(DataType::real32, Bytes{0x00, 0x00, 0xC0, 0x3F}) == "1.5");
   CHECK(print(DataType::real32, Bytes{0xCD, 0xCC, 0xCC, 0x3D}) == "0.1");
   CHECK(print(DataType::visible_string, Bytes{0x4F, 0x4B, 0x00}) == "\"OK\\x00\"");
-  CHECK(print(DataType::unicode_string, Bytes{0x41, 0x00, 0xAC, 0x20, 0x3D, 0xD8, 0x00, 0xDE}) == "\"A\u20AC\U0001F600\"");
+  CHECK(print(DataType::unicode_string, Bytes{0x41, 0x00, 0xAC, 0x20, 0x3D, 0xD8, 0x00, 0xDE}) ==
+        "\"A\u20AC\U0001F600\"");
   CHECK(print(DataType::unicode_string, Bytes{0x3D, 0xD8}) == "\"\\xED\\xA0\\xBD\"");
   CHECK(print(DataType::octet_string, Bytes{0x4F, 0x6B}) == "4F 6B");
   CHECK(print(DataType::domain, {}) == "(no bytes)");
@@ -163,8 +166,10 @@ TEST_CASE("Long values are clipped, their length is kept") {
 }
 
 TEST_CASE("What is printed for an unsigned number reads back as the same bytes") {
-  for (const auto type : {DataType::unsigned8, DataType::unsigned16, DataType::unsigned24, DataType::unsigned32, DataType::unsigned40,
-                          DataType::unsigned48, DataType::unsigned56, DataType::unsigned64, DataType::integer16, DataType::integer40}) {
+  for (const auto type :
+       {DataType::unsigned8, DataType::unsigned16, DataType::unsigned24, DataType::unsigned32,
+        DataType::unsigned40, DataType::unsigned48, DataType::unsigned56, DataType::unsigned64,
+        DataType::integer16, DataType::integer40}) {
     const Bytes bytes = to_le(0xFEDC'BA98'7654'3210U, *size_bytes(type));
     CHECK(encode(type, print(type, bytes)) == bytes);
   }

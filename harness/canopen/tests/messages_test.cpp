@@ -101,12 +101,13 @@ TEST_CASE("The restricted CAN-IDs are those of table 40") {
   int count = 0;
   for (std::uint32_t id = 0; id <= 0x7FF; ++id) count += is_restricted(CanId{id}) ? 1 : 0;
   CHECK(count == 1 + 127 + 128 + 127 + 127 + 32 + 127 + 128);
-  for (const std::uint32_t id : {0x000U, 0x001U, 0x07FU, 0x101U, 0x180U, 0x581U, 0x5FFU, 0x601U, 0x67FU, 0x6E0U, 0x6FFU, 0x701U, 0x77FU,
-                                 0x780U, 0x7FFU}) {
+  for (const std::uint32_t id : {0x000U, 0x001U, 0x07FU, 0x101U, 0x180U, 0x581U, 0x5FFU, 0x601U, 0x67FU,
+                                 0x6E0U, 0x6FFU, 0x701U, 0x77FU, 0x780U, 0x7FFU}) {
     INFO(id);
     CHECK(is_restricted(CanId{id}));
   }
-  for (const std::uint32_t id : {0x080U, 0x0FFU, 0x100U, 0x181U, 0x580U, 0x600U, 0x680U, 0x6DFU, 0x700U, 0x800U, 0x1FFFFFFFU}) {
+  for (const std::uint32_t id :
+       {0x080U, 0x0FFU, 0x100U, 0x181U, 0x580U, 0x600U, 0x680U, 0x6DFU, 0x700U, 0x800U, 0x1FFFFFFFU}) {
     INFO(id);
     CHECK_FALSE(is_restricted(CanId{id}));
   }
@@ -125,7 +126,9 @@ TEST_CASE("The pre-defined connection set adds the node-ID to the function codes
 }
 
 TEST_CASE("COB-ID entries are recognised by their object") {
-  const auto kind = [](std::uint16_t index, std::uint8_t sub) { return cob_id_kind({Index{index}, SubIndex{sub}}); };
+  const auto kind = [](std::uint16_t index, std::uint8_t sub) {
+    return cob_id_kind({Index{index}, SubIndex{sub}});
+  };
   CHECK(kind(0x1005, 0) == CobIdKind::sync);
   CHECK(kind(0x1012, 0) == CobIdKind::time);
   CHECK(kind(0x1014, 0) == CobIdKind::emcy);
@@ -163,19 +166,26 @@ TEST_CASE("The polarity of the control bits depends on the object") {
 TEST_CASE("SDO initiate requests are encoded as the standard draws them") {
   CHECK(encode_upload_request(error_count) == SdoBytes{0x40, 0x03, 0x10, 0x00, 0, 0, 0, 0});
   CHECK(encode_download_expedited(error_count, Bytes{0}) == SdoBytes{0x2F, 0x03, 0x10, 0x00, 0, 0, 0, 0});
-  CHECK(encode_download_expedited(heartbeat_time, Bytes{0xE8, 0x03}) == SdoBytes{0x2B, 0x17, 0x10, 0x00, 0xE8, 0x03, 0, 0});
-  CHECK(encode_download_expedited(identity_sub_2, Bytes{1, 2, 3}) == SdoBytes{0x27, 0x18, 0x10, 0x02, 1, 2, 3, 0});
-  CHECK(encode_download_expedited(identity_sub_2, Bytes{1, 2, 3, 4}) == SdoBytes{0x23, 0x18, 0x10, 0x02, 1, 2, 3, 4});
-  CHECK(encode_download_expedited(heartbeat_time, Bytes{0xE8, 0x03}, false) == SdoBytes{0x22, 0x17, 0x10, 0x00, 0xE8, 0x03, 0, 0});
+  CHECK(encode_download_expedited(heartbeat_time, Bytes{0xE8, 0x03}) ==
+        SdoBytes{0x2B, 0x17, 0x10, 0x00, 0xE8, 0x03, 0, 0});
+  CHECK(encode_download_expedited(identity_sub_2, Bytes{1, 2, 3}) ==
+        SdoBytes{0x27, 0x18, 0x10, 0x02, 1, 2, 3, 0});
+  CHECK(encode_download_expedited(identity_sub_2, Bytes{1, 2, 3, 4}) ==
+        SdoBytes{0x23, 0x18, 0x10, 0x02, 1, 2, 3, 4});
+  CHECK(encode_download_expedited(heartbeat_time, Bytes{0xE8, 0x03}, false) ==
+        SdoBytes{0x22, 0x17, 0x10, 0x00, 0xE8, 0x03, 0, 0});
   CHECK(encode_download_segmented(identity_sub_2, 300) == SdoBytes{0x21, 0x18, 0x10, 0x02, 0x2C, 0x01, 0, 0});
-  CHECK(encode_download_segmented(identity_sub_2, std::nullopt) == SdoBytes{0x20, 0x18, 0x10, 0x02, 0, 0, 0, 0});
-  CHECK(encode_abort(error_count, abort::invalid_value) == SdoBytes{0x80, 0x03, 0x10, 0x00, 0x30, 0x00, 0x09, 0x06});
+  CHECK(encode_download_segmented(identity_sub_2, std::nullopt) ==
+        SdoBytes{0x20, 0x18, 0x10, 0x02, 0, 0, 0, 0});
+  CHECK(encode_abort(error_count, abort::invalid_value) ==
+        SdoBytes{0x80, 0x03, 0x10, 0x00, 0x30, 0x00, 0x09, 0x06});
 }
 
 TEST_CASE("SDO segments are encoded as the standard draws them") {
   CHECK(encode_upload_segment_request(false) == SdoBytes{0x60});
   CHECK(encode_upload_segment_request(true) == SdoBytes{0x70});
-  CHECK(encode_download_segment_request(false, Bytes{1, 2, 3, 4, 5, 6, 7}, false) == SdoBytes{0x00, 1, 2, 3, 4, 5, 6, 7});
+  CHECK(encode_download_segment_request(false, Bytes{1, 2, 3, 4, 5, 6, 7}, false) ==
+        SdoBytes{0x00, 1, 2, 3, 4, 5, 6, 7});
   CHECK(encode_download_segment_request(true, Bytes{1, 2}, true) == SdoBytes{0x1B, 1, 2});
   CHECK(encode_download_segment_request(false, {}, true) == SdoBytes{0x0F});
 }

@@ -128,7 +128,8 @@ TEST_CASE("Short frames and wrong commands are violations") {
   CHECK(wrong.detail == "answers with command 60h where an upload response (40h to 4Fh) is due");
   CHECK(wrong.reply == abort::command_specifier);
   SdoUpload upload = segmented(20);
-  CHECK(end(upload, SdoBytes{0x41, 0x08, 0x10, 0x00, 20}).detail == "answers with command 41h where an upload segment (00h to 1Fh) is due");
+  CHECK(end(upload, SdoBytes{0x41, 0x08, 0x10, 0x00, 20}).detail ==
+        "answers with command 41h where an upload segment (00h to 1Fh) is due");
 }
 
 TEST_CASE("A wrong toggle bit is answered with its abort code") {
@@ -185,8 +186,9 @@ TEST_CASE("A server cannot hold the client with empty segments") {
 TEST_CASE("Reserved and unused bits are remarks and do not end a transfer") {
   const auto expedited = upload_end(heartbeat_time, SdoBytes{0x5B, 0x17, 0x10, 0x00, 0xE8, 0x03, 0, 1});
   CHECK(expedited.kind == Kind::confirmed);
-  CHECK(expedited.remarks == std::vector<std::string>{"bit 4 of the command is set (5Bh)",
-                                                      "unused data bytes of the expedited response are not zero"});
+  CHECK(expedited.remarks ==
+        std::vector<std::string>{"bit 4 of the command is set (5Bh)",
+                                 "unused data bytes of the expedited response are not zero"});
   SdoUpload upload(device_name);
   static_cast<void>(next(upload, SdoBytes{0x44, 0x08, 0x10, 0x00, 0, 0, 0, 7}));
   const auto segmented_result = end(upload, SdoBytes{0x0D, 'a', 'b'});
@@ -235,7 +237,8 @@ TEST_CASE("Deviations of the server end a download as violations") {
   CHECK(wrong_object.detail == "answers 1018h:00 instead of 1017h:00");
   CHECK_FALSE(wrong_object.reply.has_value());
   SdoDownload command(heartbeat_time, {1, 2});
-  CHECK(end(command, SdoBytes{0x43, 0x17, 0x10, 0x00}).detail == "answers with command 43h where the download response (60h) is due");
+  CHECK(end(command, SdoBytes{0x43, 0x17, 0x10, 0x00}).detail ==
+        "answers with command 43h where the download response (60h) is due");
   SdoDownload toggle(device_name, Bytes(20));
   static_cast<void>(next(toggle, SdoBytes{0x60, 0x08, 0x10, 0x00}));
   const auto wrong_toggle = end(toggle, SdoBytes{0x30});
@@ -246,7 +249,8 @@ TEST_CASE("Deviations of the server end a download as violations") {
   CHECK(end(no_ack, SdoBytes{0x60, 0x08, 0x10, 0x00}).detail ==
         "answers with command 60h where a download segment response (20h or 30h) is due");
   SdoDownload cut(heartbeat_time, {1, 2});
-  CHECK(end(cut, Bytes{0x60, 0x17, 0x10, 0x00}).detail == "answers with a frame of 4 data bytes instead of 8");
+  CHECK(end(cut, Bytes{0x60, 0x17, 0x10, 0x00}).detail ==
+        "answers with a frame of 4 data bytes instead of 8");
 }
 
 TEST_CASE("A download may be aborted at any response, and remarks survive") {
@@ -255,6 +259,38 @@ TEST_CASE("A download may be aborted at any response, and remarks survive") {
   const auto result = end(download, SdoBytes{0x80, 0x08, 0x10, 0x00, 0x02, 0x00, 0x01, 0x06});
   CHECK(result.kind == Kind::aborted);
   CHECK(result.code == abort::read_only);
-  CHECK(result.remarks == std::vector<std::string>{"reserved bits of the command are set (61h)",
-                                                   "reserved bytes 4 to 7 of the download response are not zero"});
+  CHECK(result.remarks ==
+        std::vector<std::string>{"reserved bits of the command are set (61h)",
+                                 "reserved bytes 4 to 7 of the download response are not zero"});
+}
+
+TEST_CASE("Whatever a server answers, a transfer ends or asks for more within its bounds") {
+  std::uint32_t state = 7;  // xorshift: the same answers in every run
+  const auto next = [&state] {
+    state ^= state << 13U;
+    state ^= state >> 17U;
+    state ^= state << 5U;
+    return state;
+  };
+  for (int run = 0; run < 3000; ++run) {
+    SdoUpload upload(device_name, 100);
+    SdoBytes answer{static_cast<std::uint8_t>(0x40U + next() % 16U), 0x08, 0x10, 0x00,
+                    static_cast<std::uint8_t>(next() % 120U)};
+    int frames = 0;
+    for (bool open = true; open; ++frames) {
+      REQUIRE(frames < 2000);
+      const auto step = upload.on_response(ByteView(answer).first(next() % 50 == 0 ? next() % 9 : 8));
+      open = std::holds_alternative<SdoBytes>(step);
+      if (!open) {
+        const auto& result = std::get<TransferResult>(step);
+        CHECK(result.data.size() <= 100);
+        CHECK((result.kind == Kind::violation) == !result.detail.empty());
+        break;
+      }
+      // Mostly a segment with the right toggle bit.
+      const std::uint32_t toggle = frames % 2 == 0 ? 0x00U : 0x10U;
+      answer[0] = static_cast<std::uint8_t>(
+          next() % 20 == 0 ? next() : (toggle | (next() % 8U) << 1U | (next() % 10 == 0 ? 1U : 0U)));
+    }
+  }
 }

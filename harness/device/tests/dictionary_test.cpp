@@ -29,7 +29,8 @@ TEST_CASE("Every device has 1000h, 1001h and 1018h:00 and :01, and only these ar
   std::vector<Multiplexer> mandatory;
   for (unsigned index = 0; index <= 0xFFFF; ++index) {
     for (unsigned sub = 0; sub <= 1; ++sub) {
-      const auto entry = standard_entry(mux(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)));
+      const auto entry =
+          standard_entry(mux(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)));
       if (entry && entry->category == Category::mandatory) mandatory.push_back(entry->mux);
     }
   }
@@ -74,8 +75,10 @@ TEST_CASE("Types and access are those of CiA 301") {
 }
 
 TEST_CASE("What CiA 301 does not define is no entry") {
-  for (const Multiplexer absent : {mux(0x0000), mux(0x1004), mux(0x100B), mux(0x1003, 0xFF), mux(0x1010, 0x80), mux(0x1017, 1), mux(0x1018, 5),
-                                   mux(0x1200, 3), mux(0x1300), mux(0x1400, 6), mux(0x1600, 0x41), mux(0x1800, 7), mux(0x1C00), mux(0x2000)}) {
+  for (const Multiplexer absent :
+       {mux(0x0000), mux(0x1004), mux(0x100B), mux(0x1003, 0xFF), mux(0x1010, 0x80), mux(0x1017, 1),
+        mux(0x1018, 5), mux(0x1200, 3), mux(0x1300), mux(0x1400, 6), mux(0x1600, 0x41), mux(0x1800, 7),
+        mux(0x1C00), mux(0x2000)}) {
     INFO(to_string(absent));
     CHECK_FALSE(standard_entry(absent).has_value());
   }
@@ -83,7 +86,9 @@ TEST_CASE("What CiA 301 does not define is no entry") {
 
 TEST_CASE("Defaults follow the pre-defined connection set") {
   const Dictionary dictionary = standard_dictionary(NodeId{5});
-  const auto value = [&](std::uint16_t index, std::uint8_t sub = 0) { return load_le(dictionary.find(mux(index, sub))->default_value.value()); };
+  const auto value = [&](std::uint16_t index, std::uint8_t sub = 0) {
+    return load_le(dictionary.find(mux(index, sub))->default_value.value());
+  };
   CHECK(value(0x1005) == 0x80);
   CHECK(value(0x1012) == 0x100);
   CHECK(value(0x1014) == 0x85);
@@ -116,12 +121,14 @@ TEST_CASE("The standard dictionary shows what the standard names one by one") {
 TEST_CASE("Limits and defaults have the length of their type, and defaults lie inside") {
   for (unsigned index = 0x1000; index <= 0x1FFF; ++index) {
     for (unsigned sub = 0; sub <= 0xFF; ++sub) {
-      const auto entry = standard_entry(mux(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)));
+      const auto entry =
+          standard_entry(mux(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)));
       if (!entry) continue;
       for (const auto& value : {entry->low, entry->high, entry->default_value}) {
         if (value && value->size() != entry->size()) FAIL(to_string(entry->mux));
       }
-      if (entry->default_value && entry->high && load_le(*entry->default_value) > load_le(*entry->high)) FAIL(to_string(entry->mux));
+      if (entry->default_value && entry->high && load_le(*entry->default_value) > load_le(*entry->high))
+        FAIL(to_string(entry->mux));
       if (entry->name.empty()) FAIL(to_string(entry->mux));
     }
   }

@@ -186,7 +186,8 @@ node_id: 3
   CHECK(contains(loaded.messages, "device.yaml:5:22: error: 'tpdo' is claimed twice"));
   CHECK(contains(loaded.messages, "device.yaml:7:5: error: CiA 301 defines no 2000h:00"));
   CHECK(contains(loaded.messages, "device.yaml:8:39: error: expected "));
-  CHECK(contains(loaded.messages, "device.yaml:9:58: error: expected ro, wo, rw, rwr, rww or const for 'access'"));
+  CHECK(contains(loaded.messages,
+                 "device.yaml:9:58: error: expected ro, wo, rw, rwr, rww or const for 'access'"));
   CHECK(contains(loaded.messages, "256 is out of the range 0..255 of UNSIGNED8"));
   CHECK(contains(loaded.messages, "the limits of 2003h:00 are crossed"));
   CHECK(contains(loaded.messages, "the default of 2004h:00 is outside its limits"));
@@ -233,8 +234,10 @@ TEST_CASE("The schema for editors knows every feature and key") {
     INFO(feature.word);
     CHECK(contains(schema, "\"" + std::string(feature.word) + "\""));
   }
-  for (const char* key : {"boot_time", "sdo_timeout", "store_timeout", "nmt_time", "quiet_time", "server_timeout", "block_timeout", "lss_timeout",
-                          "claims", "objects", "errors", "safe_objects", "untouchable", "factory_defaults", "identity", "known_deviations"}) {
+  for (const char* key :
+       {"boot_time", "sdo_timeout", "store_timeout", "nmt_time", "quiet_time", "server_timeout",
+        "block_timeout", "lss_timeout", "claims", "objects", "errors", "safe_objects", "untouchable",
+        "factory_defaults", "identity", "known_deviations"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }
