@@ -159,6 +159,8 @@ Result<Value> evaluate_node(const NodePtr& node, Scope& scope) {
     case Kind::name: {
       const auto* value = scope.find(node->name);
       if (value == nullptr) return fail("$" + node->name + " has no value here");
+      // A late-bound instance: for_each may list `current`, which is read when it is used.
+      if (value->word == "current") return scope.current();
       return *value;
     }
     case Kind::value_of: {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sub-commands: options in, exit code out. They are the only code that prints, besides the reference node's main.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace conform::cli {
+
+inline constexpr int exit_usage = 2;
+inline constexpr int exit_environment = 3;
+
+struct RunCommand {
+  std::vector<std::string> select;
+  std::vector<std::string> requirements;
+  std::vector<std::string> exclude;
+  std::string suites;
+  std::string interface;
+  bool simulate = false;
+  std::vector<std::string> defects;   ///< of the simulated reference node
+  std::optional<std::uint32_t> node;
+  std::string device;                 ///< profile file
+  std::string allow;                  ///< risk tier; empty: by interface
+  std::uint64_t seed = 1;
+  bool strict = false;
+  bool all_objects = false;
+  bool dry_run = false;
+  bool quiet = false;
+  std::string color = "auto";         ///< auto, always, never
+  std::string junit, capture, candump, markdown;
+};
+[[nodiscard]] int run_command(const RunCommand& options);
+
+struct LintCommand {
+  std::vector<std::string> files;     ///< empty: all of the suites
+  std::string suites;
+  std::string color = "auto";
+};
+[[nodiscard]] int lint_command(const LintCommand& options);
+
+struct ListCommand {
+  std::vector<std::string> select;
+  std::vector<std::string> requirements;
+  std::string suites;
+  bool cct = false;
+};
+[[nodiscard]] int list_command(const ListCommand& options);
+
+struct ExplainCommand {
+  std::string topic;
+  std::string suites;
+};
+[[nodiscard]] int explain_command(const ExplainCommand& options);
+
+struct SelftestCommand {
+  std::string suites;
+  std::uint64_t seed = 1;
+  bool verbose = false;
+  std::vector<std::string> defects;
+  std::string markdown;               ///< file for docs/proof.md
+};
+[[nodiscard]] int selftest_command(const SelftestCommand& options);
+
+/// Hidden: benchmark helpers used by scripts/benchmark.
+struct BenchCommand {
+  std::string suites;
+  std::string interface;
+  std::uint32_t node = 5;
+  std::uint64_t round_trips = 20000;
+};
+[[nodiscard]] int bench_command(const BenchCommand& options);
+
+}  // namespace conform::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command line of canopen-conform.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "cli/commands.hpp"
+
+namespace {
+
+int dispatch(int argc, char** argv) {
+  using namespace conform::cli;
+  CLI::App app{"CANopen (CiA 301) conformance harness.\n"
+               "Exit codes: 0 conforms, 1 a requirement failed, 2 usage or nothing applicable, 3 environment or inconclusive, 130/143 signal."};
+  app.name("canopen-conform");
+  app.set_version_flag("--version", "canopen-conform " CONFORM_VERSION);
+  app.require_subcommand(1);
+
+  RunCommand run;
+  auto* run_sub = app.add_subcommand("run", "Run the suite against a device, or against the reference node in simulation");
+  run_sub->add_option("select", run.select, "Scenarios: ids or leading paths, * and ? allowed (default: all)");
+  run_sub->add_option("-i,--interface", run.interface, "CAN interface of the device, for example can0");
+  run_sub->add_flag("--simulate", run.simulate, "Use the reference node on a simulated bus instead of a device");
+  run_sub->add_option("--defect", run.defects, "Defect of the simulated node (see canopen-refnode --list-defects)")->allow_extra_args(false);
+  run_sub->add_option("-n,--node", run.node, "Node-ID of the device")->check(CLI::Range(1, 127));
+  run_sub->add_option("-d,--device", run.device, "Device profile (YAML): claims, error triggers, tolerances");
+  run_sub->add_option("-r,--requirement", run.requirements, "Only scenarios that decide this requirement (* allowed)")->allow_extra_args(false);
+  run_sub->add_option("-x,--exclude", run.exclude, "Leave out scenarios")->allow_extra_args(false);
+  run_sub->add_option("--allow", run.allow, "Highest risk: read-only, config, nvm, motion (default: read-only on real interfaces, motion on virtual ones)");
+  run_sub->add_option("--junit", run.junit, "Write JUnit XML to this file, kept valid all the time");
+  run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark");
+  run_sub->add_option("--candump", run.candump, "Write all frames as candump log");
+  run_sub->add_option("--markdown", run.markdown, "Write a short Markdown report");
+  run_sub->add_flag("--dry-run", run.dry_run, "List what would run; send nothing");
+  run_sub->add_flag("--strict", run.strict, "Deviations from recommended and optional rules fail as well");
+  run_sub->add_flag("--all-objects", run.all_objects, "No sampling in scenarios over many objects");
+  run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)");
+  run_sub->add_flag("-q,--quiet", run.quiet, "Only what did not pass, and the summary");
+  run_sub->add_option("--color", run.color, "auto, always or never")->check(CLI::IsMember({"auto", "always", "never"}));
+
+  LintCommand lint;
+  auto* lint_sub = app.add_subcommand("lint", "Check scenario files, without a bus");
+  lint_sub->add_option("files", lint.files, "Files (default: the whole suites)");
+  lint_sub->add_option("--color", lint.color, "auto, always or never")->check(CLI::IsMember({"auto", "always", "never"}));
+
+  ListCommand list;
+  auto* list_sub = app.add_subcommand("list", "Show scenarios with their requirements");
+  list_sub->add_option("select", list.select, "Ids or leading paths");
+  list_sub->add_option("-r,--requirement", list.requirements, "Only scenarios that decide this requirement")->allow_extra_args(false);
+  list_sub->add_flag("--cct", list.cct, "Only scenarios that match a case of CiA's conformance test tool");
+
+  ExplainCommand explain;
+  auto* explain_sub = app.add_subcommand("explain", "Explain a requirement, a verb, a defect, 'verbs' or 'conditions'");
+  explain_sub->add_option("topic", explain.topic, "For example OD-1003-06, download, verbs")->required();
+
+  SelftestCommand selftest;
+  auto* selftest_sub = app.add_subcommand("selftest", "Prove the suite: every defect of the reference node must be caught");
+  selftest_sub->add_flag("-v,--verbose", selftest.verbose, "Show what killed each defect");
+  selftest_sub->add_option("--defect", selftest.defects, "Only these defects")->allow_extra_args(false);
+  selftest_sub->add_option("--seed", selftest.seed, "Seed of the simulation");
+  selftest_sub->add_option("--markdown", selftest.markdown, "Write the matrix to this file");
+
+  BenchCommand bench;
+  auto* bench_sub = app.add_subcommand("bench", "Round trips per second through the harness");
+  bench_sub->group("");
+  bench_sub->add_option("--interface", bench.interface)->required();
+  bench_sub->add_option("--node", bench.node);
+  bench_sub->add_option("--round-trips", bench.round_trips);
+
+  std::string suites;
+  for (auto* sub : {run_sub, lint_sub, list_sub, explain_sub, selftest_sub}) {
+    sub->add_option("--suites", suites, "Folder of the suites (default: the installed ones)");
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : exit_usage;
+  }
+  run.suites = lint.suites = list.suites = explain.suites = selftest.suites = suites;
+  if (run_sub->parsed()) return run_command(run);
+  if (lint_sub->parsed()) return lint_command(lint);
+  if (list_sub->parsed()) return list_command(list);
+  if (explain_sub->parsed()) return explain_command(explain);
+  if (selftest_sub->parsed()) return selftest_command(selftest);
+  return bench_command(bench);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // The one seam where exceptions of third-party code end.
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "canopen-conform: internal error: %s\n", error.what());
+    return conform::cli::exit_environment;
+  }
+}

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/case_runner.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+#include "canopen/decode.hpp"
+
+namespace conform::engine {
+namespace {
+
+using result::Verdict;
+using steps::Actual;
+using steps::Grade;
+using steps::Step;
+
+constexpr std::size_t evidence_before = 6;
+constexpr std::size_t evidence_after = 2;
+constexpr std::size_t offenders_named = 8;
+
+/// Binds what for_each gave: objects as such, ids and other words as words, everything else as late expressions.
+steps::Value bind(const std::string& text, RunSession& session, const scenario::Catalogue& catalogue) {
+  if (text.find(':') != std::string::npos) {
+    if (const auto object = parse_multiplexer(text)) return steps::Value::of_object(*object);
+  }
+  if (catalogue.find(text) != nullptr || text == "current") return steps::Value::of_word(text);
+  if (auto expression = steps::Expression::parse(text)) {
+    if (auto value = expression->evaluate(session)) return *value;
+  }
+  return steps::Value::of_word(text);
+}
+
+std::optional<canopen::DataType> type_of(const Step& step, RunSession& session) {
+  if (step.action == nullptr || step.action->object() == nullptr) return std::nullopt;
+  const auto object = step.action->object()->resolve(session);
+  if (!object) return std::nullopt;
+  const auto* entry = session.dictionary().find(*object);
+  return entry == nullptr ? std::nullopt : std::optional(entry->type);
+}
+
+}  // namespace
+
+Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out) {
+  out_ = &out;
+  offenders_.clear();
+  walk_value_.clear();
+  stopped_because_.clear();
+  session_.begin_case();
+  for (const auto& [name, text] : planned.names) session_.set(name, bind(text, session_, catalogue_));
+  const auto& scenario = *planned.scenario;
+  if (scenario.when) {
+    auto holds = scenario.when->evaluate(session_);
+    if (!holds) {
+      if (session_.recorder().fault()) return std::unexpected(holds.error());
+      out.verdict = Verdict::inconclusive;
+      out.reason = "the condition '" + scenario.when->text() + "' could not be decided: " + holds.error().what;
+      return {};
+    }
+    if (!*holds) {
+      out.verdict = Verdict::not_applicable;
+      out.reason = "not so: " + scenario.when->text();
+      return {};
+    }
+  }
+  auto flow = run_steps(scenario.steps);
+  if (!flow) {
+    conclude();
+    return std::unexpected(flow.error());
+  }
+  conclude();
+  // Cleanup judges nothing and always runs to its end.
+  for (const auto& step : scenario.cleanup) {
+    if (step.action == nullptr) continue;
+    session_.begin_step(step.action->acts(), step.action->object());
+    auto actual = step.action->run(session_);
+    if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
+  }
+  return {};
+}
+
+Result<CaseRunner::Flow> CaseRunner::run_steps(const Steps& list) {
+  for (const auto& step : list) {
+    auto flow = run_step(step);
+    if (!flow || *flow == Flow::stop) return flow;
+  }
+  return Flow::go_on;
+}
+
+Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
+  for (const auto* condition : {&step.when, &step.unless}) {
+    if (!*condition) continue;
+    auto holds = (*condition)->evaluate(session_);
+    if (!holds) return cannot_go_on(step, holds.error());
+    if (*holds != (condition == &step.when)) return Flow::go_on;
+  }
+  if (step.walk) return run_walk(step);
+  step_begin_ = session_.capture().size();
+  session_.begin_step(step.action->acts(), step.action->object());
+  auto actual = step.action->run(session_);
+  if (!actual) return cannot_go_on(step, actual.error());
+  if (!step.label.empty() && actual->decisive) session_.label(step.label, *actual->decisive);
+  if (!step.branches.empty()) return run_branches(step, *actual);
+  return judge(step, *actual);
+}
+
+Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
+  const auto& walk = *step.walk;
+  std::vector<steps::Value> values;
+  for (const auto& expression : walk.values) {
+    auto value = expression.evaluate(session_);
+    if (!value) return cannot_go_on(step, value.error());
+    values.push_back(*value);
+  }
+  for (const auto& range : walk.ranges) {
+    const auto low = range.low.number(session_);
+    const auto high = range.high.number(session_);
+    if (!low || !high) return cannot_go_on(step, low ? high.error() : low.error());
+    // An empty range is legal (1..$count with a count of 0); a huge one is the author's slip.
+    for (auto value = *low; value <= *high && values.size() < 65536; ++value) values.push_back(steps::Value::of_number(value));
+  }
+  for (const auto& set : walk.sets) {
+    if (set != "restricted CAN-IDs") continue;
+    for (const auto& range : canopen::restricted_ranges()) {
+      for (auto id = range.first; id <= range.last; ++id) values.push_back(steps::Value::of_number(id));
+    }
+  }
+  const bool outermost = walk_value_.empty();
+  for (const auto& value : values) {
+    walk_value_ = value.number ? hex(*value.number, *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2)) : value.text();
+    session_.set(walk.name, value);
+    auto flow = run_steps(walk.steps);
+    if (!flow || *flow == Flow::stop) {
+      if (outermost) finish_walk();
+      return flow;
+    }
+  }
+  if (outermost) finish_walk();
+  return Flow::go_on;
+}
+
+Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual& actual) {
+  for (const auto& branch : step.branches) {
+    if (branch.on.empty()) {
+      if (actual.kind != Actual::Kind::matched && actual.kind != Actual::Kind::confirmed) break;
+      auto begins = branch.steps.front().action->begins(session_);
+      if (!begins) return cannot_go_on(step, begins.error());
+      if (*begins) return run_steps(branch.steps);
+      continue;
+    }
+    for (const auto& outcome : branch.on) {
+      auto hit = outcome.matches(actual, session_);
+      if (!hit) return cannot_go_on(step, hit.error());
+      if (!*hit) continue;
+      const Grade grade{branch.verdict, branch.verdict == Verdict::warn   ? "tolerated, but not what the standard names"
+                                        : branch.verdict == Verdict::fail ? "an outcome that is ruled out"
+                                                                          : "does not concern this device: " + actual.words()};
+      for (const auto& requirement : checks_of(step)) record(step, requirement, grade, actual);
+      if (branch.verdict == Verdict::not_applicable) {
+        out_->reason = grade.reason;
+        return Flow::stop;
+      }
+      return run_steps(branch.steps);
+    }
+  }
+  // None of the ways the standard leaves open.
+  auto checks = checks_of(step);
+  for (const auto& branch : step.branches) {
+    if (branch.on.empty()) {
+      const auto more = checks_of(branch.steps.front());
+      checks.insert(checks.end(), more.begin(), more.end());
+    }
+  }
+  std::ranges::sort(checks);
+  const auto repeated = std::ranges::unique(checks);
+  checks.erase(repeated.begin(), repeated.end());
+  if (checks.empty()) return judge(step, actual);
+  Actual seen = actual;
+  if (seen.kind == Actual::Kind::matched) {
+    seen.kind = Actual::Kind::mismatched;
+    seen.detail = "what came next is none of the ways listed";
+  }
+  for (const auto& requirement : checks) {
+    record(step, requirement, {Verdict::fail, "not one of the ways the standard leaves open"}, seen);
+  }
+  return Flow::stop;
+}
+
+std::vector<std::string> CaseRunner::checks_of(const Step& step) const {
+  std::vector<std::string> out;
+  for (const auto& check : step.expectation.checks) {
+    if (!check.starts_with('$')) {
+      out.push_back(check);
+    } else if (const auto* value = session_.find(std::string_view(check).substr(1)); value != nullptr && value->word) {
+      if (const auto canonical = catalogue_.canonical(*value->word)) out.push_back(*canonical);
+    }
+  }
+  return out;
+}
+
+Result<CaseRunner::Flow> CaseRunner::judge(const Step& step, const Actual& actual) {
+  const auto checks = checks_of(step);
+  if (checks.empty()) {
+    auto grade = steps::grade(step.expectation, actual, "mandatory", strict_, session_);
+    if (!grade) return cannot_go_on(step, grade.error());
+    if (grade->verdict == Verdict::pass || grade->verdict == Verdict::warn) return Flow::go_on;
+    auto finding = make_finding(step, "", {Verdict::inconclusive, "a set-up step failed, so what follows could not be judged"}, actual);
+    stopped_because_ = "set-up failed: " + finding.step + ": " + finding.actual;
+    out_->setup_findings.push_back(std::move(finding));
+    return Flow::stop;
+  }
+  for (const auto& requirement : checks) {
+    const auto* known = catalogue_.find(requirement);
+    auto grade = steps::grade(step.expectation, actual, known != nullptr ? known->level : "mandatory", strict_, session_);
+    if (!grade) return cannot_go_on(step, grade.error());
+    record(step, requirement, *grade, actual);
+  }
+  return Flow::go_on;
+}
+
+Result<CaseRunner::Flow> CaseRunner::cannot_go_on(const Step& step, const Error& error) {
+  if (session_.recorder().fault()) return std::unexpected(error);
+  Actual actual;
+  actual.kind = Actual::Kind::mismatched;
+  actual.detail = error.what;
+  auto finding = make_finding(step, "", {Verdict::inconclusive, "the step could not be carried out"}, actual);
+  stopped_because_ = finding.step + ": " + error.what;
+  out_->setup_findings.push_back(std::move(finding));
+  return Flow::stop;
+}
+
+result::Judgement& CaseRunner::judgement(const std::string& requirement) {
+  auto& all = out_->judgements;
+  const auto found = std::ranges::find(all, requirement, &result::Judgement::requirement);
+  if (found != all.end()) return *found;
+  result::Judgement fresh;
+  fresh.requirement = requirement;
+  fresh.verdict = Verdict::not_applicable;
+  return all.emplace_back(std::move(fresh));
+}
+
+void CaseRunner::record(const Step& step, const std::string& requirement, const Grade& grade, const Actual& actual) {
+  auto& target = judgement(requirement);
+  ++target.expectations;
+  target.verdict = worst(target.verdict, grade.verdict);
+  const bool in_walk = !walk_value_.empty();
+  if (in_walk) ++offenders_[{&step, requirement}].judged;
+  if (grade.verdict == Verdict::pass || grade.verdict == Verdict::not_applicable) return;
+  if (in_walk) {
+    auto& offenders = offenders_[{&step, requirement}];
+    offenders.values.push_back(walk_value_ + ": " + actual.words());
+    if (offenders.values.size() > 1) return;
+    offenders.finding = target.findings.size();
+  }
+  target.findings.push_back(make_finding(step, requirement, grade, actual));
+}
+
+void CaseRunner::finish_walk() {
+  for (auto& [key, offenders] : offenders_) {
+    if (offenders.values.empty()) continue;
+    auto& finding = judgement(key.second).findings[offenders.finding];
+    std::string text = std::to_string(offenders.values.size()) + " of " + std::to_string(offenders.judged) + " values: ";
+    for (std::size_t i = 0; i < std::min(offenders.values.size(), offenders_named); ++i) {
+      text += (i == 0 ? "" : "; ") + offenders.values[i];
+    }
+    if (offenders.values.size() > offenders_named) text += "; ...";
+    finding.actual = text;
+  }
+  offenders_.clear();
+  walk_value_.clear();
+}
+
+result::Finding CaseRunner::make_finding(const Step& step, const std::string& requirement, const Grade& grade, const Actual& actual) {
+  const auto type = type_of(step, session_);
+  result::Finding out;
+  out.verdict = grade.verdict;
+  out.requirement = requirement;
+  out.position = {out_->position.file, step.position.line, step.position.column};
+  out.step = step.action != nullptr ? step.action->words(session_) : "over " + (step.walk ? step.walk->name : step.verb);
+  if (step.branches.empty()) {
+    out.accepts = step.expectation.pass.empty() ? std::vector<std::string>{"success"} : step.expectation.pass_words(session_, type);
+    out.tolerates = step.expectation.warn_words(session_, type);
+  } else {
+    for (const auto& branch : step.branches) {
+      for (const auto& outcome : branch.on) {
+        auto& set = branch.verdict == Verdict::pass ? out.accepts : out.tolerates;
+        if (branch.verdict != Verdict::fail) set.push_back(outcome.words(session_, type));
+      }
+      if (branch.on.empty()) out.accepts.push_back(branch.steps.front().action->words(session_));
+    }
+  }
+  out.actual = actual.words();
+  out.actual_bytes.assign(actual.data.begin(), actual.data.end());
+  out.reason = grade.reason;
+  out.evidence = evidence(step_begin_, actual.decisive);
+  return out;
+}
+
+std::vector<result::EvidenceFrame> CaseRunner::evidence(std::size_t begin, std::optional<std::size_t> decisive) const {
+  std::vector<result::EvidenceFrame> out;
+  const auto& frames = session_.capture().frames();
+  if (frames.empty()) return out;
+  const auto centre = decisive.value_or(frames.size() - 1);
+  auto first = std::max(out_->first_frame, centre > evidence_before ? centre - evidence_before : 0);
+  if (begin >= first && begin <= centre && centre - begin < evidence_before) first = std::max(out_->first_frame, begin > 2 ? begin - 2 : 0);
+  const auto last = std::min(frames.size() - 1, centre + evidence_after);
+  // The decoder must see the case from its beginning to name segments.
+  canopen::Decoder decoder(session_.node());
+  decoder.set_emcy_can_id(session_.emcy_can_id());
+  for (auto i = out_->first_frame; i <= last; ++i) {
+    auto meaning = decoder.meaning(frames[i].frame, frames[i].direction);
+    if (i < first) continue;
+    result::EvidenceFrame frame;
+    frame.frame = frames[i].frame;
+    frame.time = frames[i].time;
+    frame.direction = frames[i].direction;
+    frame.capture_index = i;
+    frame.meaning = std::move(meaning);
+    frame.decisive = decisive == i;
+    out.push_back(std::move(frame));
+  }
+  return out;
+}
+
+void CaseRunner::conclude() {
+  // What the case could have judged and did not reach, because it had to stop, is open and not passed.
+  if (!stopped_because_.empty()) {
+    for (const auto& requirement : out_->requirements) {
+      auto& target = judgement(requirement);
+      if (target.expectations == 0) target.verdict = Verdict::inconclusive;
+    }
+  }
+  auto verdict = Verdict::not_applicable;
+  for (const auto& each : out_->judgements) verdict = worst(verdict, each.verdict);
+  if (!stopped_because_.empty()) verdict = worst(verdict, Verdict::inconclusive);
+  out_->verdict = verdict;
+  if (!stopped_because_.empty()) {
+    out_->reason = stopped_because_;
+  } else if (verdict == Verdict::not_applicable && !out_->judgements.empty()) {
+    if (out_->reason == "not run") out_->reason = "no expectation applies to this device";
+  } else if (verdict == Verdict::not_applicable) {
+    out_->reason = "no expectation applies to this device";
+  } else {
+    out_->reason.clear();
+  }
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plays the steps of one case and judges what came.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/plan.hpp"
+#include "engine/run_session.hpp"
+#include "result/run_result.hpp"
+#include "scenario/catalogue.hpp"
+
+namespace conform::engine {
+
+class CaseRunner {
+ public:
+  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, bool strict)
+      : session_(session), catalogue_(catalogue), strict_(strict) {}
+
+  /// Steps and cleanup; fills judgements, verdict and reason of `out`. Error: the environment failed; what was judged stays.
+  [[nodiscard]] Result<void> run(const PlannedCase& planned, result::CaseResult& out);
+
+ private:
+  enum class Flow : std::uint8_t { go_on, stop };
+  /// Findings of one expectation over the values of an `over`, to be told as one.
+  struct Offenders {
+    std::size_t finding = 0;
+    std::vector<std::string> values;
+    std::size_t judged = 0;
+  };
+  using Steps = std::vector<steps::Step>;
+
+  [[nodiscard]] Result<Flow> run_steps(const Steps& list);
+  [[nodiscard]] Result<Flow> run_step(const steps::Step& step);
+  [[nodiscard]] Result<Flow> run_walk(const steps::Step& step);
+  [[nodiscard]] Result<Flow> run_branches(const steps::Step& step, const steps::Actual& actual);
+  [[nodiscard]] Result<Flow> judge(const steps::Step& step, const steps::Actual& actual);
+  /// A name without a value, an entry that cannot be read: the scenario cannot go on, the device is not blamed.
+  [[nodiscard]] Result<Flow> cannot_go_on(const steps::Step& step, const Error& error);
+  [[nodiscard]] std::vector<std::string> checks_of(const steps::Step& step) const;
+  void record(const steps::Step& step, const std::string& requirement, const steps::Grade& grade, const steps::Actual& actual);
+  [[nodiscard]] result::Finding make_finding(const steps::Step& step, const std::string& requirement, const steps::Grade& grade,
+                                             const steps::Actual& actual);
+  [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t begin, std::optional<std::size_t> decisive) const;
+  [[nodiscard]] result::Judgement& judgement(const std::string& requirement);
+  void finish_walk();
+  void conclude();
+
+  RunSession& session_;
+  const scenario::Catalogue& catalogue_;
+  bool strict_;
+  result::CaseResult* out_ = nullptr;
+  std::size_t step_begin_ = 0;
+  std::string walk_value_;   ///< not empty: inside an `over`
+  std::map<std::pair<const steps::Step*, std::string>, Offenders> offenders_;
+  std::string stopped_because_;
+};
+
+}  // namespace conform::engine

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/discovery.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
+#include "device/standard_objects.hpp"
+
+namespace conform::engine {
+namespace {
+
+using Kind = steps::SdoAnswer::Kind;
+
+/// An abort that says "not here"; every other answer shows that the entry exists.
+bool says_absent(const steps::SdoAnswer& answer) {
+  return answer.kind == Kind::aborted &&
+         (answer.code == canopen::abort::no_object || answer.code == canopen::abort::no_sub_index);
+}
+
+/// Arrays of the standard go on beyond what the dictionary lists; sub-index 00h tells how far (1003h: a count that changes).
+void extend_array(device::Dictionary& out, Index index, std::uint8_t highest) {
+  if (index == Index(0x1003) || highest > 0x7F) return;
+  for (int sub = 2; sub <= highest; ++sub) {
+    const Multiplexer mux{index, SubIndex(static_cast<std::uint8_t>(sub))};
+    if (out.has(mux)) continue;
+    if (auto entry = device::standard_entry(mux)) out.add(*entry);
+  }
+}
+
+}  // namespace
+
+Result<Liveness> probe(RunSession& session, bool may_command) {
+  Liveness out;
+  const auto error_control = canopen::connection_set(session.node()).error_control;
+  const auto from_node = [&session](const can::CapturedFrame& captured) {
+    if (captured.direction != can::Direction::received || captured.frame.error || captured.frame.extended) return false;
+    const auto set = canopen::connection_set(session.node());
+    const CanId id(captured.frame.id);
+    return id == set.sdo_response || id == set.error_control || id == set.emcy;
+  };
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    auto answer = session.peek({Index(0x1000), SubIndex(0)});
+    if (!answer) return std::unexpected(answer.error());
+    if (answer->kind != Kind::silence) {
+      out.alive = true;
+      out.heard = "SDO answer";
+      return out;
+    }
+    auto heard = session.recorder().find(0, from_node, session.now());
+    if (!heard) return std::unexpected(heard.error());
+    if (!*heard) continue;
+    const auto& frame = session.capture().frames()[**heard].frame;
+    if (frame.is_data(error_control) && frame.size() == 1 && frame.data[0] == 0x04 && may_command) {
+      // Stopped: no SDO there, and legally so.
+      if (auto sent = session.nmt(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
+      if (auto waited = session.wait_until(session.now() + session.profile().nmt_time); !waited) {
+        return std::unexpected(waited.error());
+      }
+      continue;
+    }
+    out.alive = attempt > 0;
+    out.heard = "frames of the node, but no SDO answer";
+  }
+  if (out.heard.empty()) out.heard = "nothing";
+  return out;
+}
+
+Result<void> discover(RunSession& session) {
+  auto& known = session.known();
+  session.forget_presence();
+  // An absent object answers for all of its sub-indices.
+  for (const auto index : known.objects()) {
+    const Multiplexer first{index, SubIndex(0)};
+    auto answer = session.peek(first);
+    if (!answer) return std::unexpected(answer.error());
+    const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
+    session.note_present(first, !says_absent(*answer));
+    if (absent) {
+      for (const auto& entry : std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
+        session.note_present(entry.mux, false);
+        if (entry.presence() != device::Presence::claimed) known.remove(entry.mux);
+      }
+      continue;
+    }
+    if (answer->kind == Kind::confirmed && answer->data.size() == 1) {
+      extend_array(known, index, answer->data[0]);
+    }
+    for (const auto& entry : std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
+      if (entry.mux == first && known.has(first)) continue;
+      auto each = session.peek(entry.mux);
+      if (!each) return std::unexpected(each.error());
+      const bool gone = says_absent(*each);
+      session.note_present(entry.mux, !gone);
+      if (gone && entry.presence() != device::Presence::claimed) known.remove(entry.mux);
+    }
+  }
+  auto emcy = session.peek({Index(0x1014), SubIndex(0)});
+  if (!emcy) return std::unexpected(emcy.error());
+  if (emcy->kind == Kind::confirmed && emcy->data.size() == 4) {
+    session.set_home_emcy_can_id(canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(emcy->data)))));
+  }
+  return {};
+}
+
+Result<std::vector<result::Property>> device_properties(RunSession& session) {
+  struct Row {
+    const char* name;
+    Multiplexer object;
+    bool text;
+  };
+  static constexpr Row rows[] = {
+      {"dut.device_type", {Index(0x1000), SubIndex(0)}, false},   {"dut.vendor_id", {Index(0x1018), SubIndex(1)}, false},
+      {"dut.product_code", {Index(0x1018), SubIndex(2)}, false},  {"dut.revision", {Index(0x1018), SubIndex(3)}, false},
+      {"dut.serial", {Index(0x1018), SubIndex(4)}, false},        {"dut.name", {Index(0x1008), SubIndex(0)}, true},
+      {"dut.hardware_version", {Index(0x1009), SubIndex(0)}, true}, {"dut.software_version", {Index(0x100A), SubIndex(0)}, true},
+  };
+  std::vector<result::Property> out;
+  out.push_back({"dut.node_id", std::to_string(session.node().value())});
+  for (const auto& row : rows) {
+    auto present = session.is_present(row.object, false);
+    if (!present) return std::unexpected(present.error());
+    if (!*present) continue;
+    auto answer = session.peek(row.object);
+    if (!answer) return std::unexpected(answer.error());
+    if (answer->kind != Kind::confirmed) continue;
+    out.push_back({row.name, row.text ? std::string(answer->data.begin(), answer->data.end())
+                                      : hex(load_le(answer->data), static_cast<int>(answer->data.size()) * 2)});
+  }
+  return out;
+}
+
+Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session) {
+  std::map<Multiplexer, Bytes> out;
+  for (const auto& entry : session.known().entries()) {
+    if (!entry.readable() || !entry.writable() || entry.command || entry.may_change) continue;
+    auto present = session.is_present(entry.mux, false);
+    if (!present) return std::unexpected(present.error());
+    if (!*present) continue;
+    auto answer = session.peek(entry.mux);
+    if (!answer) return std::unexpected(answer.error());
+    if (answer->kind == Kind::confirmed) out[entry.mux] = answer->data;
+  }
+  return out;
+}
+
+}  // namespace conform::engine

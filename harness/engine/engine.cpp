@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/engine.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.hpp"
+#include "engine/case_runner.hpp"
+#include "engine/discovery.hpp"
+#include "engine/restore.hpp"
+#include "engine/run_session.hpp"
+
+namespace conform::engine {
+namespace {
+
+using result::CaseResult;
+using result::Verdict;
+
+/// Everything one run needs; one function per phase.
+class Run {
+ public:
+  Run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+      const RunOptions& options)
+      : profile_(profile),
+        suite_(suite),
+        catalogue_(catalogue),
+        options_(options),
+        recorder_(transport, options.stop),
+        session_(recorder_, profile_, device::dictionary_of(profile_)),
+        runner_(session_, catalogue_, options.strict) {}
+
+  result::RunResult execute() {
+    out_.device = profile_.name.empty() ? "node " + std::to_string(profile_.node.value()) : profile_.name;
+    const auto begin = recorder_.now();
+    auto ready = prepare();
+    make_plan();
+    if (options_.on_planned) options_.on_planned(out_);
+    if (!ready) {
+      abort_run(ready.error());
+    } else if (!alive_) {
+      abort_run({"nothing was heard of node " + std::to_string(profile_.node.value()), {}, "node-ID, bit rate, power?"});
+    } else {
+      run_cases();
+    }
+    out_.elapsed = recorder_.now() - begin;
+    if (options_.stop != nullptr) out_.signal = options_.stop->load();
+    return std::move(out_);
+  }
+
+  can::Capture take_capture() { return std::move(recorder_.capture()); }
+
+ private:
+  [[nodiscard]] bool may(scenario::Risk risk) const { return risk <= options_.plan.allowed; }
+
+  Result<void> prepare() {
+    auto liveness = probe(session_, may(scenario::Risk::config));
+    if (!liveness) return std::unexpected(liveness.error());
+    alive_ = liveness->alive;
+    if (!alive_) return {};
+    if (may(scenario::Risk::config)) {
+      if (auto done = enter_pre_operational(); !done) return done;
+    }
+    if (auto found = discover(session_); !found) return found;
+    auto properties = device_properties(session_);
+    if (!properties) return std::unexpected(properties.error());
+    out_.properties = std::move(*properties);
+    auto values = snapshot(session_);
+    if (!values) return std::unexpected(values.error());
+    snapshot_ = std::move(*values);
+    return {};
+  }
+
+  void make_plan() {
+    plan_ = plan(suite_, catalogue_, session_.known(), options_.plan);
+    std::set<std::string> mentioned;
+    for (const auto& planned : plan_) {
+      out_.cases.push_back(planned_result(planned, catalogue_));
+      mentioned.insert(out_.cases.back().requirements.begin(), out_.cases.back().requirements.end());
+    }
+    for (const auto& id : mentioned) {
+      if (const auto* requirement = catalogue_.find(id)) out_.requirements.push_back(requirement->info());
+    }
+  }
+
+  void abort_run(const Error& error) {
+    if (error.what == stopped) {
+      out_.aborted = "stopped by the user";
+    } else {
+      out_.aborted = error.text();
+    }
+    for (auto& each : out_.cases) {
+      if (!each.finished && each.verdict == Verdict::error) each.reason = "not run: " + *out_.aborted;
+    }
+  }
+
+  void run_cases() {
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+      auto& result = out_.cases[i];
+      if (!plan_[i].held_back.empty() || !plan_[i].not_applicable.empty()) {
+        result.verdict = Verdict::not_applicable;
+        result.reason = plan_[i].held_back.empty() ? plan_[i].not_applicable : plan_[i].held_back;
+        result.finished = true;
+        result.begin = result.end = recorder_.now();
+        if (options_.on_case_end) options_.on_case_end(out_, i);
+        continue;
+      }
+      if (options_.on_case_begin) options_.on_case_begin(out_, i);
+      auto done = run_case(plan_[i], result);
+      if (options_.on_case_end) options_.on_case_end(out_, i);
+      if (!done) {
+        abort_run(done.error());
+        break;
+      }
+    }
+    finish();
+  }
+
+  Result<void> run_case(const PlannedCase& planned, CaseResult& out) {
+    if (auto ready = baseline(*planned.scenario); !ready) {
+      out.reason = "not run: " + ready.error().text();
+      return ready;
+    }
+    out.begin = recorder_.now();
+    out.first_frame = recorder_.capture().size();
+    const auto health = recorder_.transport().health();
+    auto ran = runner_.run(planned, out);
+    out.end_frame = recorder_.capture().size();
+    out.end = recorder_.now();
+    if (ran) ran = after_case(out, planned.scenario->risk >= scenario::Risk::config);
+    if (!ran) {
+      // The environment failed in the middle: nothing of this case counts as passed or failed.
+      out.verdict = Verdict::error;
+      out.reason = ran.error().what == stopped ? "stopped by the user before the case ended" : ran.error().text();
+      restore_after_fault();
+      return ran;
+    }
+    out.finished = true;
+    distrust_if_unhealthy(out, health);
+    accept_known_deviations(out);
+    if (out.first_frame < out.end_frame) recorder_.capture().comment(out.first_frame, out.name());
+    for (const auto& judgement : out.judgements) {
+      for (const auto& finding : judgement.findings) {
+        for (const auto& frame : finding.evidence) {
+          if (frame.decisive && frame.capture_index < recorder_.capture().size()) {
+            recorder_.capture().comment(frame.capture_index,
+                                        std::string(to_string(finding.verdict)) + " " + finding.requirement + ": " + finding.actual);
+          }
+        }
+      }
+    }
+    return {};
+  }
+
+  /// Pre-operational, SDO channel idle, and freshly reset where the scenario asks for it.
+  Result<void> baseline(const scenario::Scenario& scenario) {
+    if (!may(scenario::Risk::config)) return {};
+    if (scenario.fresh != scenario::Fresh::none) {
+      if (auto done = reset(scenario.fresh == scenario::Fresh::node ? canopen::NmtCommand::reset_node
+                                                                    : canopen::NmtCommand::reset_communication);
+          !done) {
+        return std::unexpected(done.error());
+      }
+    }
+    return enter_pre_operational();
+  }
+
+  Result<void> enter_pre_operational() {
+    if (!session_.take_state_changed()) return {};
+    auto sent = session_.nmt(canopen::NmtCommand::pre_operational);
+    if (!sent) return sent;
+    (void)session_.take_state_changed();
+    return session_.wait_until(session_.now() + profile_.nmt_time);
+  }
+
+  /// False: no boot-up message came.
+  Result<bool> reset(canopen::NmtCommand command) {
+    const auto from = recorder_.capture().size();
+    auto sent = session_.nmt(command);
+    if (!sent) return std::unexpected(sent.error());
+    const auto id = 0x700U + profile_.node.value();
+    auto booted = recorder_.find(
+        from,
+        [id](const can::CapturedFrame& captured) {
+          return captured.direction == can::Direction::received && captured.frame.is_data(CanId(id)) && captured.frame.size() == 1 &&
+                 captured.frame.data[0] == 0;
+        },
+        recorder_.now() + profile_.boot_time);
+    if (!booted) return std::unexpected(booted.error());
+    return booted->has_value();
+  }
+
+  /// Puts everything back and makes sure that the device is still there.
+  Result<void> after_case(CaseResult& out, bool may_command) {
+    recorder_.stop_producing("");
+    if (session_.silence_seen() || out.verdict == Verdict::fail || out.verdict == Verdict::inconclusive) {
+      auto there = still_alive(may_command);
+      if (!there) return std::unexpected(there.error());
+      if (!*there) {
+        recall_silence(out);
+        return fail("the device vanished during " + out.name(), {}, "no SDO answer, and no boot-up message after a reset");
+      }
+    }
+    auto changes = session_.take_journal();
+    if (changes.empty()) return {};
+    if (auto ready = enter_pre_operational(); !ready) return ready;
+    auto report = restore(session_, changes);
+    if (!report) return std::unexpected(report.error());
+    if (!report->left.empty() && may_command) {
+      // What cannot be written back is lost with a reset, unless it was stored.
+      auto booted = reset(canopen::NmtCommand::reset_node);
+      if (!booted) return std::unexpected(booted.error());
+      (void)enter_pre_operational();
+      report = restore(session_, std::move(changes));
+      if (!report) return std::unexpected(report.error());
+    }
+    for (const auto& left : report->left) out_.notes.push_back(out.name() + ": could not be put back: " + left);
+    return {};
+  }
+
+  Result<bool> still_alive(bool may_command) {
+    session_.clear_silence_seen();
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      auto answer = session_.peek({Index(0x1000), SubIndex(0)});
+      if (!answer) return std::unexpected(answer.error());
+      if (answer->kind != steps::SdoAnswer::Kind::silence) return true;
+      if (!may_command || attempt > 0) continue;
+      // Perhaps it was left in Stopped, or the SDO server hangs: Pre-operational first, then a reset.
+      if (auto sent = session_.nmt(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
+      if (auto waited = session_.wait_until(session_.now() + profile_.nmt_time); !waited) return std::unexpected(waited.error());
+      answer = session_.peek({Index(0x1000), SubIndex(0)});
+      if (!answer) return std::unexpected(answer.error());
+      if (answer->kind != steps::SdoAnswer::Kind::silence) return true;
+      auto booted = reset(canopen::NmtCommand::reset_node);
+      if (!booted) return std::unexpected(booted.error());
+      out_.notes.push_back("the device had to be reset because it did not answer any more");
+    }
+    return false;
+  }
+
+  /// A device that is gone has not violated the rule under test: what rests on silence is no verdict.
+  static void recall_silence(CaseResult& out) {
+    for (auto& judgement : out.judgements) {
+      if (judgement.verdict == Verdict::fail || judgement.verdict == Verdict::warn) judgement.verdict = Verdict::error;
+      for (auto& finding : judgement.findings) finding.verdict = Verdict::error;
+    }
+  }
+
+  /// Lost frames, bus-off or a stepped clock: what rests on the absence of a frame cannot be trusted.
+  void distrust_if_unhealthy(CaseResult& out, const can::BusHealth& before) {
+    const auto after = recorder_.transport().health();
+    std::string why;
+    if (after.frames_dropped > before.frames_dropped) {
+      why = "the host lost " + std::to_string(after.frames_dropped - before.frames_dropped) + " frames during the case";
+    } else if (after.bus_off && !before.bus_off) {
+      why = "bus-off during the case";
+    } else if (after.clock_stepped && !before.clock_stepped) {
+      why = "the host's clock was set during the case";
+    }
+    if (why.empty() || out.verdict == Verdict::not_applicable) return;
+    for (auto& judgement : out.judgements) {
+      judgement.verdict = Verdict::inconclusive;
+      for (auto& finding : judgement.findings) finding.verdict = Verdict::inconclusive;
+    }
+    out.verdict = Verdict::inconclusive;
+    out.reason = why;
+  }
+
+  void accept_known_deviations(CaseResult& out) {
+    auto verdict = Verdict::not_applicable;
+    for (auto& judgement : out.judgements) {
+      for (const auto& deviation : profile_.deviations) {
+        const auto id = catalogue_.canonical(deviation.requirement).value_or(deviation.requirement);
+        if (id != judgement.requirement || judgement.verdict != Verdict::fail) continue;
+        if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name())) continue;
+        judgement.verdict = Verdict::warn;
+        for (auto& finding : judgement.findings) {
+          if (finding.verdict == Verdict::fail) finding.verdict = Verdict::warn;
+          finding.reason += "; accepted as known deviation: " + deviation.reason;
+        }
+      }
+      verdict = worst(verdict, judgement.verdict);
+    }
+    if (out.verdict == Verdict::fail) out.verdict = verdict;
+  }
+
+  /// The bus broke or the user stopped: values are put back if that is still possible.
+  void restore_after_fault() {
+    recorder_.stop_producing("");
+    const bool by_user = recorder_.fault() && recorder_.fault()->what == stopped;
+    auto changes = session_.take_journal();
+    if (!by_user) {
+      for (const auto& change : changes) {
+        out_.notes.push_back("not put back, the bus is gone: " + to_string(change.object) + " was " + hex_bytes(change.before));
+      }
+      return;
+    }
+    recorder_.clear_fault();
+    recorder_.ignore_stop(true);
+    if (!changes.empty()) {
+      session_.sdo_channel_dirty();
+      auto report = restore(session_, std::move(changes));
+      if (report) {
+        for (const auto& left : report->left) out_.notes.push_back("could not be put back: " + left);
+      }
+    }
+    if (may(scenario::Risk::config)) (void)enter_pre_operational();
+    recorder_.ignore_stop(false);
+  }
+
+  /// The device is left as it was found; what is not is said.
+  void finish() {
+    if (out_.aborted) return;
+    if (may(scenario::Risk::config)) (void)enter_pre_operational();
+    auto now = snapshot(session_);
+    if (!now) return;
+    for (const auto& [object, before] : snapshot_) {
+      const auto found = now->find(object);
+      if (found == now->end()) {
+        out_.notes.push_back(to_string(object) + " could be read before the run and cannot any more");
+      } else if (found->second != before) {
+        out_.notes.push_back(to_string(object) + " was " + hex_bytes(before) + " before the run and is " + hex_bytes(found->second));
+      }
+    }
+  }
+
+  const device::Profile& profile_;
+  const scenario::Suite& suite_;
+  const scenario::Catalogue& catalogue_;
+  const RunOptions& options_;
+  Recorder recorder_;
+  RunSession session_;
+  CaseRunner runner_;
+  bool alive_ = false;
+  std::vector<PlannedCase> plan_;
+  std::map<Multiplexer, Bytes> snapshot_;
+  result::RunResult out_;
+};
+
+}  // namespace
+
+result::RunResult run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite,
+                      const scenario::Catalogue& catalogue, const RunOptions& options, can::Capture& capture) {
+  Run run(transport, profile, suite, catalogue, options);
+  auto out = run.execute();
+  capture = run.take_capture();
+  return out;
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run from the first probe to the finished result.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "can/capture.hpp"
+#include "can/transport.hpp"
+#include "device/profile.hpp"
+#include "engine/plan.hpp"
+#include "result/run_result.hpp"
+#include "scenario/catalogue.hpp"
+#include "scenario/loader.hpp"
+
+namespace conform::engine {
+
+struct RunOptions {
+  PlanOptions plan;
+  bool strict = false;                     ///< recommended and optional rules fail as well
+  const std::atomic<int>* stop = nullptr;  ///< a signal number ends the run in good order
+  // For live consoles and reports that survive a crash. The result shows every planned case from the start.
+  std::function<void(const result::RunResult&)> on_planned;
+  std::function<void(const result::RunResult&, std::size_t)> on_case_begin;  ///< index into cases
+  std::function<void(const result::RunResult&, std::size_t)> on_case_end;
+};
+
+/// Runs the plan on an open transport. Never throws a verdict away: whatever happens, the result says what was judged.
+[[nodiscard]] result::RunResult run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite,
+                                    const scenario::Catalogue& catalogue, const RunOptions& options, can::Capture& capture);
+
+}  // namespace conform::engine

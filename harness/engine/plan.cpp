@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.hpp"
+#include "scenario/query.hpp"
+
+namespace conform::engine {
+namespace {
+
+/// splitmix64: the same numbers with every compiler and library.
+std::uint64_t next_random(std::uint64_t& state) {
+  state += 0x9E3779B97F4A7C15ULL;
+  std::uint64_t z = state;
+  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31U);
+}
+
+/// `count` of the items, chosen by the seed, in their old order.
+std::vector<Multiplexer> sample(std::vector<Multiplexer> items, std::size_t count, std::uint64_t seed) {
+  if (items.size() <= count) return items;
+  std::vector<std::size_t> order(items.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto j = i + static_cast<std::size_t>(next_random(seed) % (order.size() - i));
+    std::swap(order[i], order[j]);
+  }
+  order.resize(count);
+  std::ranges::sort(order);
+  std::vector<Multiplexer> out;
+  for (const auto index : order) out.push_back(items[index]);
+  return out;
+}
+
+std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device::Dictionary& dictionary, const PlanOptions& options) {
+  std::vector<PlannedCase> out;
+  const auto add = [&](std::string instance) -> PlannedCase& {
+    PlannedCase planned;
+    planned.scenario = &scenario;
+    planned.instance = std::move(instance);
+    return out.emplace_back(std::move(planned));
+  };
+  if (!scenario.for_each) {
+    add("");
+  } else if (scenario.for_each->query.empty()) {
+    for (const auto& row : scenario.for_each->rows) add(row.name).names = row.texts;
+  } else {
+    const auto query = scenario::Query::parse(scenario.for_each->query);
+    auto objects = query ? query->select(dictionary) : std::vector<Multiplexer>();
+    if (objects.empty()) add("").not_applicable = "the device has no " + scenario.for_each->query;
+    if (scenario.sample > 0 && !options.all_objects) objects = sample(std::move(objects), scenario.sample, options.seed);
+    for (const auto object : objects) add(to_string(object)).names[scenario.for_each->variable] = to_string(object);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                              const device::Dictionary& dictionary, const PlanOptions& options) {
+  std::vector<PlannedCase> out;
+  for (const auto& file : suite.files) {
+    for (const auto& scenario : file.scenarios) {
+      for (auto& planned : expand(scenario, dictionary, options)) {
+        if (!options.selection.takes(scenario, planned.instance, catalogue)) continue;
+        if (scenario.risk > options.allowed) {
+          planned.held_back = "held back: risk '" + std::string(to_string(scenario.risk)) + "' is not allowed in this run (--allow " +
+                              std::string(to_string(scenario.risk)) + ")";
+        }
+        out.push_back(std::move(planned));
+      }
+    }
+  }
+  std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) { return planned.scenario->risk; });
+  return out;
+}
+
+result::CaseResult planned_result(const PlannedCase& planned, const scenario::Catalogue& catalogue) {
+  const auto& scenario = *planned.scenario;
+  result::CaseResult out;
+  out.id = scenario.id;
+  out.instance = planned.instance;
+  out.title = scenario.title;
+  out.suite = scenario.suite;
+  out.position = scenario.position;
+  out.cct = scenario.cct;
+  out.requirements = scenario.requirements;
+  // A row of for_each that names its requirement narrows the list to what this instance decides.
+  if (scenario.for_each && !planned.names.empty()) {
+    std::set<std::string> others;
+    for (const auto& row : scenario.for_each->rows) {
+      for (const auto& [name, text] : row.texts) {
+        if (const auto id = catalogue.canonical(text)) others.insert(*id);
+      }
+    }
+    for (const auto& [name, text] : planned.names) {
+      if (const auto id = catalogue.canonical(text)) others.erase(*id);
+    }
+    std::erase_if(out.requirements, [&others](const std::string& id) { return others.contains(id); });
+  }
+  return out;
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which cases a run consists of: scenarios, expanded over for_each, filtered by selection and risk.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "device/dictionary.hpp"
+#include "result/run_result.hpp"
+#include "scenario/catalogue.hpp"
+#include "scenario/loader.hpp"
+#include "scenario/selection.hpp"
+
+namespace conform::engine {
+
+struct PlannedCase {
+  const scenario::Scenario* scenario = nullptr;
+  std::string instance;
+  std::map<std::string, std::string, std::less<>> names;  ///< bound by for_each, as written
+  std::string held_back;                                  ///< why it will not be run, or empty
+  std::string not_applicable;                             ///< a query that found nothing
+};
+
+struct PlanOptions {
+  scenario::Selection selection;
+  scenario::Risk allowed = scenario::Risk::motion;
+  std::uint64_t seed = 1;      ///< of the sample taken from long queries
+  bool all_objects = false;    ///< no sampling
+};
+
+/// In the order of the suite, read-only scenarios first, then config, nvm and motion: what can do harm comes last.
+[[nodiscard]] std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                                            const device::Dictionary& dictionary, const PlanOptions& options);
+
+/// The case as reports show it before it has run.
+[[nodiscard]] result::CaseResult planned_result(const PlannedCase& planned, const scenario::Catalogue& catalogue);
+
+}  // namespace conform::engine

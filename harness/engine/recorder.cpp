@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/recorder.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace conform::engine {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A stop request is answered within this time: no new request goes out later than that.
+constexpr Duration stop_latency = 40ms;
+/// A frame that is not on the bus by then will not be: bus-off, no acknowledging node, stuck queue.
+constexpr Duration transmit_limit = 1s;
+
+}  // namespace
+
+std::unexpected<Error> Recorder::broken(Error error) {
+  fault_ = error;
+  return std::unexpected(std::move(error));
+}
+
+Result<bool> Recorder::pump(BusTime deadline) {
+  if (stop_requested()) return broken({stopped, {}, {}});
+  auto until = deadline;
+  for (const auto& running : running_) until = std::min(until, running.due);
+  // Virtual time needs no slices: only a real wait can be too long for the user.
+  if (!transport_.info().is_virtual || stop_ != nullptr) until = std::min(until, std::max(now() + stop_latency, now()));
+  auto event = transport_.receive(until);
+  if (!event) return broken(event.error());
+  if (*event) {
+    capture_.add(**event);
+    return true;
+  }
+  auto produced = produce_due();
+  if (!produced) return std::unexpected(produced.error());
+  return now() < deadline;
+}
+
+Result<void> Recorder::produce_due() {
+  for (auto& running : running_) {
+    if (running.due > now()) continue;
+    auto sent = transport_.send(running.production.frame);
+    if (!sent) return broken(sent.error());
+    ++running.sent;
+    running.due += running.production.every;
+    // After a pause of the host the train goes on from now; a burst would be no heartbeat.
+    if (running.due <= now()) running.due = now() + running.production.every;
+  }
+  std::erase_if(running_, [](const Running& running) {
+    return running.production.count && running.sent >= *running.production.count;
+  });
+  return {};
+}
+
+Result<std::size_t> Recorder::send(const can::Frame& frame) {
+  const auto from = capture_.size();
+  if (stop_requested()) return broken({stopped, {}, {}});
+  auto sent = transport_.send(frame);
+  if (!sent) return broken(sent.error());
+  auto echo = find(
+      from,
+      [&frame](const can::CapturedFrame& captured) {
+        return captured.direction == can::Direction::transmitted && captured.frame == frame;
+      },
+      now() + transmit_limit);
+  if (!echo) return std::unexpected(echo.error());
+  if (!*echo) {
+    return broken({"a frame was not transmitted within 1 s", transport_.info().name,
+                   "is another node on the bus to acknowledge it, and the bit rate right?"});
+  }
+  return **echo;
+}
+
+Result<std::optional<std::size_t>> Recorder::find(std::size_t from, const steps::Session::Match& match, BusTime deadline) {
+  for (std::size_t i = from;; ++i) {
+    while (i >= capture_.size()) {
+      const auto size = capture_.size();
+      auto more = pump(deadline);
+      if (!more) return std::unexpected(more.error());
+      if (!*more && capture_.size() == size) return std::optional<std::size_t>();
+    }
+    const auto& captured = capture_.frames()[i];
+    if (captured.time > deadline) return std::optional<std::size_t>();
+    if (match(captured)) return std::optional(i);
+  }
+}
+
+Result<void> Recorder::wait_until(BusTime until) {
+  while (now() < until) {
+    auto more = pump(until);
+    if (!more) return std::unexpected(more.error());
+  }
+  return {};
+}
+
+void Recorder::produce(steps::Production production) {
+  stop_producing(production.label);
+  running_.push_back({std::move(production), now(), 0});
+}
+
+void Recorder::stop_producing(std::string_view label) {
+  std::erase_if(running_, [label](const Running& running) { return label.empty() || running.production.label == label; });
+}
+
+}  // namespace conform::engine

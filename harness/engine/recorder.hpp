@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's hold on the bus: every event goes into the capture, due productions are sent, and a stop request ends waits.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/error.hpp"
+#include "can/capture.hpp"
+#include "can/transport.hpp"
+#include "steps/session.hpp"
+
+namespace conform::engine {
+
+class Recorder {
+ public:
+  /// `stop` becomes non-zero (a signal number) when the user wants the run to end.
+  Recorder(can::Transport& transport, const std::atomic<int>* stop) : transport_(transport), stop_(stop) {}
+
+  [[nodiscard]] BusTime now() const { return transport_.now(); }
+  [[nodiscard]] const can::Capture& capture() const { return capture_; }
+  [[nodiscard]] can::Capture& capture() { return capture_; }
+  [[nodiscard]] can::Transport& transport() { return transport_; }
+
+  /// Sends and waits for the echo. Its capture index: the frame was on the bus at its stamp.
+  [[nodiscard]] Result<std::size_t> send(const can::Frame& frame);
+  /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as that takes.
+  [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match, BusTime deadline);
+  [[nodiscard]] Result<void> wait_until(BusTime until);
+
+  void produce(steps::Production production);
+  void stop_producing(std::string_view label);  ///< empty: everything
+
+  /// While restoring after a stop request the bus must still be usable.
+  void ignore_stop(bool ignore) { ignore_stop_ = ignore; }
+  /// The fault of the environment that ended the last wait or send, if any: tells it from mistakes of a scenario.
+  [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
+  void clear_fault() { fault_.reset(); }
+  [[nodiscard]] bool stop_requested() const { return stop_ != nullptr && stop_->load() != 0 && !ignore_stop_; }
+
+ private:
+  struct Running {
+    steps::Production production;
+    BusTime due;
+    std::uint64_t sent = 0;
+  };
+  /// Receives at most one event not later than `deadline`. False: the deadline has passed on the bus.
+  [[nodiscard]] Result<bool> pump(BusTime deadline);
+  [[nodiscard]] Result<void> produce_due();
+  [[nodiscard]] std::unexpected<Error> broken(Error error);
+
+  can::Transport& transport_;
+  const std::atomic<int>* stop_;
+  bool ignore_stop_ = false;
+  std::optional<Error> fault_;
+  can::Capture capture_;
+  std::vector<Running> running_;
+};
+
+/// The Error::what of an ended wait, so that callers can tell it from a broken bus.
+inline constexpr const char* stopped = "stopped by the user";
+
+}  // namespace conform::engine

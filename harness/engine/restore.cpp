@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/restore.hpp"
+
+#include <algorithm>
+#include <map>
+#include <ranges>
+
+#include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+
+namespace conform::engine {
+namespace {
+
+using Kind = steps::SdoAnswer::Kind;
+using Mode = canopen::SdoDownload::Mode;
+
+class Restorer {
+ public:
+  explicit Restorer(RunSession& session) : session_(session) {}
+
+  Result<std::optional<Bytes>> read(Multiplexer object) {
+    auto answer = session_.peek(object);
+    if (!answer) return std::unexpected(answer.error());
+    return answer->kind == Kind::confirmed ? std::optional(answer->data) : std::nullopt;
+  }
+
+  Result<bool> write(Multiplexer object, const Bytes& data) {
+    auto answer = session_.channel().download(object, data, Mode::automatic, std::nullopt);
+    if (!answer) return std::unexpected(answer.error());
+    return answer->kind == Kind::confirmed;
+  }
+
+  /// Off, change, on: CiA 301 locks bits 0-29 while the service is active.
+  Result<bool> write_cob_id(Multiplexer object, canopen::CobIdKind kind, const Bytes& now, const Bytes& before) {
+    const CobId current(static_cast<std::uint32_t>(load_le(now)));
+    const CobId target(static_cast<std::uint32_t>(load_le(before)));
+    Result<bool> last = true;
+    for (const auto value : {canopen::deactivated(kind, current), canopen::deactivated(kind, target), target}) {
+      last = write(object, to_le(value.value(), 4));
+      if (!last) return last;
+    }
+    return last;
+  }
+
+ private:
+  RunSession& session_;
+};
+
+/// Index of the PDO communication parameter an entry belongs to; nullopt for all other entries.
+std::optional<Index> pdo_of(Index index) {
+  const auto value = index.value();
+  if ((value >= 0x1400 && value <= 0x15FF) || (value >= 0x1800 && value <= 0x19FF)) return index;
+  if ((value >= 0x1600 && value <= 0x17FF) || (value >= 0x1A00 && value <= 0x1BFF)) {
+    return Index(static_cast<std::uint16_t>(value - 0x200));
+  }
+  return std::nullopt;
+}
+
+/// A PDO is put back as a whole: destroyed, its mapping and parameters written, its COB-ID last (7.5.2.36, 7.5.2.38).
+Result<void> restore_pdo(Restorer& device, Index communication, const std::vector<Change>& changes) {
+  const Multiplexer cob_id{communication, SubIndex(1)};
+  const auto kind = canopen::cob_id_kind(cob_id);
+  auto now = device.read(cob_id);
+  if (!now) return std::unexpected(now.error());
+  if (!kind || !*now || (*now)->size() != 4) return {};
+  Bytes wanted = **now;
+  for (const auto& change : changes) {
+    if (change.object == cob_id && change.before.size() == 4) wanted = change.before;
+  }
+  const CobId off = canopen::deactivated(*kind, CobId(static_cast<std::uint32_t>(load_le(**now))));
+  if (auto done = device.write(cob_id, to_le(off.value(), 4)); !done) return std::unexpected(done.error());
+  const Index mapping(static_cast<std::uint16_t>(communication.value() + 0x200));
+  const Multiplexer count{mapping, SubIndex(0)};
+  const bool mapping_changed =
+      std::ranges::any_of(changes, [mapping](const Change& change) { return change.object.index == mapping; });
+  std::optional<Bytes> count_before;
+  if (mapping_changed) {
+    auto count_now = device.read(count);
+    if (!count_now) return std::unexpected(count_now.error());
+    count_before = *count_now;
+    if (auto done = device.write(count, {0}); !done) return std::unexpected(done.error());
+  }
+  for (const auto& change : changes) {
+    if (change.object == count) {
+      count_before = change.before;
+    } else if (change.object != cob_id) {
+      if (auto done = device.write(change.object, change.before); !done) return std::unexpected(done.error());
+    }
+  }
+  if (mapping_changed && count_before) {
+    if (auto done = device.write(count, *count_before); !done) return std::unexpected(done.error());
+  }
+  auto done = device.write_cob_id(cob_id, *kind, to_le(off.value(), 4), wanted);
+  if (!done) return std::unexpected(done.error());
+  return {};
+}
+
+}  // namespace
+
+Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) {
+  RestoreReport out;
+  Restorer device(session);
+  std::ranges::reverse(changes);
+  std::vector<Change> differing;
+  for (auto& change : changes) {
+    auto now = device.read(change.object);
+    if (!now) return std::unexpected(now.error());
+    if (!*now || **now != change.before) differing.push_back(std::move(change));
+  }
+  out.written = differing.size();
+  std::map<Index, std::vector<Change>> pdos;
+  std::vector<const Change*> consumers;
+  for (const auto& change : differing) {
+    if (const auto pdo = pdo_of(change.object.index)) {
+      pdos[*pdo].push_back(change);
+      continue;
+    }
+    const auto kind = canopen::cob_id_kind(change.object);
+    if (kind && change.before.size() == 4) {
+      auto now = device.read(change.object);
+      if (!now) return std::unexpected(now.error());
+      if (*now && (*now)->size() == 4) {
+        auto done = device.write_cob_id(change.object, *kind, **now, change.before);
+        if (!done) return std::unexpected(done.error());
+      }
+      continue;
+    }
+    if (change.object.index == Index(0x1016) && change.object.sub != SubIndex(0)) {
+      // Two entries for one node are refused (7.5.2.19), so all are emptied before the old ones are written.
+      auto done = device.write(change.object, to_le(0, 4));
+      if (!done) return std::unexpected(done.error());
+      consumers.push_back(&change);
+      continue;
+    }
+    auto done = device.write(change.object, change.before);
+    if (!done) return std::unexpected(done.error());
+  }
+  for (const auto* change : consumers) {
+    auto done = device.write(change->object, change->before);
+    if (!done) return std::unexpected(done.error());
+  }
+  for (const auto& [communication, list] : pdos) {
+    auto done = restore_pdo(device, communication, list);
+    if (!done) return std::unexpected(done.error());
+  }
+  for (const auto& change : differing) {
+    auto now = device.read(change.object);
+    if (!now) return std::unexpected(now.error());
+    if (*now == change.before) continue;
+    out.left.push_back(to_string(change.object) + " is " + (*now ? hex_bytes(**now) : std::string("not readable")) + ", was " +
+                       hex_bytes(change.before));
+  }
+  return out;
+}
+
+}  // namespace conform::engine

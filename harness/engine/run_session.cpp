@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run_session.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
+
+namespace conform::engine {
+namespace {
+constexpr Multiplexer emcy_entry{Index(0x1014), SubIndex(0)};
+}
+
+RunSession::RunSession(Recorder& recorder, const device::Profile& profile, device::Dictionary dictionary)
+    : recorder_(recorder),
+      profile_(profile),
+      dictionary_(std::move(dictionary)),
+      channel_(recorder, profile.node, profile.sdo_timeout, profile.quiet_time),
+      emcy_can_id_(canopen::connection_set(profile.node).emcy),
+      home_emcy_can_id_(emcy_can_id_) {}
+
+const steps::Value* RunSession::find(std::string_view name) const {
+  const auto found = names_.find(name);
+  if (found != names_.end()) return &found->second;
+  if (!name.starts_with("profile.")) return nullptr;
+  const auto time = profile_.duration(name.substr(8));
+  if (!time) return nullptr;
+  return &profile_names_.insert_or_assign(std::string(name), steps::Value::of_duration(*time)).first->second;
+}
+
+Result<steps::Value> RunSession::current() {
+  if (object_ == nullptr) return fail("'current' needs a step about an entry", "scenario");
+  const auto object = object_->resolve(*this);
+  if (!object) return std::unexpected(object.error());
+  return read(*object);
+}
+
+Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) { return channel_.upload(object, std::nullopt); }
+
+Result<steps::Value> RunSession::read(Multiplexer object) {
+  auto answer = peek(object);
+  if (!answer) return std::unexpected(answer.error());
+  if (answer->kind == steps::SdoAnswer::Kind::confirmed) return steps::Value::of_bytes(answer->data);
+  const auto why = answer->kind == steps::SdoAnswer::Kind::aborted ? "abort " + canopen::describe(answer->code) : answer->detail;
+  return fail("the value of " + to_string(object) + " cannot be read: " + why, "scenario");
+}
+
+Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
+  if (whole_object) {
+    for (const auto& candidate : dictionary_.object(object.index)) {
+      const auto known = present_.find(candidate.mux);
+      if (known != present_.end() && known->second) return true;
+    }
+    object.sub = SubIndex(0);
+  }
+  const auto known = present_.find(object);
+  if (known != present_.end()) return known->second;
+  auto answer = peek(object);
+  if (!answer) return std::unexpected(answer.error());
+  using Kind = steps::SdoAnswer::Kind;
+  const bool present = answer->kind == Kind::confirmed ||
+                       (answer->kind == Kind::aborted && answer->code != canopen::abort::no_object &&
+                        answer->code != canopen::abort::no_sub_index);
+  present_[object] = present;
+  return present;
+}
+
+bool RunSession::is_claimed(Multiplexer object, bool whole_object) const {
+  const auto claimed = [](const device::Entry& entry) { return entry.presence() != device::Presence::unclaimed; };
+  if (whole_object) return std::ranges::any_of(dictionary_.object(object.index), claimed);
+  const auto* found = entry(object);
+  return found != nullptr && claimed(*found);
+}
+
+Result<bool> RunSession::is_readable(Multiplexer object) {
+  const auto* found = entry(object);
+  if (found != nullptr && !found->readable()) return false;
+  return is_present(object, false);
+}
+
+Result<bool> RunSession::is_writable(Multiplexer object) {
+  auto present = is_present(object, false);
+  if (!present || !*present) return present;
+  const auto* found = entry(object);
+  if (found != nullptr && !found->access_open) return found->writable();
+  const auto probed = writable_.find(object);
+  if (probed != writable_.end()) return probed->second;
+  // The standard leaves rw or const open here: writing back what is there tells, and changes nothing.
+  auto value = peek(object);
+  if (!value) return std::unexpected(value.error());
+  if (value->kind != steps::SdoAnswer::Kind::confirmed) return false;
+  auto answer = channel_.download(object, value->data, canopen::SdoDownload::Mode::automatic, std::nullopt);
+  if (!answer) return std::unexpected(answer.error());
+  const bool refused = answer->kind == steps::SdoAnswer::Kind::aborted && answer->code == canopen::abort::read_only;
+  writable_[object] = !refused;
+  if (refused) {
+    if (auto* known = dictionary_.find(object)) known->access = device::Access::constant;
+  }
+  return !refused;
+}
+
+std::string RunSession::access_of(Multiplexer object) const {
+  const auto* found = entry(object);
+  return found == nullptr ? "" : std::string(device::to_string(found->access));
+}
+
+bool RunSession::may_change(Multiplexer object) const {
+  const auto* found = entry(object);
+  return found != nullptr && found->may_change;
+}
+
+bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
+
+void RunSession::note_sent(std::size_t index) {
+  if (stimulus_open_) {
+    window_.first = index;
+    stimulus_open_ = false;
+  }
+  window_.anchor = recorder_.capture().frames()[index].time;
+}
+
+Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Duration> timeout) {
+  auto answer = channel_.upload(object, timeout);
+  if (!answer) return answer;
+  note_sent(channel_.first_request());
+  window_.anchor = channel_.last_request();
+  if (answer->kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
+  if (answer->kind == steps::SdoAnswer::Kind::confirmed) watch_emcy(object, answer->data);
+  return answer;
+}
+
+Result<void> RunSession::will_change(Multiplexer object) {
+  const auto* found = entry(object);
+  if (found == nullptr || !found->readable()) return {};
+  auto before = peek(object);
+  if (!before) return std::unexpected(before.error());
+  if (before->kind != steps::SdoAnswer::Kind::confirmed) {
+    before_write_.erase(object);
+    return {};
+  }
+  before_write_[object] = before->data;
+  // A write to a command has an effect, not a value: writing the old value back would be another command.
+  if (found->command) return {};
+  if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) journal_.push_back({object, before->data});
+  return {};
+}
+
+Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
+                                              std::optional<Duration> timeout) {
+  if (auto noted = will_change(object); !noted) return std::unexpected(noted.error());
+  const auto copy = data;
+  auto answer = channel_.download(object, std::move(data), mode, timeout);
+  if (!answer) return answer;
+  note_sent(channel_.first_request());
+  window_.anchor = channel_.last_request();
+  if (answer->kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
+  if (answer->kind == steps::SdoAnswer::Kind::confirmed) watch_emcy(object, copy);
+  return answer;
+}
+
+void RunSession::watch_emcy(Multiplexer object, const Bytes& value) {
+  if (object == emcy_entry && value.size() == 4) {
+    emcy_can_id_ = canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(value))));
+  }
+}
+
+std::optional<Bytes> RunSession::before_last_write(Multiplexer object) const {
+  const auto found = before_write_.find(object);
+  return found == before_write_.end() ? std::nullopt : std::optional(found->second);
+}
+
+Result<void> RunSession::nmt(canopen::NmtCommand command) {
+  auto sent = recorder_.send(canopen::encode(command, node()));
+  if (!sent) return std::unexpected(sent.error());
+  note_sent(*sent);
+  state_changed_ = true;
+  if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication) {
+    device_was_reset(command == canopen::NmtCommand::reset_node);
+  }
+  return {};
+}
+
+Result<void> RunSession::send(const can::Frame& frame) {
+  auto sent = recorder_.send(frame);
+  if (!sent) return std::unexpected(sent.error());
+  note_sent(*sent);
+  if (!frame.extended && frame.id == 0) state_changed_ = true;
+  return {};
+}
+
+Result<steps::Window> RunSession::window_after(std::string_view label) const {
+  const auto found = labels_.find(label);
+  if (found == labels_.end()) return fail("label '" + std::string(label) + "' was not reached", "scenario");
+  return steps::Window{found->second, recorder_.capture().frames()[found->second].time};
+}
+
+void RunSession::consume(std::size_t index) {
+  window_.first = std::max(window_.first, index + 1);
+}
+
+void RunSession::label(std::string_view name, std::size_t capture_index) {
+  labels_.insert_or_assign(std::string(name), capture_index);
+}
+
+void RunSession::device_was_reset(bool) {
+  emcy_can_id_ = home_emcy_can_id_;
+  before_write_.clear();
+}
+
+void RunSession::begin_case() {
+  names_.clear();
+  labels_.clear();
+  journal_.clear();
+  before_write_.clear();
+  window_ = {recorder_.capture().size(), recorder_.now()};
+  object_ = nullptr;
+  silence_seen_ = false;
+}
+
+void RunSession::begin_step(bool acts, const steps::ObjectReference* object) {
+  stimulus_open_ = acts;
+  object_ = object;
+}
+
+std::vector<Change> RunSession::take_journal() { return std::exchange(journal_, {}); }
+
+bool RunSession::take_state_changed() { return std::exchange(state_changed_, false); }
+
+}  // namespace conform::engine

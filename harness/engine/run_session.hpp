@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The session steps act on: one device, one bus, the names of the running case, and the journal of what was changed.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/dictionary.hpp"
+#include "device/profile.hpp"
+#include "engine/recorder.hpp"
+#include "engine/sdo_channel.hpp"
+#include "steps/session.hpp"
+
+namespace conform::engine {
+
+/// What an entry held before the first change of a case.
+struct Change {
+  Multiplexer object;
+  Bytes before;
+};
+
+class RunSession final : public steps::Session {
+ public:
+  RunSession(Recorder& recorder, const device::Profile& profile, device::Dictionary dictionary);
+
+  // Facts
+  [[nodiscard]] const steps::Value* find(std::string_view name) const override;
+  [[nodiscard]] NodeId node() const override { return profile_.node; }
+  [[nodiscard]] Result<steps::Value> current() override;
+  [[nodiscard]] Result<steps::Value> read(Multiplexer object) override;
+  [[nodiscard]] Result<bool> is_present(Multiplexer object, bool whole_object) override;
+  [[nodiscard]] bool is_claimed(Multiplexer object, bool whole_object) const override;
+  [[nodiscard]] Result<bool> is_readable(Multiplexer object) override;
+  [[nodiscard]] Result<bool> is_writable(Multiplexer object) override;
+  [[nodiscard]] std::string access_of(Multiplexer object) const override;
+  [[nodiscard]] bool may_change(Multiplexer object) const override;
+  [[nodiscard]] bool claims(std::string_view feature) const override;
+  [[nodiscard]] std::size_t error_triggers() const override { return profile_.errors.size(); }
+  [[nodiscard]] bool can_send_remote_frames() const override { return true; }
+
+  // Session
+  [[nodiscard]] const device::Profile& profile() const override { return profile_; }
+  [[nodiscard]] const device::Dictionary& dictionary() const override { return dictionary_; }
+  [[nodiscard]] const can::Capture& capture() const override { return recorder_.capture(); }
+  [[nodiscard]] BusTime now() const override { return recorder_.now(); }
+  [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout) override;
+  [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
+                                                  std::optional<Duration> timeout) override;
+  [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer object) const override;
+  [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
+  [[nodiscard]] Result<void> send(const can::Frame& frame) override;
+  [[nodiscard]] Result<void> will_change(Multiplexer object) override;
+  void sdo_channel_dirty() override { channel_.dirty(); }
+  [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match, BusTime deadline) override {
+    return recorder_.find(from, match, deadline);
+  }
+  [[nodiscard]] Result<void> wait_until(BusTime until) override { return recorder_.wait_until(until); }
+  [[nodiscard]] steps::Window window() const override { return window_; }
+  [[nodiscard]] Result<steps::Window> window_after(std::string_view label) const override;
+  void consume(std::size_t index) override;
+  [[nodiscard]] CanId emcy_can_id() const override { return emcy_can_id_; }
+  void label(std::string_view name, std::size_t capture_index) override;
+  void set(std::string name, steps::Value value) override { names_[std::move(name)] = std::move(value); }
+  void produce(steps::Production production) override { recorder_.produce(std::move(production)); }
+  void stop_producing(std::string_view label) override { recorder_.stop_producing(label); }
+  void device_was_reset(bool application_too) override;
+
+  // For the engine
+  void begin_case();                                   ///< forgets names, labels, windows; the journal is empty
+  void begin_step(bool acts, const steps::ObjectReference* object);
+  [[nodiscard]] std::optional<steps::Value> take_name(const std::string& name);
+  [[nodiscard]] Recorder& recorder() { return recorder_; }
+  [[nodiscard]] SdoChannel& channel() { return channel_; }
+  [[nodiscard]] device::Dictionary& known() { return dictionary_; }
+  [[nodiscard]] std::vector<Change> take_journal();
+  /// CAN-ID of EMCY as found after power-on.
+  void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
+  void note_present(Multiplexer object, bool present) { present_[object] = present; }
+  void forget_presence() { present_.clear(); }
+  /// Whether the device may have left Pre-operational since the last call.
+  [[nodiscard]] bool take_state_changed();
+  [[nodiscard]] bool silence_seen() const { return silence_seen_; }
+  void clear_silence_seen() { silence_seen_ = false; }
+  /// Uploads that judge nothing and open no window.
+  [[nodiscard]] Result<steps::SdoAnswer> peek(Multiplexer object);
+
+ private:
+  void note_sent(std::size_t index);
+  [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }
+  void watch_emcy(Multiplexer object, const Bytes& value);
+
+  Recorder& recorder_;
+  const device::Profile& profile_;
+  device::Dictionary dictionary_;
+  SdoChannel channel_;
+  std::map<std::string, steps::Value, std::less<>> names_;
+  mutable std::map<std::string, steps::Value, std::less<>> profile_names_;
+  std::map<std::string, std::size_t, std::less<>> labels_;
+  std::map<Multiplexer, bool> present_;
+  std::map<Multiplexer, bool> writable_;
+  std::vector<Change> journal_;
+  std::map<Multiplexer, Bytes> before_write_;
+  steps::Window window_;
+  bool stimulus_open_ = false;  ///< the running step acts, and its first frame begins the window
+  bool state_changed_ = true;
+  bool silence_seen_ = false;
+  const steps::ObjectReference* object_ = nullptr;
+  CanId emcy_can_id_;
+  CanId home_emcy_can_id_;  ///< after a reset
+};
+
+}  // namespace conform::engine

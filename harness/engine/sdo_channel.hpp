@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The default SDO channel on the bus: runs the passive transfers of `canopen` against time.
+#pragma once
+
+#include <optional>
+
+#include "canopen/sdo_transfer.hpp"
+#include "engine/recorder.hpp"
+#include "steps/session.hpp"
+
+namespace conform::engine {
+
+class SdoChannel {
+ public:
+  SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Duration quiet)
+      : recorder_(recorder), node_(node), timeout_(timeout), quiet_(quiet) {}
+
+  [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout);
+  [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
+                                                  std::optional<Duration> timeout);
+  /// The state of the server's channel is unknown (a conversation, a time-out): abort and let late answers pass first.
+  void dirty() { dirty_ = true; }
+  /// Requests of the latest transfer: index of the first, stamp of the last frame we sent.
+  [[nodiscard]] std::size_t first_request() const { return first_request_; }
+  [[nodiscard]] BusTime last_request() const { return last_request_; }
+
+ private:
+  template <typename Transfer>
+  [[nodiscard]] Result<steps::SdoAnswer> run(Transfer transfer, Multiplexer object, std::optional<Duration> timeout);
+  [[nodiscard]] Result<void> make_idle();
+
+  Recorder& recorder_;
+  NodeId node_;
+  Duration timeout_, quiet_;
+  bool dirty_ = false;
+  std::size_t first_request_ = 0;
+  BusTime last_request_{};
+};
+
+}  // namespace conform::engine

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The requirement catalogue (suites/requirements): what every id means, and which ids are two names of one rule.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "result/run_result.hpp"
+#include "yaml/diagnostic.hpp"
+
+namespace conform::scenario {
+
+struct Requirement {
+  std::string id;
+  std::string clause;
+  std::string object;      ///< may be empty
+  std::string level;       ///< mandatory, conditional, optional, recommended
+  std::string applies;     ///< empty: always
+  std::string statement;
+  std::string passes, warns, fails;
+  std::vector<std::string> same_as;
+  std::vector<std::string> cct;
+  std::string risk;
+  std::string note;
+  std::string proof;         ///< "", "manual", "reference node only"
+  std::string proof_reason;
+  std::string area;
+  std::string file;          ///< relative to the suites
+  int line = 0;
+
+  [[nodiscard]] result::RequirementInfo info() const { return {id, clause, level, area, statement}; }
+};
+
+class Catalogue {
+ public:
+  /// Reads every *.yaml below `<suites>/requirements`. Mistakes go to `problems`, one rendered text per file.
+  static Result<Catalogue> load(const std::string& suites, std::vector<std::string>& problems, bool colour = false);
+
+  /// By its own id or by an alias (same_as).
+  [[nodiscard]] const Requirement* find(std::string_view id) const;
+  [[nodiscard]] std::optional<std::string> canonical(std::string_view id) const;
+  [[nodiscard]] const std::vector<Requirement>& all() const { return requirements_; }  ///< in file order
+  [[nodiscard]] std::vector<std::string_view> ids() const;  ///< own ids and aliases, sorted
+
+ private:
+  std::vector<Requirement> requirements_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+};
+
+}  // namespace conform::scenario

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/loader.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/text.hpp"
+#include "scenario/query.hpp"
+#include "yaml/fields.hpp"
+
+namespace conform::scenario {
+namespace {
+
+void collect_checks(const std::vector<steps::Step>& list, std::set<std::string>& out) {
+  for (const auto& step : list) {
+    out.insert(step.expectation.checks.begin(), step.expectation.checks.end());
+    if (step.walk) collect_checks(step.walk->steps, out);
+    for (const auto& branch : step.branches) collect_checks(branch.steps, out);
+  }
+}
+
+bool is_id(std::string_view id) {
+  return !id.empty() && id.size() <= 80 && std::ranges::all_of(id, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
+/// `for_each`: {name: [values]}, {name: query}, or a list of rows (mappings; the first key names the instance).
+std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseContext& context) {
+  ForEach out;
+  std::set<std::string> seen;
+  const auto add_row = [&](Row row, const yaml::Field& at) {
+    if (!seen.insert(row.name).second) at.error("instance '" + row.name + "' is given twice");
+    out.rows.push_back(std::move(row));
+  };
+  if (field.node()->is_sequence()) {
+    std::optional<std::vector<std::string>> names;
+    for (const auto& item : field.items()) {
+      if (!item.node()->is_mapping() || item.node()->entries().empty()) {
+        item.error("a row of for_each is a mapping", "write - {case: name, object: 1014h:00}");
+        continue;
+      }
+      Row row;
+      std::vector<std::string> keys;
+      for (const auto& entry : item.node()->entries()) {
+        keys.push_back(entry.key.text());
+        row.texts[entry.key.text()] = entry.value.text();
+      }
+      row.name = item.node()->entries().front().value.text();
+      if (!names) {
+        names = keys;
+      } else if (*names != keys) {
+        item.error("this row has other names than the first one", "all rows give " + join(*names, ", "));
+      }
+      add_row(std::move(row), item);
+    }
+    for (const auto& name : names.value_or(std::vector<std::string>())) context.know(name);
+    return out.rows.empty() ? std::nullopt : std::optional(out);
+  }
+  if (!field.node()->is_mapping() || field.node()->entries().size() != 1) {
+    field.error("'for_each' needs one name with its values, or a list of rows");
+    return std::nullopt;
+  }
+  const auto& entry = field.node()->entries().front();
+  out.variable = entry.key.text();
+  const yaml::Field values(&entry.value, context.diagnostics, out.variable);
+  if (entry.value.is_sequence()) {
+    for (const auto& item : values.items()) {
+      const auto text = item.text();
+      if (!text) continue;
+      Row row;
+      row.name = *text;
+      row.texts[out.variable] = *text;
+      add_row(std::move(row), item);
+    }
+  } else if (const auto text = values.text()) {
+    out.query = *text;
+    if (auto query = Query::parse(*text); !query) values.error(query.error().what, query.error().hint);
+  }
+  context.know(out.variable);
+  return out;
+}
+
+Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, const std::string& path) {
+  Scenario out;
+  auto fields = item.fields("scenario");
+  const auto id = fields.required("id");
+  const auto name = id.text().value_or("");
+  if (id && !is_id(name)) id.error("'" + name + "' is not an id", "small letters, digits and hyphens: it is quoted for ever");
+  out.suite = path.substr(0, path.rfind('.'));
+  out.id = out.suite + "/" + name;
+  out.position = {path, item.node()->position().line, item.node()->position().column};
+  out.title = fields.required("title").text().value_or("");
+  out.about = fields.optional("about").text().value_or("");
+  if (const auto cct = fields.optional("cct")) {
+    for (const auto& number : cct.items_or_one()) {
+      if (auto text = number.text()) out.cct.push_back(*text);
+    }
+  }
+  if (const auto risk = fields.optional("risk")) {
+    out.risk = risk.one_of<Risk>({{"read-only", Risk::read_only}, {"config", Risk::config}, {"nvm", Risk::nvm}, {"motion", Risk::motion}})
+                   .value_or(Risk::motion);
+  }
+  if (const auto fresh = fields.optional("fresh")) {
+    out.fresh = fresh.one_of<Fresh>({{"communication", Fresh::communication}, {"node", Fresh::node}}).value_or(Fresh::none);
+  }
+  if (const auto sample = fields.optional("sample")) out.sample = sample.number(1, 65536).value_or(0);
+  context.names.clear();
+  context.default_checks.clear();
+  if (const auto for_each = fields.optional("for_each")) out.for_each = parse_for_each(for_each, context);
+  if (const auto checks = fields.optional("checks")) context.default_checks = parse_checks(checks, context);
+  if (const auto when = fields.optional("when")) out.when = steps::parse_condition_at(when, context.names);
+  if (const auto steps = fields.required("steps")) out.steps = parse_steps(steps, context);
+  if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
+
+  std::set<std::string> requirements;
+  collect_checks(out.steps, requirements);
+  if (requirements.empty() && !out.steps.empty()) {
+    item.error("the scenario decides no requirement", "give an expectation 'checks: ID'");
+  }
+  // Words that rows give ("$rule") become the ids of all rows here; each instance knows its own.
+  for (const auto& requirement : requirements) {
+    if (!requirement.starts_with('$')) {
+      out.requirements.push_back(requirement);
+      continue;
+    }
+    for (auto& row : out.for_each ? out.for_each->rows : std::vector<Row>()) {
+      const auto found = row.texts.find(requirement.substr(1));
+      if (found == row.texts.end()) continue;
+      if (const auto canonical = context.requirement(found->second)) {
+        out.requirements.push_back(*canonical);
+      } else {
+        item.error("unknown requirement '" + found->second + "' in row '" + row.name + "' of for_each");
+      }
+    }
+  }
+  std::ranges::sort(out.requirements);
+  const auto repeated = std::ranges::unique(out.requirements);
+  out.requirements.erase(repeated.begin(), repeated.end());
+  return out;
+}
+
+}  // namespace
+
+ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnostics, const std::string& path,
+                            const Catalogue& catalogue) {
+  ScenarioFile out;
+  out.path = path;
+  yaml::Fields fields(root, diagnostics, "scenario file");
+  (void)fields.required("format").number(1, 1);
+  out.title = fields.required("title").text().value_or("");
+  out.about = fields.optional("about").text().value_or("");
+  steps::ParseContext context{diagnostics, {}, {}, {}, {}};
+  context.requirement = [&catalogue](std::string_view id) { return catalogue.canonical(id); };
+  context.all_requirements = [&catalogue] { return catalogue.ids(); };
+  std::set<std::string> ids;
+  for (const auto& item : fields.required("scenarios").items()) {
+    auto scenario = parse_scenario(item, context, path);
+    if (!ids.insert(scenario.id).second) item.error("scenario id '" + scenario.id + "' is given twice");
+    out.scenarios.push_back(std::move(scenario));
+  }
+  return out;
+}
+
+Result<Suite> load_suite(const std::string& root, const std::vector<std::string>& files, const Catalogue& catalogue, bool colour) {
+  Suite out;
+  for (const auto& file : files) {
+    const auto path = file.starts_with('/') || root.empty() ? file : root + "/" + file;
+    auto document = yaml::load_file(path, file);
+    if (!document) return std::unexpected(document.error());
+    if (document->root) out.files.push_back(load_scenarios(*document->root, document->diagnostics, file, catalogue));
+    out.errors += document->diagnostics.error_count();
+    if (!document->diagnostics.empty()) out.problems.push_back(document->diagnostics.render(colour));
+  }
+  return out;
+}
+
+}  // namespace conform::scenario

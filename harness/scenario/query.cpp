@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenario/query.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/text.hpp"
+
+namespace conform::scenario {
+namespace {
+
+using Clause = std::function<bool(const device::Entry&)>;
+using device::Entry;
+using device::ObjectCode;
+
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  for (const auto word : split(text, ' ')) {
+    if (!word.empty()) out.push_back(word);
+  }
+  return out;
+}
+
+Result<Clause> parse_clause(std::vector<std::string_view> words) {
+  if (words.empty()) return fail("a property is missing");
+  if (words.front() == "not") {
+    words.erase(words.begin());
+    auto inner = parse_clause(words);
+    if (!inner) return inner;
+    return Clause([inner = *inner](const Entry& entry) { return !inner(entry); });
+  }
+  std::string all;
+  for (const auto word : words) all += (all.empty() ? "" : " ") + std::string(word);
+  if (words.front() == "access" && words.size() >= 2) {
+    std::vector<device::Access> accesses;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      if (words[i] == "or") continue;
+      const auto access = device::parse_access(words[i]);
+      if (!access) return fail("unknown access '" + std::string(words[i]) + "'", {}, "ro, wo, rw, rwr, rww or const");
+      accesses.push_back(*access);
+    }
+    return Clause([accesses](const Entry& entry) { return std::ranges::find(accesses, entry.access) != accesses.end(); });
+  }
+  if (words.front() == "type" && words.size() == 2) {
+    const auto type = canopen::parse_data_type(words[1]);
+    if (!type) return fail("unknown data type '" + std::string(words[1]) + "'");
+    return Clause([type = *type](const Entry& entry) { return entry.type == type; });
+  }
+  if (words.front() == "size" && words.size() == 2) {
+    const auto size = parse_number(words[1]);
+    if (!size) return fail("'size' needs a number of bytes");
+    return Clause([size = *size](const Entry& entry) { return entry.size() == size; });
+  }
+  if (words.front() == "index" && words.size() == 2) {
+    const auto dots = words[1].find("..");
+    const auto low = parse_number(words[1].substr(0, dots));
+    const auto high = dots == std::string_view::npos ? low : parse_number(words[1].substr(dots + 2));
+    if (!low || !high) return fail("'index' needs a range", {}, "index 2000h..5FFFh");
+    return Clause([low = *low, high = *high](const Entry& entry) {
+      return entry.mux.index.value() >= low && entry.mux.index.value() <= high;
+    });
+  }
+  struct Word {
+    std::string_view word;
+    Clause clause;
+  };
+  static const std::vector<Word> table = {
+      {"readable", [](const Entry& e) { return e.readable(); }},
+      {"writable", [](const Entry& e) { return e.writable(); }},
+      {"low limit", [](const Entry& e) { return e.low.has_value(); }},
+      {"high limit", [](const Entry& e) { return e.high.has_value(); }},
+      {"limits", [](const Entry& e) { return e.low.has_value() && e.high.has_value(); }},
+      {"default", [](const Entry& e) { return e.default_value.has_value(); }},
+      {"mappable", [](const Entry& e) { return e.pdo_mappable; }},
+      {"domain", [](const Entry& e) { return e.type == canopen::DataType::domain; }},
+      {"command", [](const Entry& e) { return e.command; }},
+      {"claimed", [](const Entry& e) { return e.presence() != device::Presence::unclaimed; }},
+      {"complex", [](const Entry& e) { return e.object == ObjectCode::array || e.object == ObjectCode::record; }},
+      {"array", [](const Entry& e) { return e.object == ObjectCode::array; }},
+      {"fixed size", [](const Entry& e) { return e.size().has_value(); }},
+      {"changing", [](const Entry& e) { return e.may_change; }},
+      {"open access", [](const Entry& e) { return e.access_open; }},
+  };
+  const auto found = std::ranges::find(table, std::string_view(all), &Word::word);
+  if (found != table.end()) return found->clause;
+  std::vector<std::string_view> known;
+  for (const auto& word : table) known.push_back(word.word);
+  const auto near = did_you_mean(all, known);
+  return fail("unknown property '" + all + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+}
+
+}  // namespace
+
+Result<Query> Query::parse(std::string_view text) {
+  auto words = words_of(text);
+  Query out;
+  if (words.empty()) return fail("an empty query");
+  const auto kind = words.front();
+  const auto in_range = [&out](std::uint16_t low, std::uint16_t high) {
+    out.whole_objects_ = true;
+    out.clauses_.emplace_back(
+        [low, high](const Entry& entry) { return entry.mux.index.value() >= low && entry.mux.index.value() <= high; });
+  };
+  if (kind == "objects") {
+    out.whole_objects_ = true;
+  } else if (kind == "rpdos") {
+    in_range(0x1400, 0x15FF);
+  } else if (kind == "tpdos") {
+    in_range(0x1800, 0x19FF);
+  } else if (kind != "entries") {
+    return fail("a query begins with entries, objects, rpdos or tpdos, not with '" + std::string(kind) + "'");
+  }
+  if (words.size() == 1) return out;
+  if (words[1] != "with") return fail("'with' is due instead of '" + std::string(words[1]) + "'");
+  std::vector<std::string_view> clause;
+  for (std::size_t i = 2; i <= words.size(); ++i) {
+    if (i < words.size() && words[i] != "and") {
+      clause.push_back(words[i]);
+      continue;
+    }
+    auto parsed = parse_clause(clause);
+    if (!parsed) return std::unexpected(parsed.error());
+    out.clauses_.push_back(*parsed);
+    clause.clear();
+  }
+  return out;
+}
+
+std::vector<Multiplexer> Query::select(const device::Dictionary& dictionary) const {
+  std::vector<Multiplexer> out;
+  for (const auto& entry : dictionary.entries()) {
+    if (!std::ranges::all_of(clauses_, [&entry](const Clause& clause) { return clause(entry); })) continue;
+    const auto mux = whole_objects_ ? Multiplexer{entry.mux.index, SubIndex(0)} : entry.mux;
+    if (out.empty() || out.back() != mux) out.push_back(mux);
+  }
+  return out;
+}
+
+}  // namespace conform::scenario
