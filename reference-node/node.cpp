@@ -66,12 +66,16 @@ Node::Impl::Impl(const Options& options)
   };
   sync.on_sync = [this] {
     rpdo.on_sync();
-    if (device.state == NmtState::operational) tpdo.on_sync();
+    tpdo.on_sync();
   };
   add_identity_objects(device);
   emergency.add_objects();
   add_error_control_objects(device, producer, consumer);
-  add_application_objects(device, [this] { tpdo.on_application_change(); });
+  // The values of one RPDO change together and are one event of the TPDO.
+  add_application_objects(device, [this] {
+    if (!rpdo.applying()) tpdo.on_application_change();
+  });
+  rpdo.on_applied = [this] { tpdo.on_application_change(); };
   add_sample_objects(device);
   add_error_trigger(device, emergency);
 }
@@ -88,7 +92,10 @@ void Node::Impl::reset(Reset kind) {
   tpdo.on_state_change();
 }
 
-void Node::Impl::boot_up() { producer.on_boot_up(); }
+void Node::Impl::boot_up() {
+  producer.on_boot_up();
+  tpdo.on_state_change();
+}
 
 void Node::Impl::change_state(NmtState) {
   if (device.state == NmtState::stopped) sdo.reset();

@@ -66,10 +66,11 @@ void ReceivePdo::on_time() {
 
 void ReceivePdo::apply(const Bytes& data) {
   if (device_->behaviour.rpdo_data_ignored) return;
+  applying_ = true;
   std::size_t position = 0;
   for (const auto& mapped : parameters_.mapping()) {
     const std::size_t size = mapped.bits / 8U;
-    if (position + size > data.size()) return;
+    if (position + size > data.size()) break;
     Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);  // none: a placeholder
     if (entry != nullptr && entry->value.size() == size) {
       const auto first = data.begin() + static_cast<std::ptrdiff_t>(position);
@@ -79,6 +80,8 @@ void ReceivePdo::apply(const Bytes& data) {
     }
     position += size;
   }
+  applying_ = false;
+  if (on_applied) on_applied();
 }
 
 TransmitPdo::TransmitPdo(Device& device)

@@ -16,6 +16,9 @@ class ReceivePdo {
  public:
   ReceivePdo(Device& device, Emergency& emergency);
 
+  std::function<void()> on_applied;  ///< all mapped objects of a PDO have their new values
+
+  [[nodiscard]] bool applying() const { return applying_; }
   /// True when the frame carries this PDO.
   bool on_frame(const Frame& frame);
   void on_sync();
@@ -30,6 +33,7 @@ class ReceivePdo {
   Device* device_;
   Emergency* emergency_;
   PdoParameters parameters_;
+  bool applying_ = false;
   std::optional<Bytes> buffered_;      ///< synchronous types: waiting for the SYNC
   std::optional<BusTime> deadline_;    ///< event timer, armed by the first RPDO
 };

@@ -48,6 +48,12 @@ class Bench {
     }
     return take();
   }
+  /// The same identifier as a 29-bit one; what the node sends waits for take().
+  void send_extended(std::string_view line) {
+    conform::can::Frame frame = parse(line);
+    frame.extended = true;
+    send(frame);
+  }
   void send(const conform::can::Frame& frame) { node_->on_frame(frame, now_); }
   /// The data of the one answer to an SDO request on 605h, or "" when there was none.
   std::string sdo(std::string_view bytes) {
@@ -73,7 +79,7 @@ class Bench {
   static std::string text(const conform::can::Frame& frame) {
     std::string id = conform::hex(frame.id, 3);
     id.pop_back();
-    return id + ": " + conform::hex_bytes(frame.bytes());
+    return conform::hex_bytes(frame.bytes()).insert(0, id + ": ");
   }
   std::string stamp() const {
     return "@" + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(now_.time_since_epoch()).count()) + " ";

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// canopen-refnode: the reference node on a CAN interface.
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "can/socket_loop.hpp"
+#include "defects/defect.hpp"
+#include "node.hpp"
+#include "storage.hpp"
+
+namespace {
+
+constexpr int exit_usage = 2;
+constexpr int exit_environment = 3;
+
+conform::can::StopFlag* stop_flag = nullptr;
+
+extern "C" void on_signal(int) {
+  if (stop_flag != nullptr) stop_flag->request();
+}
+
+/// Says that the node is on the bus, at the moment the loop attaches it; everything else goes straight through.
+class Announced final : public conform::can::Participant {
+ public:
+  Announced(conform::can::Participant& inner, std::string line) : inner_(&inner), line_(std::move(line)) {}
+
+  void attach(Sender sender, conform::BusTime now) override {
+    fmt::print("{}\n", line_);
+    std::fflush(stdout);
+    inner_->attach(std::move(sender), now);
+  }
+  void on_frame(const conform::can::Frame& frame, conform::BusTime now) override { inner_->on_frame(frame, now); }
+  void on_time(conform::BusTime now) override { inner_->on_time(now); }
+  [[nodiscard]] std::optional<conform::BusTime> next_wakeup() const override { return inner_->next_wakeup(); }
+
+ private:
+  conform::can::Participant* inner_;
+  std::string line_;
+};
+
+void list_defects() {
+  for (const refnode::Defect& row : refnode::defects()) {
+    std::vector<std::string> ids(row.violates.begin(), row.violates.end());
+    fmt::print("{}\n    {}\n    violates {}\n", row.id, row.summary, conform::join(ids, ", "));
+  }
+}
+
+int complain(const conform::Error& error, int code) {
+  fmt::print(stderr, "canopen-refnode: {}\n", error.text());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"A conformant CANopen device (CiA 301) on a CAN interface, with defects on request."};
+  std::string interface_name;
+  std::string storage_file;
+  int node_id = 1;
+  refnode::Options options;
+  bool list = false;
+  app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0");
+  app.add_option("-n,--node", node_id, "node-ID, 1 to 127")->check(CLI::Range(1, 127))->capture_default_str();
+  app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
+  app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
+  app.add_flag("--list-defects", list, "print all defects and what they violate");
+  app.set_version_flag("--version", "canopen-refnode " CONFORM_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : exit_usage;
+  }
+  if (list) {
+    list_defects();
+    return 0;
+  }
+  if (interface_name.empty()) {
+    return complain({"no interface given", {}, "for example --interface vcan0"}, exit_usage);
+  }
+
+  options.node_id = static_cast<std::uint8_t>(node_id);
+  if (!storage_file.empty()) {
+    auto storage = refnode::FileStorage::open(storage_file);
+    if (!storage) return complain(storage.error(), exit_environment);
+    options.storage = *storage;
+  }
+  const std::string behaviour =
+      options.defects.empty() ? "conformant" : "with " + conform::join(options.defects, ", ");
+  const auto node = refnode::Node::create(options);
+  if (!node) return complain(node.error(), exit_usage);
+
+  conform::can::StopFlag stop;
+  stop_flag = &stop;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  Announced announced(**node, fmt::format("canopen-refnode: node {} on {}, {}", node_id, interface_name, behaviour));
+  const auto done = conform::can::run_on_interface(announced, interface_name, stop);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  stop_flag = nullptr;
+  return done ? 0 : complain(done.error(), exit_environment);
+}
