@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO abort codes this device uses (CiA 301, 7.2.4.3.17). Written down here a second time on purpose: the device
-// shares no protocol constant with the harness that judges it.
+// SDO abort codes this device uses (CiA 301, 7.2.4.3.17). Written down here a second time on purpose: the
+// device shares no protocol constant with the harness that judges it.
 #pragma once
 
 #include "base/strong.hpp"

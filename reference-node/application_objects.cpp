@@ -18,8 +18,8 @@ void copy(ObjectDictionary& od, std::uint16_t from, std::uint16_t to, std::uint8
   if (output != nullptr && input != nullptr) input->value = output->value;
 }
 
-void add_channels(Device& device, std::uint16_t inputs, std::uint16_t outputs, std::uint8_t count, DataType type,
-                  const std::function<void()>& changed) {
+void add_channels(Device& device, std::uint16_t inputs, std::uint16_t outputs, std::uint8_t count,
+                  DataType type, const std::function<void()>& changed) {
   ObjectDictionary* od = &device.dictionary;
   od->add_complex(inputs, "Inputs", ObjectKind::array);
   od->add_complex(outputs, "Outputs", ObjectKind::array);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process image (6000h-9FFFh): inputs that repeat the outputs, so that a bus alone can change what a TPDO sends.
+// The process image (6000h-9FFFh): inputs that repeat the outputs, so that a bus alone can change what a TPDO
+// sends.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every switch that makes the node misbehave. The default of each is the conformant behaviour; each is consulted in
-// one or two places and set by rows of defects/.
+// Every switch that makes the node misbehave. The default of each is the conformant behaviour; each is
+// consulted in one or two places and set by rows of defects/.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct CobIdFaults {
   bool bit31_refused = false;        ///< SYNC: do not care
   bool upper_bits_accepted = false;  ///< bits 28-11 with an 11-bit identifier
   bool restricted_accepted = false;
-  bool rewrite_refused = false;      ///< the value in force is refused
-  bool change_refused = false;       ///< another CAN-ID is refused even while the object does not exist
-  bool new_id_not_used = false;      ///< the default CAN-ID stays in use
+  bool rewrite_refused = false;  ///< the value in force is refused
+  bool change_refused = false;   ///< another CAN-ID is refused even while the object does not exist
+  bool new_id_not_used = false;  ///< the default CAN-ID stays in use
   bool valid_bit_inverted = false;
   bool valid_bit_ignored = false;
   bool remote_bit_inverted = false;  ///< TPDO: bit 30
@@ -48,46 +48,46 @@ struct StoreFaults {
   bool without_effect = false;
   bool sub2_without_effect = false;
   bool sub3_without_effect = false;
-  bool groups_mixed = false;             ///< every sub-index means all parameters
+  bool groups_mixed = false;  ///< every sub-index means all parameters
   bool failure_confirmed = false;
-  bool effective_at_once = false;        ///< 1011h: defaults are valid before the reset
+  bool effective_at_once = false;  ///< 1011h: defaults are valid before the reset
 };
 
 struct Behaviour {
   // Object dictionary
-  bool accepts_long_values = false;        ///< surplus bytes of a download are cut off
-  bool accepts_short_values = false;       ///< missing bytes of a download are taken as zero
-  bool stores_refused_values = false;      ///< a value out of range is refused and stored all the same
-  bool clamps_to_high_limit = false;       ///< a value above the limit is confirmed and limited
-  bool variables_ignore_sub_index = false; ///< a variable answers on every sub-index
+  bool accepts_long_values = false;         ///< surplus bytes of a download are cut off
+  bool accepts_short_values = false;        ///< missing bytes of a download are taken as zero
+  bool stores_refused_values = false;       ///< a value out of range is refused and stored all the same
+  bool clamps_to_high_limit = false;        ///< a value above the limit is confirmed and limited
+  bool variables_ignore_sub_index = false;  ///< a variable answers on every sub-index
 
   // SDO server
   bool upload_toggle_unchecked = false;
   bool download_toggle_unchecked = false;
-  bool ignores_client_abort = false;       ///< the transfer goes on after the client's abort
+  bool ignores_client_abort = false;  ///< the transfer goes on after the client's abort
   bool answers_client_abort = false;
-  bool abort_keeps_transfer = false;       ///< an abort by the server does not end the transfer
+  bool abort_keeps_transfer = false;  ///< an abort by the server does not end the transfer
   bool initiate_ignored_while_busy = false;
   bool transfer_stays_open_after_last = false;
-  bool segmented_access_unchecked = false; ///< read-only entries can be written by segmented download
+  bool segmented_access_unchecked = false;  ///< read-only entries can be written by segmented download
   bool segment_overflow_unchecked = false;
   bool segment_shortfall_unchecked = false;
   bool segmented_download_not_stored = false;
   bool sdo_served_in_stopped = false;
   bool sdo_served_before_boot_up = false;
   bool transfer_survives_reset = false;
-  bool answers_foreign_node_ids = false;   ///< SDO requests to other nodes are served
-  bool answers_broadcast = false;          ///< SDO requests on 600h are served
-  bool answers_on_response_id = false;     ///< requests on 580h + node-ID are served
-  bool short_requests_completed = false;   ///< missing bytes of a request are those of the last one
-  bool long_numbers_truncated = false;     ///< numbers of more than four bytes are sent expedited
-  bool accepts_extended_frames = false;    ///< 29-bit identifiers are taken for 11-bit ones
-  bool accepts_remote_frames = false;      ///< remote frames are taken for data frames
+  bool answers_foreign_node_ids = false;  ///< SDO requests to other nodes are served
+  bool answers_broadcast = false;         ///< SDO requests on 600h are served
+  bool answers_on_response_id = false;    ///< requests on 580h + node-ID are served
+  bool short_requests_completed = false;  ///< missing bytes of a request are those of the last one
+  bool long_numbers_truncated = false;    ///< numbers of more than four bytes are sent expedited
+  bool accepts_extended_frames = false;   ///< 29-bit identifiers are taken for 11-bit ones
+  bool accepts_remote_frames = false;     ///< remote frames are taken for data frames
 
   // NMT slave
   bool nmt_broadcast_ignored = false;
   bool nmt_node_id_unchecked = false;
-  bool nmt_node_id_masked = false;         ///< bit 7 of the node-ID is not looked at
+  bool nmt_node_id_masked = false;  ///< bit 7 of the node-ID is not looked at
   bool nmt_short_frame_accepted = false;
   bool nmt_long_frame_accepted = false;
   bool nmt_start_ignored = false;

@@ -25,7 +25,8 @@ bool restricted_can_id(std::uint32_t id) {
   return false;
 }
 
-CobIdRules::CobIdRules(Device& device, CobIdUse use, std::uint16_t index, std::uint8_t sub, std::uint32_t default_value)
+CobIdRules::CobIdRules(Device& device, CobIdUse use, std::uint16_t index, std::uint8_t sub,
+                       std::uint32_t default_value)
     : device_(&device), use_(use), index_(index), sub_(sub), default_(default_value) {}
 
 Entry CobIdRules::entry(const char* name) const {
@@ -49,8 +50,8 @@ std::uint32_t CobIdRules::value() const {
   return static_cast<std::uint32_t>(device_->dictionary.number(index_, sub_, default_));
 }
 
-// While this holds before and after a write, bits 29-0 stay as they are. Taking the object out of use and moving it
-// in one write is allowed: nothing was changed while it existed.
+// While this holds before and after a write, bits 29-0 stay as they are. Taking the object out of use and
+// moving it in one write is allowed: nothing was changed while it existed.
 bool CobIdRules::locked(std::uint32_t value) const {
   switch (use_) {
     case CobIdUse::sync: return (value & bit30) != 0;
@@ -92,7 +93,9 @@ bool CobIdRules::valid() const {
   return fault.valid_bit_inverted ? !valid : valid;
 }
 
-std::uint32_t CobIdRules::can_id() const { return (faults().new_id_not_used ? default_ : value()) & can_id_mask; }
+std::uint32_t CobIdRules::can_id() const {
+  return (faults().new_id_not_used ? default_ : value()) & can_id_mask;
+}
 
 bool CobIdRules::remote_allowed() const {
   return faults().remote_bit_ignored || ((value() & bit30) == 0) != faults().remote_bit_inverted;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What may be written to a COB-ID parameter, and what it then means on the bus (CiA 301, 7.3.5 and 7.5.2). The node
-// knows base frames only, generates neither SYNC nor TIME, and refuses with 0609 0030h.
+// What may be written to a COB-ID parameter, and what it then means on the bus (CiA 301, 7.3.5 and 7.5.2).
+// The node knows base frames only, generates neither SYNC nor TIME, and refuses with 0609 0030h.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ enum class CobIdUse : std::uint8_t { sync, time, emergency, rpdo, tpdo };
 
 class CobIdRules {
  public:
-  CobIdRules(Device& device, CobIdUse use, std::uint16_t index, std::uint8_t sub, std::uint32_t default_value);
+  CobIdRules(Device& device, CobIdUse use, std::uint16_t index, std::uint8_t sub,
+             std::uint32_t default_value);
 
   /// The entry with its check; `name` as in the standard.
   [[nodiscard]] Entry entry(const char* name) const;

@@ -35,14 +35,14 @@ Emergency::Emergency(Device& device)
 
 void Emergency::add_objects() {
   ObjectDictionary& od = device_->dictionary;
-  Entry& shown =
-      od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0));
+  Entry& shown = od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0));
   shown.tx_mappable = true;
   shown.read = [this]() -> Upload { return Bytes{error_register()}; };
 
   od.add_complex(0x1003, "Pre-defined error field", ObjectKind::array);
   for (std::uint8_t sub = 1; sub <= history_depth; ++sub) {
-    Entry& field = od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
+    Entry& field =
+        od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
     field.read = [this, sub] { return read_history(sub); };
   }
   // Sub-index 00h of this array is the number of recorded errors and can be written to clear them.
@@ -107,7 +107,8 @@ void Emergency::record(std::uint16_t code, std::uint8_t source, std::uint8_t det
   const Behaviour& behaviour = device_->behaviour;
   if (behaviour.history_not_written) return;
   // Bits 15-0 error code, bits 31-16 manufacturer: detail and source.
-  std::uint32_t field = code | (static_cast<std::uint32_t>(detail) << 16U) | (static_cast<std::uint32_t>(source) << 24U);
+  std::uint32_t field =
+      code | (static_cast<std::uint32_t>(detail) << 16U) | (static_cast<std::uint32_t>(source) << 24U);
   if (behaviour.history_code_in_upper_half) field = static_cast<std::uint32_t>(code) << 16U;
   if (behaviour.history_code_byte_swapped) field = ((code & 0xFFU) << 8U) | (code >> 8U);
   if (behaviour.history_overwrites) history_.clear();
@@ -149,7 +150,8 @@ Accepted Emergency::write_history_count(ByteView bytes) {
 }
 
 void Emergency::on_reset(bool whole_node) {
-  std::erase_if(causes_, [&](const ErrorCause& cause) { return whole_node || cause.source != application_source; });
+  std::erase_if(causes_,
+                [&](const ErrorCause& cause) { return whole_node || cause.source != application_source; });
   history_.clear();
   pending_.clear();
   inhibited_until_.reset();
@@ -175,8 +177,9 @@ void Emergency::report(const Message& message) {
 }
 
 void Emergency::flush() {
-  const bool silent_state = device_->state == NmtState::initialising ||
-                            (device_->state == NmtState::stopped && !device_->behaviour.emergency_sent_in_stopped);
+  const bool silent_state =
+      device_->state == NmtState::initialising ||
+      (device_->state == NmtState::stopped && !device_->behaviour.emergency_sent_in_stopped);
   if (silent_state) return;
   while (!pending_.empty()) {
     if (inhibited_until_ && device_->now < *inhibited_until_) return;
@@ -196,9 +199,10 @@ void Emergency::transmit(const Message& message) {
                                  ? std::uint8_t{0x01}
                                  : message.error_register;
   device_->send(Service::emergency,
-                conform::can::data_frame(conform::CanId(cob_id_.can_id()), {static_cast<std::uint8_t>(message.code & 0xFFU),
-                                                              static_cast<std::uint8_t>(message.code >> 8U), shown,
-                                                              message.detail, message.source, 0, 0, 0}));
+                conform::can::data_frame(conform::CanId(cob_id_.can_id()),
+                                         {static_cast<std::uint8_t>(message.code & 0xFFU),
+                                          static_cast<std::uint8_t>(message.code >> 8U), shown,
+                                          message.detail, message.source, 0, 0, 0}));
 }
 
 void Emergency::on_state_change() { flush(); }

@@ -73,11 +73,11 @@ class Emergency {
   Device* device_;
   CobIdRules cob_id_;
   std::vector<ErrorCause> causes_;
-  std::deque<std::uint32_t> history_;   ///< newest first
-  std::deque<Message> pending_;         ///< waiting for the inhibit time or for the end of Stopped
+  std::deque<std::uint32_t> history_;  ///< newest first
+  std::deque<Message> pending_;        ///< waiting for the inhibit time or for the end of Stopped
   std::optional<BusTime> inhibited_until_;
-  bool raised_ = false;                 ///< since power-on; used by a defect only
-  bool reported_ = false;               ///< the bus has heard of an error since the last error reset
+  bool raised_ = false;    ///< since power-on; used by a defect only
+  bool reported_ = false;  ///< the bus has heard of an error since the last error reset
 };
 
 }  // namespace refnode

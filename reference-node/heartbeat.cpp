@@ -45,7 +45,8 @@ void HeartbeatProducer::transmit() {
   if (behaviour.heartbeat_state_stale) state = static_cast<std::uint8_t>(NmtState::pre_operational);
   if (behaviour.heartbeat_with_toggle_bit && toggle_) state |= 0x80U;
   toggle_ = !toggle_;
-  device_->send(Service::heartbeat, conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {state}));
+  device_->send(Service::heartbeat,
+                conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {state}));
 }
 
 // 1016h: bits 31-24 reserved, 23-16 node-ID, 15-0 heartbeat time in ms.
@@ -64,7 +65,8 @@ bool HeartbeatConsumer::monitored(std::uint64_t value) const {
 Accepted HeartbeatConsumer::check(std::uint8_t sub, ByteView bytes) const {
   const std::uint64_t value = conform::load_le(bytes);
   const Behaviour& behaviour = device_->behaviour;
-  if ((value >> 24U) != 0 && !behaviour.consumer_accepts_reserved_bits) return refuse(abort_code::invalid_value);
+  if ((value >> 24U) != 0 && !behaviour.consumer_accepts_reserved_bits)
+    return refuse(abort_code::invalid_value);
   const bool counts = monitored(value) || (behaviour.consumer_zero_time_is_duplicate && node_of(value) != 0);
   if (!counts || behaviour.consumer_accepts_duplicate) return {};
   for (std::uint8_t other = 1; other <= entries; ++other) {

@@ -59,7 +59,9 @@ class HeartbeatConsumer {
   [[nodiscard]] std::uint8_t node_of(std::uint64_t value) const;
   [[nodiscard]] Duration time_of(std::uint64_t value) const;
   [[nodiscard]] bool monitored(std::uint64_t value) const;
-  [[nodiscard]] std::uint64_t value_of(std::uint8_t sub) const { return device_->dictionary.number(0x1016, sub); }
+  [[nodiscard]] std::uint64_t value_of(std::uint8_t sub) const {
+    return device_->dictionary.number(0x1016, sub);
+  }
 
   Device* device_;
   Emergency* emergency_;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "base/text.hpp"
 #include "can/socket_loop.hpp"
@@ -26,7 +26,8 @@ extern "C" void on_signal(int) {
   if (stop_flag != nullptr) stop_flag->request();
 }
 
-/// Says that the node is on the bus, at the moment the loop attaches it; everything else goes straight through.
+/// Says that the node is on the bus, at the moment the loop attaches it; everything else goes straight
+/// through.
 class Announced final : public conform::can::Participant {
  public:
   Announced(conform::can::Participant& inner, std::string line) : inner_(&inner), line_(std::move(line)) {}
@@ -36,7 +37,9 @@ class Announced final : public conform::can::Participant {
     std::fflush(stdout);
     inner_->attach(std::move(sender), now);
   }
-  void on_frame(const conform::can::Frame& frame, conform::BusTime now) override { inner_->on_frame(frame, now); }
+  void on_frame(const conform::can::Frame& frame, conform::BusTime now) override {
+    inner_->on_frame(frame, now);
+  }
   void on_time(conform::BusTime now) override { inner_->on_time(now); }
   [[nodiscard]] std::optional<conform::BusTime> next_wakeup() const override { return inner_->next_wakeup(); }
 
@@ -100,7 +103,8 @@ int main(int argc, char** argv) {
   stop_flag = &stop;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  Announced announced(**node, fmt::format("canopen-refnode: node {} on {}, {}", node_id, interface_name, behaviour));
+  Announced announced(**node,
+                      fmt::format("canopen-refnode: node {} on {}, {}", node_id, interface_name, behaviour));
   const auto done = conform::can::run_on_interface(announced, interface_name, stop);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);

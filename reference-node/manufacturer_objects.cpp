@@ -22,7 +22,8 @@ void add_sample_objects(Device& device) {
   ObjectDictionary& od = device.dictionary;
   using enum DataType;
 
-  // 2000h: one rw entry of every basic type; the sub-index is the number of the type (gaps as in the standard).
+  // 2000h: one rw entry of every basic type; the sub-index is the number of the type (gaps as in the
+  // standard).
   od.add_complex(0x2000, "One entry of every type", ObjectKind::record);
   const auto number = [&](const char* name, DataType type, std::uint64_t value) {
     od.add_sub(0x2000, static_cast<std::uint8_t>(type), integer_entry(name, type, Access::rw, value));
@@ -45,14 +46,15 @@ void add_sample_objects(Device& device) {
   number("UNSIGNED56", unsigned56, 0x123456789ABCDE);
   number("UNSIGNED64", unsigned64, 0x123456789ABCDEF0);
   const auto bytes = [&](const char* name, DataType type, Bytes value, std::size_t max_size = 0) {
-    od.add_sub(0x2000, static_cast<std::uint8_t>(type), bytes_entry(name, type, Access::rw, std::move(value), max_size));
+    od.add_sub(0x2000, static_cast<std::uint8_t>(type),
+               bytes_entry(name, type, Access::rw, std::move(value), max_size));
   };
-  bytes("REAL32", real32, {0x00, 0x00, 0xC0, 0x3F});                              // 1.5
-  bytes("REAL64", real64, {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xF8, 0x3F});      // 1.5
+  bytes("REAL32", real32, {0x00, 0x00, 0xC0, 0x3F});                          // 1.5
+  bytes("REAL64", real64, {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xF8, 0x3F});  // 1.5
   bytes("VISIBLE_STRING", visible_string, {'v', 'i', 's', 'i', 'b', 'l', 'e'}, 64);
   bytes("OCTET_STRING", octet_string, {0x00, 0x01, 0xFE, 0xFF, 0x55, 0xAA}, 64);
   bytes("UNICODE_STRING", unicode_string, {'U', 0, 'n', 0, 'i', 0}, 64);
-  bytes("TIME_OF_DAY", time_of_day, {0x00, 0x2E, 0x93, 0x02, 0x10, 0x27});        // 12:00, day 10000
+  bytes("TIME_OF_DAY", time_of_day, {0x00, 0x2E, 0x93, 0x02, 0x10, 0x27});          // 12:00, day 10000
   bytes("TIME_DIFFERENCE", time_difference, {0xE8, 0x03, 0x00, 0x00, 0x01, 0x00});  // 1 s and 1 day
   Bytes domain_content(256);
   for (std::size_t i = 0; i < domain_content.size(); ++i) domain_content[i] = static_cast<std::uint8_t>(i);
@@ -69,7 +71,8 @@ void add_sample_objects(Device& device) {
   od.add_complex(0x2002, "Entries with limits", ObjectKind::record);
   od.add_sub(0x2002, 1, limited(integer_entry("10 to 200", unsigned8, Access::rw, 100), 10, 200));
   od.add_sub(0x2002, 2, limited(integer_entry("-1000 to 1000", integer16, Access::rw, 0), -1000, 1000));
-  od.add_sub(0x2002, 3, limited(integer_entry("100 to 1 000 000", unsigned32, Access::rw, 1000), 100, 1'000'000));
+  od.add_sub(0x2002, 3,
+             limited(integer_entry("100 to 1 000 000", unsigned32, Access::rw, 1000), 100, 1'000'000));
   od.add_sub(0x2002, 4, limited(integer_entry("-5 to 5", integer8, Access::rw, 0), -5, 5));
 
   // 2003h: a record with gaps below its highest sub-index; 2004h: an array.
@@ -118,7 +121,8 @@ void add_error_trigger(Device& device, Emergency& emergency) {
     }
     return {};
   };
-  Entry& active = od.add_sub(0x2F00, 3, integer_entry("Number of active errors", DataType::unsigned8, Access::ro, 0));
+  Entry& active =
+      od.add_sub(0x2F00, 3, integer_entry("Number of active errors", DataType::unsigned8, Access::ro, 0));
   active.read = [errors]() -> Upload { return Bytes{static_cast<std::uint8_t>(errors->active())}; };
 }
 

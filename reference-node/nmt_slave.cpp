@@ -39,7 +39,8 @@ void NmtSlave::on_command(const Frame& frame) {
       if (!behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped) start_reset(Reset::node);
       return;
     case command_reset_communication:
-      if (!behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped) start_reset(Reset::communication);
+      if (!behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped)
+        start_reset(Reset::communication);
       return;
     default: break;
   }
@@ -65,7 +66,8 @@ void NmtSlave::on_command(const Frame& frame) {
 }
 
 void NmtSlave::start_reset(Reset reset) {
-  if (device_->state == NmtState::initialising && boot_due_ && device_->behaviour.reset_during_start_up_hangs) {
+  if (device_->state == NmtState::initialising && boot_due_ &&
+      device_->behaviour.reset_during_start_up_hangs) {
     boot_due_.reset();
     return;
   }
@@ -79,7 +81,8 @@ void NmtSlave::enter(NmtState state) {
   const NmtState from = device_->state;
   device_->state = state;
   if (device_->behaviour.boot_up_on_pre_operational && state == NmtState::pre_operational) {
-    device_->send(Service::boot_up, conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
+    device_->send(Service::boot_up,
+                  conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
   }
   if (on_change) on_change(from);
 }
@@ -87,8 +90,10 @@ void NmtSlave::enter(NmtState state) {
 void NmtSlave::on_time() {
   if (!boot_due_ || device_->now < *boot_due_) return;
   boot_due_.reset();
-  device_->send(Service::boot_up, conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
-  device_->state = device_->behaviour.starts_in_operational ? NmtState::operational : NmtState::pre_operational;
+  device_->send(Service::boot_up,
+                conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
+  device_->state =
+      device_->behaviour.starts_in_operational ? NmtState::operational : NmtState::pre_operational;
   if (on_boot_up) on_boot_up();
 }
 

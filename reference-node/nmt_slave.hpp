@@ -16,9 +16,9 @@ class NmtSlave {
  public:
   explicit NmtSlave(Device& device) : device_(&device) {}
 
-  std::function<void(Reset)> on_reset;          ///< load power-on values, forget the past
-  std::function<void()> on_boot_up;             ///< Pre-operational reached, boot-up message sent
-  std::function<void(NmtState from)> on_change; ///< any other state change
+  std::function<void(Reset)> on_reset;           ///< load power-on values, forget the past
+  std::function<void()> on_boot_up;              ///< Pre-operational reached, boot-up message sent
+  std::function<void(NmtState from)> on_change;  ///< any other state change
 
   /// A data frame on CAN-ID 000h.
   void on_command(const Frame& frame);

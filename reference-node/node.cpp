@@ -61,7 +61,8 @@ Node::Impl::Impl(const Options& options)
   nmt.on_change = [this](NmtState from) { change_state(from); };
   // Without 1029h the default error behaviour applies: a lost producer ends Operational (CiA 301, 7.5.2.32).
   consumer.on_loss = [this] {
-    const bool leaves = device.state == NmtState::operational && !device.behaviour.consumer_loss_keeps_operational;
+    const bool leaves =
+        device.state == NmtState::operational && !device.behaviour.consumer_loss_keeps_operational;
     if (leaves) nmt.enter(NmtState::pre_operational);
   };
   sync.on_sync = [this] {
@@ -175,9 +176,9 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
       std::vector<std::string_view> known;
       for (const Defect& row : defects()) known.push_back(row.id);
       const std::string_view near = conform::did_you_mean(id, known);
-      return conform::fail("there is no defect '" + conform::printable(id) + "'", {},
-                           near.empty() ? "--list-defects prints all of them"
-                                        : "did you mean '" + std::string(near) + "'?");
+      return conform::fail(
+          "there is no defect '" + conform::printable(id) + "'", {},
+          near.empty() ? "--list-defects prints all of them" : "did you mean '" + std::string(near) + "'?");
     }
     if (std::find(used.begin(), used.end(), defect->id) != used.end()) {
       return conform::fail("defect '" + id + "' is named twice");
@@ -214,7 +215,8 @@ void Node::on_time(conform::BusTime now) {
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.emergency.next_wakeup(),
-                   impl.producer.next_wakeup(), impl.rpdo.next_wakeup(), impl.tpdo.next_wakeup(), impl.device.outbox.next_wakeup()});
+                   impl.producer.next_wakeup(), impl.rpdo.next_wakeup(), impl.tpdo.next_wakeup(),
+                   impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference node: a CANopen device (CiA 301) as a participant of a bus. It is conformant unless defects are named.
+// The reference node: a CANopen device (CiA 301) as a participant of a bus. It is conformant unless defects
+// are named.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,10 @@
 namespace refnode {
 
 struct Options {
-  std::uint8_t node_id = 1;               ///< 1..127
-  std::vector<std::string> defects;       ///< ids of defects()
-  std::shared_ptr<Storage> storage;       ///< non-volatile memory; empty: fresh memory that lives with the node
-  conform::Duration turnaround{};         ///< time from an SDO request to the response
+  std::uint8_t node_id = 1;          ///< 1..127
+  std::vector<std::string> defects;  ///< ids of defects()
+  std::shared_ptr<Storage> storage;  ///< non-volatile memory; empty: fresh memory that lives with the node
+  conform::Duration turnaround{};    ///< time from an SDO request to the response
 };
 
 class Node final : public conform::can::Participant {

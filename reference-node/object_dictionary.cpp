@@ -94,7 +94,8 @@ Entry bytes_entry(std::string name, DataType type, Access access, Bytes value, s
 }
 
 Entry text_entry(std::string name, Access access, std::string_view text, std::size_t max_size) {
-  return bytes_entry(std::move(name), DataType::visible_string, access, Bytes(text.begin(), text.end()), max_size);
+  return bytes_entry(std::move(name), DataType::visible_string, access, Bytes(text.begin(), text.end()),
+                     max_size);
 }
 
 Entry& ObjectDictionary::add_variable(std::uint16_t index, Entry entry) {
@@ -160,7 +161,8 @@ Accepted ObjectDictionary::check_exists(Multiplexer mux) const {
 Upload ObjectDictionary::upload(Multiplexer mux) const {
   if (behaviour_->variables_ignore_sub_index) {
     const auto object = objects_.find(mux.index.value());
-    if (object != objects_.end() && object->second.kind == ObjectKind::variable) mux.sub = conform::SubIndex(0);
+    if (object != objects_.end() && object->second.kind == ObjectKind::variable)
+      mux.sub = conform::SubIndex(0);
   }
   if (const auto exists = check_exists(mux); !exists) return refuse(exists.error());
   const Entry& found = *entry(mux.index.value(), mux.sub.value());

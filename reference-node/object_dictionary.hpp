@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object dictionary of the reference node: entries with type, access, limits and hooks, and the rules that
-// decide whether an access by SDO is granted (CiA 301, 7.4 and 7.2.4.3.17).
+// The object dictionary of the reference node: entries with type, access, limits and hooks, and the rules
+// that decide whether an access by SDO is granted (CiA 301, 7.4 and 7.2.4.3.17).
 #pragma once
 
 #include <cstddef>
@@ -72,17 +72,17 @@ struct Entry {
   DataType type = DataType::unsigned8;
   Access access = Access::ro;
   Bytes value;
-  Bytes default_value;                  ///< the power-on value while nothing is stored
-  std::optional<std::int64_t> low;      ///< inclusive limits of integer entries
+  Bytes default_value;              ///< the power-on value while nothing is stored
+  std::optional<std::int64_t> low;  ///< inclusive limits of integer entries
   std::optional<std::int64_t> high;
-  std::size_t max_size = 0;             ///< longest value of a type of variable length
+  std::size_t max_size = 0;  ///< longest value of a type of variable length
   bool rx_mappable = false;
   bool tx_mappable = false;
-  bool command = false;                 ///< a write triggers `check` and is not kept (1010h, 1011h, 2F00h)
-  bool storable = true;                 ///< taken into the storage image if it is rw and no command
-  std::function<Upload()> read;                ///< replaces `value` on an upload
-  std::function<Accepted(ByteView)> check;     ///< last word before a value is taken
-  std::function<void()> written;               ///< after a value has been taken
+  bool command = false;          ///< a write triggers `check` and is not kept (1010h, 1011h, 2F00h)
+  bool storable = true;          ///< taken into the storage image if it is rw and no command
+  std::function<Upload()> read;  ///< replaces `value` on an upload
+  std::function<Accepted(ByteView)> check;  ///< last word before a value is taken
+  std::function<void()> written;            ///< after a value has been taken
 
   [[nodiscard]] std::uint64_t number() const { return conform::load_le(value); }
 };
@@ -100,7 +100,8 @@ struct Object {
 /// An entry of a type of variable length (or of REAL, TIME_OF_DAY, ...) with its bytes.
 [[nodiscard]] Entry bytes_entry(std::string name, DataType type, Access access, Bytes value,
                                 std::size_t max_size = 0);
-[[nodiscard]] Entry text_entry(std::string name, Access access, std::string_view text, std::size_t max_size = 0);
+[[nodiscard]] Entry text_entry(std::string name, Access access, std::string_view text,
+                               std::size_t max_size = 0);
 
 class ObjectDictionary {
  public:
@@ -120,7 +121,8 @@ class ObjectDictionary {
   [[nodiscard]] Entry* entry(std::uint16_t index, std::uint8_t sub);
   [[nodiscard]] const Entry* entry(std::uint16_t index, std::uint8_t sub) const;
   /// The integer value of an entry, or `otherwise` when it does not exist.
-  [[nodiscard]] std::uint64_t number(std::uint16_t index, std::uint8_t sub, std::uint64_t otherwise = 0) const;
+  [[nodiscard]] std::uint64_t number(std::uint16_t index, std::uint8_t sub,
+                                     std::uint64_t otherwise = 0) const;
   /// Sets a value from inside the device: no access check, no hook.
   void set_number(std::uint16_t index, std::uint8_t sub, std::uint64_t value);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way out: every frame the node sends passes here, at once or delayed. Filters may change, repeat, delay or
-// drop it; that is how a whole class of defects is made without a word in the conformant code.
+// The way out: every frame the node sends passes here, at once or delayed. Filters may change, repeat, delay
+// or drop it; that is how a whole class of defects is made without a word in the conformant code.
 #pragma once
 
 #include <array>
@@ -23,16 +23,27 @@ using conform::can::Frame;
 
 enum class Service : std::uint8_t { boot_up, heartbeat, emergency, sdo, tpdo };
 
-enum class NmtState : std::uint8_t { initialising = 0x00, stopped = 0x04, operational = 0x05, pre_operational = 0x7F };
+enum class NmtState : std::uint8_t {
+  initialising = 0x00,
+  stopped = 0x04,
+  operational = 0x05,
+  pre_operational = 0x7F
+};
 
-enum class SdoStep : std::uint8_t { upload_initiate, upload_segment, download_initiate, download_segment, other };
+enum class SdoStep : std::uint8_t {
+  upload_initiate,
+  upload_segment,
+  download_initiate,
+  download_segment,
+  other
+};
 
 /// What the SDO server answered, and to what.
 struct SdoExchange {
   std::array<std::uint8_t, 8> request{};
   SdoStep step = SdoStep::other;
-  conform::Multiplexer mux;                      ///< of the request or of the running transfer
-  std::optional<conform::AbortCode> aborted;     ///< the conformant answer is this abort
+  conform::Multiplexer mux;                   ///< of the request or of the running transfer
+  std::optional<conform::AbortCode> aborted;  ///< the conformant answer is this abort
 
   [[nodiscard]] std::uint16_t index() const { return mux.index.value(); }
   [[nodiscard]] std::uint8_t sub() const { return mux.sub.value(); }

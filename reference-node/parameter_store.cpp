@@ -49,7 +49,8 @@ ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
   ObjectDictionary& od = device.dictionary;
   od.add_complex(0x1010, "Store parameters", ObjectKind::array);
   od.add_complex(0x1011, "Restore default parameters", ObjectKind::array);
-  constexpr const char* names[] = {"", "All parameters", "Communication parameters", "Application parameters"};
+  constexpr const char* names[] = {"", "All parameters", "Communication parameters",
+                                   "Application parameters"};
   for (const std::uint8_t sub : {sub_all, sub_communication, sub_application}) {
     // Reading gives the capability: bit 0, on command.
     Entry& store = od.add_sub(0x1010, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, 1));
@@ -75,11 +76,13 @@ Image ParameterStore::image_of(Group group) const {
 Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
   const StoreFaults& fault = device_->behaviour.store;
   const bool good = matches("save", signature, fault);
-  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature) return refuse(abort_code::cannot_store);
+  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature)
+    return refuse(abort_code::cannot_store);
   if (!fault.without_effect) {
     Images images = storage_->images();
     for (const Group group : groups_of(sub, fault)) images[group] = image_of(group);
-    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed) return refuse(abort_code::hardware_error);
+    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed)
+      return refuse(abort_code::hardware_error);
   }
   if (!good && !fault.signature_unchecked) return refuse(abort_code::cannot_store);
   return {};
@@ -88,12 +91,14 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
 Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
   const StoreFaults& fault = device_->behaviour.restore;
   const bool good = matches("load", signature, fault);
-  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature) return refuse(abort_code::cannot_store);
+  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature)
+    return refuse(abort_code::cannot_store);
   if (!fault.without_effect) {
     // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
     Images images = storage_->images();
     for (const Group group : groups_of(sub, fault)) images.erase(group);
-    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed) return refuse(abort_code::hardware_error);
+    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed)
+      return refuse(abort_code::hardware_error);
     if (fault.effective_at_once) {
       for (const Group group : groups_of(sub, fault)) load(group);
     }
@@ -107,7 +112,8 @@ bool ParameterStore::keeps(Group group, bool whole_node) const {
   if (group == Group::communication) {
     return whole_node ? behaviour.reset_node_keeps_communication : behaviour.reset_communication_keeps_values;
   }
-  return whole_node ? behaviour.reset_node_keeps_application : !behaviour.reset_communication_resets_application;
+  return whole_node ? behaviour.reset_node_keeps_application
+                    : !behaviour.reset_communication_resets_application;
 }
 
 void ParameterStore::load_power_on_values(bool whole_node) {

@@ -14,7 +14,8 @@ class ParameterStore {
  public:
   ParameterStore(Device& device, std::shared_ptr<Storage> storage);
 
-  /// Gives the parameters their stored or default values: all of them, or with reset communication 1000h-1FFFh.
+  /// Gives the parameters their stored or default values: all of them, or with reset communication
+  /// 1000h-1FFFh.
   void load_power_on_values(bool whole_node);
 
  private:

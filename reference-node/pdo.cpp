@@ -16,7 +16,8 @@ ReceivePdo::ReceivePdo(Device& device, Emergency& emergency)
     : device_(&device),
       emergency_(&emergency),
       // Two digital outputs and an analog one: four bytes.
-      parameters_(device, PdoDirection::receive, 0, 0x200U + device.node_id, {0x62000108, 0x62000208, 0x64110110}) {}
+      parameters_(device, PdoDirection::receive, 0, 0x200U + device.node_id,
+                  {0x62000108, 0x62000208, 0x64110110}) {}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
   const Behaviour& behaviour = device_->behaviour;
@@ -93,15 +94,17 @@ TransmitPdo::TransmitPdo(Device& device)
 }
 
 bool TransmitPdo::enabled() const {
-  const bool state = device_->state == NmtState::operational ||
-                     (device_->state == NmtState::pre_operational && device_->behaviour.tpdo_sent_in_pre_operational);
+  const bool state =
+      device_->state == NmtState::operational ||
+      (device_->state == NmtState::pre_operational && device_->behaviour.tpdo_sent_in_pre_operational);
   return state && parameters_.cob_id().valid() && parameters_.mapped_size() > 0;
 }
 
 Bytes TransmitPdo::content() const {
   Bytes data;
   for (const auto& mapped : parameters_.mapping()) {
-    const Upload value = device_->dictionary.upload({conform::Index(mapped.index), conform::SubIndex(mapped.sub)});
+    const Upload value =
+        device_->dictionary.upload({conform::Index(mapped.index), conform::SubIndex(mapped.sub)});
     Bytes part = value.value_or(Bytes{});
     part.resize(mapped.bits / 8U);
     if (device_->behaviour.tpdo_data_big_endian) std::reverse(part.begin(), part.end());

@@ -34,8 +34,8 @@ class ReceivePdo {
   Emergency* emergency_;
   PdoParameters parameters_;
   bool applying_ = false;
-  std::optional<Bytes> buffered_;      ///< synchronous types: waiting for the SYNC
-  std::optional<BusTime> deadline_;    ///< event timer, armed by the first RPDO
+  std::optional<Bytes> buffered_;    ///< synchronous types: waiting for the SYNC
+  std::optional<BusTime> deadline_;  ///< event timer, armed by the first RPDO
 };
 
 class TransmitPdo {
@@ -61,10 +61,10 @@ class TransmitPdo {
 
   Device* device_;
   PdoParameters parameters_;
-  Bytes reported_;                     ///< content of the last TPDO, or at the start of Operational
-  Bytes sampled_;                      ///< type FCh: content at the last SYNC
-  bool event_ = false;                 ///< type 00h, or an event waiting for the inhibit time
-  std::uint32_t syncs_ = 0;            ///< SYNCs since the last TPDO
+  Bytes reported_;           ///< content of the last TPDO, or at the start of Operational
+  Bytes sampled_;            ///< type FCh: content at the last SYNC
+  bool event_ = false;       ///< type 00h, or an event waiting for the inhibit time
+  std::uint32_t syncs_ = 0;  ///< SYNCs since the last TPDO
   std::optional<BusTime> timer_;
   std::optional<BusTime> inhibited_until_;
 };

@@ -17,32 +17,40 @@ std::size_t dummy_size(std::uint16_t index) {
 
 }  // namespace
 
-PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint8_t number, std::uint32_t cob_id,
-                             const std::vector<std::uint32_t>& mapping)
+PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint8_t number,
+                             std::uint32_t cob_id, const std::vector<std::uint32_t>& mapping)
     : device_(&device),
       direction_(direction),
-      communication_(static_cast<std::uint16_t>((direction == PdoDirection::receive ? 0x1400 : 0x1800) + number)),
+      communication_(
+          static_cast<std::uint16_t>((direction == PdoDirection::receive ? 0x1400 : 0x1800) + number)),
       mapping_(static_cast<std::uint16_t>(communication_ + 0x200)),
-      cob_id_(device, direction == PdoDirection::receive ? CobIdUse::rpdo : CobIdUse::tpdo, communication_, 1, cob_id) {
+      cob_id_(device, direction == PdoDirection::receive ? CobIdUse::rpdo : CobIdUse::tpdo, communication_, 1,
+              cob_id) {
   ObjectDictionary& od = device.dictionary;
   const bool receive = direction == PdoDirection::receive;
   od.add_complex(communication_, receive ? "RPDO communication parameter" : "TPDO communication parameter",
                  ObjectKind::record);
   od.add_sub(communication_, 1, cob_id_.entry("COB-ID"));
-  Entry& type = od.add_sub(communication_, type_sub, integer_entry("Transmission type", DataType::unsigned8, Access::rw, 0xFF));
+  Entry& type = od.add_sub(communication_, type_sub,
+                           integer_entry("Transmission type", DataType::unsigned8, Access::rw, 0xFF));
   type.check = [this](ByteView bytes) { return check_type(bytes); };
-  Entry& inhibit = od.add_sub(communication_, inhibit_sub, integer_entry("Inhibit time", DataType::unsigned16, Access::rw, 0));
+  Entry& inhibit = od.add_sub(communication_, inhibit_sub,
+                              integer_entry("Inhibit time", DataType::unsigned16, Access::rw, 0));
   inhibit.check = [this](ByteView bytes) { return check_locked(inhibit_sub, bytes); };
   // Sub-index 04h is reserved and left out.
-  od.add_sub(communication_, event_timer_sub, integer_entry("Event timer", DataType::unsigned16, Access::rw, 0));
+  od.add_sub(communication_, event_timer_sub,
+             integer_entry("Event timer", DataType::unsigned16, Access::rw, 0));
 
   od.add_complex(mapping_, receive ? "RPDO mapping parameter" : "TPDO mapping parameter", ObjectKind::record);
   for (std::uint8_t sub = 1; sub <= mapping_entries; ++sub) {
     const std::uint32_t value = sub <= mapping.size() ? mapping[sub - 1U] : 0;
-    Entry& entry = od.add_sub(mapping_, sub, integer_entry("Mapped object", DataType::unsigned32, Access::rw, value));
+    Entry& entry =
+        od.add_sub(mapping_, sub, integer_entry("Mapped object", DataType::unsigned32, Access::rw, value));
     entry.check = [this, sub](ByteView bytes) { return check_mapping_entry(sub, bytes); };
   }
-  Entry& count = od.add_sub(mapping_, 0, integer_entry("Number of mapped objects", DataType::unsigned8, Access::rw, mapping.size()));
+  Entry& count =
+      od.add_sub(mapping_, 0,
+                 integer_entry("Number of mapped objects", DataType::unsigned8, Access::rw, mapping.size()));
   count.check = [this](ByteView bytes) { return check_mapping_count(bytes); };
 
   const auto changed = [this] {
@@ -71,7 +79,8 @@ Duration PdoParameters::event_timer() const {
   return std::chrono::milliseconds(value * faults().event_timer_factor);
 }
 
-// 00h-F0h synchronous, FCh and FDh on remote request (TPDO only), FEh and FFh event-driven; the rest is reserved.
+// 00h-F0h synchronous, FCh and FDh on remote request (TPDO only), FEh and FFh event-driven; the rest is
+// reserved.
 Accepted PdoParameters::check_type(ByteView bytes) const {
   const std::uint64_t type = conform::load_le(bytes);
   const bool remote = type == 0xFC || type == 0xFD;
@@ -102,7 +111,8 @@ Accepted PdoParameters::mappable(const Mapped& mapped) const {
   if (entry == nullptr) return fault.absent_object_mapped ? Accepted{} : refuse(abort_code::no_object);
   const bool allowed = direction_ == PdoDirection::receive ? entry->rx_mappable : entry->tx_mappable;
   if (!allowed && !fault.unmappable_object_mapped) return refuse(abort_code::not_mappable);
-  if (mapped.bits != entry->value.size() * 8 && !fault.mapping_length_unchecked) return refuse(abort_code::not_mappable);
+  if (mapped.bits != entry->value.size() * 8 && !fault.mapping_length_unchecked)
+    return refuse(abort_code::not_mappable);
   return {};
 }
 
@@ -111,7 +121,8 @@ Accepted PdoParameters::check_mapping_entry(std::uint8_t sub, ByteView bytes) co
   if (value == device_->dictionary.number(mapping_, sub)) return {};
   // The procedure is: PDO not valid, sub-index 00h := 00h, then the entries.
   const bool enabled = device_->dictionary.number(mapping_, 0) != 0;
-  if ((enabled || cob_id_.valid()) && !faults().mapping_writable_while_enabled) return refuse(abort_code::unsupported_access);
+  if ((enabled || cob_id_.valid()) && !faults().mapping_writable_while_enabled)
+    return refuse(abort_code::unsupported_access);
   if (value == 0) return {};  // an unused entry
   return mappable(unpack(value));
 }

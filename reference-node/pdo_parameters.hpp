@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Communication and mapping parameters of one PDO (14xxh/16xxh or 18xxh/1Axxh) and the rules for changing them
-// (CiA 301, 7.5.2.35 to 7.5.2.38).
+// Communication and mapping parameters of one PDO (14xxh/16xxh or 18xxh/1Axxh) and the rules for changing
+// them (CiA 301, 7.5.2.35 to 7.5.2.38).
 #pragma once
 
 #include <cstdint>

@@ -15,12 +15,19 @@ constexpr unsigned upload_segment_request = 3;
 constexpr unsigned abort_transfer = 4;
 
 Multiplexer mux_of(const std::array<std::uint8_t, 8>& request) {
-  return {conform::Index(static_cast<std::uint16_t>(request[1] | (request[2] << 8))), conform::SubIndex(request[3])};
+  return {conform::Index(static_cast<std::uint16_t>(request[1] | (request[2] << 8))),
+          conform::SubIndex(request[3])};
 }
 
 std::array<std::uint8_t, 8> with_mux(std::uint8_t command, Multiplexer mux) {
-  return {command, static_cast<std::uint8_t>(mux.index.value() & 0xFFU),
-          static_cast<std::uint8_t>(mux.index.value() >> 8U), mux.sub.value(), 0, 0, 0, 0};
+  return {command,
+          static_cast<std::uint8_t>(mux.index.value() & 0xFFU),
+          static_cast<std::uint8_t>(mux.index.value() >> 8U),
+          mux.sub.value(),
+          0,
+          0,
+          0,
+          0};
 }
 
 }  // namespace
@@ -48,10 +55,11 @@ void SdoServer::on_request(const Frame& frame) {
 
   std::vector<Outgoing> frames;
   if (reply) {
-    frames.push_back({conform::can::data_frame(conform::CanId(0x580U + device_->node_id), *reply), turnaround_});
+    frames.push_back(
+        {conform::can::data_frame(conform::CanId(0x580U + device_->node_id), *reply), turnaround_});
   }
-  device_->outbox.send(FilterContext{Service::sdo, device_->node_id, device_->state, &exchange}, std::move(frames),
-                       device_->now);
+  device_->outbox.send(FilterContext{Service::sdo, device_->node_id, device_->state, &exchange},
+                       std::move(frames), device_->now);
 }
 
 SdoServer::Reply SdoServer::abort(SdoExchange& exchange, AbortCode code) {
@@ -70,7 +78,8 @@ SdoServer::Reply SdoServer::initiate_upload(SdoExchange& exchange) {
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return abort(exchange, data.error());
 
-  if (device_->behaviour.long_numbers_truncated && data->size() <= 8) data->resize(std::min<std::size_t>(data->size(), 4));
+  if (device_->behaviour.long_numbers_truncated && data->size() <= 8)
+    data->resize(std::min<std::size_t>(data->size(), 4));
   const std::size_t size = data->size();
   if (size >= 1 && size <= 4) {
     // 010x nnes: expedited with size, n = bytes without data.
@@ -101,7 +110,8 @@ SdoServer::Reply SdoServer::upload_segment(SdoExchange& exchange) {
   // 000t nnnc: toggle of the request, n = bytes without data, c = last segment.
   std::array<std::uint8_t, 8> reply{};
   reply[0] = static_cast<std::uint8_t>((toggle ? 0x10U : 0U) | ((7U - count) << 1U) | (last ? 1U : 0U));
-  std::copy_n(transfer_->data.begin() + static_cast<std::ptrdiff_t>(transfer_->position), count, reply.begin() + 1);
+  std::copy_n(transfer_->data.begin() + static_cast<std::ptrdiff_t>(transfer_->position), count,
+              reply.begin() + 1);
   transfer_->position += count;
   transfer_->toggle = !toggle;
   if (last) {
@@ -140,7 +150,8 @@ SdoServer::Reply SdoServer::initiate_download(SdoExchange& exchange) {
   if (sized) announced = static_cast<std::size_t>(conform::load_le(field));
   const Accepted granted = device_->dictionary.may_download(exchange.mux, announced);
   if (!granted) {
-    const bool overlooked = device_->behaviour.segmented_access_unchecked && granted.error() == abort_code::read_only;
+    const bool overlooked =
+        device_->behaviour.segmented_access_unchecked && granted.error() == abort_code::read_only;
     if (!overlooked) return abort(exchange, granted.error());
   }
   transfer_ = Transfer{false, exchange.mux, {}, 0, announced, false};
@@ -185,7 +196,8 @@ SdoServer::Reply SdoServer::download_segment(SdoExchange& exchange) {
                                ? Accepted{}
                                : device_->dictionary.download(exchange.mux, data);
   if (!written) {
-    const bool overlooked = device_->behaviour.segmented_access_unchecked && written.error() == abort_code::read_only;
+    const bool overlooked =
+        device_->behaviour.segmented_access_unchecked && written.error() == abort_code::read_only;
     if (!overlooked) return abort(exchange, written.error());
     if (Entry* entry = device_->dictionary.entry(exchange.index(), exchange.sub())) entry->value = data;
   }

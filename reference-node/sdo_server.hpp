@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default SDO server (CiA 301, 7.2.4): expedited and segmented transfers on 600h + node-ID / 580h + node-ID.
-// Block transfer is not offered: its command specifiers are refused as unknown (0504 0001h).
+// The default SDO server (CiA 301, 7.2.4): expedited and segmented transfers on 600h + node-ID / 580h +
+// node-ID. Block transfer is not offered: its command specifiers are refused as unknown (0504 0001h).
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ class SdoServer {
   struct Transfer {
     bool upload = true;
     Multiplexer mux;
-    Bytes data;                             ///< upload: everything; download: received so far
-    std::size_t position = 0;               ///< upload: next byte to send
-    std::optional<std::size_t> announced;   ///< download: size of the initiate
-    bool toggle = false;                    ///< toggle bit expected next
+    Bytes data;                            ///< upload: everything; download: received so far
+    std::size_t position = 0;              ///< upload: next byte to send
+    std::optional<std::size_t> announced;  ///< download: size of the initiate
+    bool toggle = false;                   ///< toggle bit expected next
   };
   using Reply = std::optional<std::array<std::uint8_t, 8>>;
 

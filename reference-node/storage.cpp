@@ -111,7 +111,8 @@ conform::Result<std::shared_ptr<FileStorage>> FileStorage::open(std::string path
   std::ifstream file(name, std::ios::binary);
   std::stringstream text;
   text << file.rdbuf();
-  if (!file) return conform::fail("the storage file cannot be read", name, "give a readable file or a new name");
+  if (!file)
+    return conform::fail("the storage file cannot be read", name, "give a readable file or a new name");
   int line = 0;
   auto images = from_text(text.str(), line);
   if (!images) {
@@ -135,7 +136,8 @@ conform::Result<void> FileStorage::write(const Images& images) {
     good = count > 0;
     if (good) done += static_cast<std::size_t>(count);
   }
-  // On the disk before it takes the old file's place: the confirmation of 1010h means that the values are stored.
+  // On the disk before it takes the old file's place: the confirmation of 1010h means that the values are
+  // stored.
   good = good && ::fsync(file) == 0;
   const std::string why = good ? std::string() : reason();
   ::close(file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The known ways to break the node, one row per fault. A row says what is wrong, which requirements that violates,
-// and how it is done: an edit of the dictionary, a filter on outgoing frames, or a switch of Behaviour.
+// The known ways to break the node, one row per fault. A row says what is wrong, which requirements that
+// violates, and how it is done: an edit of the dictionary, a filter on outgoing frames, or a switch of
+// Behaviour.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,8 @@
 
 namespace refnode {
 
-/// Changes the finished dictionary before the node starts; the node-ID is given because some defaults hold it.
+/// Changes the finished dictionary before the node starts; the node-ID is given because some defaults hold
+/// it.
 using DictionaryEdit = std::function<void(ObjectDictionary&, std::uint8_t node_id)>;
 using BehaviourSwitch = std::function<void(Behaviour&)>;
 

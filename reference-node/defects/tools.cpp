@@ -5,11 +5,11 @@
 
 namespace refnode::defect {
 
-BehaviourSwitch behave(bool Behaviour::*flag) {
+BehaviourSwitch behave(bool Behaviour::* flag) {
   return [flag](Behaviour& behaviour) { behaviour.*flag = true; };
 }
 
-BehaviourSwitch behave(int Behaviour::*number, int value) {
+BehaviourSwitch behave(int Behaviour::* number, int value) {
   return [number, value](Behaviour& behaviour) { behaviour.*number = value; };
 }
 
@@ -112,14 +112,16 @@ void put_code(std::array<std::uint8_t, 8>& data, AbortCode code) {
 Filter wrong_abort(AbortCode right, AbortCode wrong, Range range) {
   return on_response(
       [right, range](const SdoExchange& exchange) {
-        return exchange.aborted == right && exchange.index() >= range.first && exchange.index() <= range.second;
+        return exchange.aborted == right && exchange.index() >= range.first &&
+               exchange.index() <= range.second;
       },
       [wrong](const SdoExchange&, std::array<std::uint8_t, 8>& data) { put_code(data, wrong); });
 }
 
 Filter wrong_abort_at(Multiplexer mux, AbortCode right, AbortCode wrong) {
-  return on_response([right, mux](const SdoExchange& exchange) { return exchange.aborted == right && exchange.mux == mux; },
-                     [wrong](const SdoExchange&, std::array<std::uint8_t, 8>& data) { put_code(data, wrong); });
+  return on_response(
+      [right, mux](const SdoExchange& exchange) { return exchange.aborted == right && exchange.mux == mux; },
+      [wrong](const SdoExchange&, std::array<std::uint8_t, 8>& data) { put_code(data, wrong); });
 }
 
 Filter silent(Condition when) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vocabulary of the defect tables: small makers of edits, filters and switches, so that a row is one statement.
+// The vocabulary of the defect tables: small makers of edits, filters and switches, so that a row is one
+// statement.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +11,17 @@
 namespace refnode::defect {
 
 /// behave(&Behaviour::history_overwrites): sets a switch.
-[[nodiscard]] BehaviourSwitch behave(bool Behaviour::*flag);
+[[nodiscard]] BehaviourSwitch behave(bool Behaviour::* flag);
 /// behave(&Behaviour::heartbeat_period_factor, 2): sets a number.
-[[nodiscard]] BehaviourSwitch behave(int Behaviour::*number, int value);
+[[nodiscard]] BehaviourSwitch behave(int Behaviour::* number, int value);
 
 /// behave(&Behaviour::store, &StoreFaults::without_effect): sets a switch of a part.
 template <typename Part>
-[[nodiscard]] BehaviourSwitch behave(Part Behaviour::*part, bool Part::*flag) {
+[[nodiscard]] BehaviourSwitch behave(Part Behaviour::* part, bool Part::* flag) {
   return [part, flag](Behaviour& behaviour) { (behaviour.*part).*flag = true; };
 }
 template <typename Part>
-[[nodiscard]] BehaviourSwitch behave(Part Behaviour::*part, int Part::*number, int value) {
+[[nodiscard]] BehaviourSwitch behave(Part Behaviour::* part, int Part::* number, int value) {
   return [part, number, value](Behaviour& behaviour) { (behaviour.*part).*number = value; };
 }
 
@@ -54,7 +55,8 @@ using Range = std::pair<std::uint16_t, std::uint16_t>;
 /// Command byte and data instead of those of the response where `when` holds; bytes 1-3 stay.
 [[nodiscard]] Filter respond(Condition when, std::uint8_t command, std::uint32_t data);
 /// Changes the eight bytes of a response where `when` holds.
-[[nodiscard]] Filter patch(Condition when, void (*change)(const SdoExchange&, std::array<std::uint8_t, 8>& data));
+[[nodiscard]] Filter patch(Condition when,
+                           void (*change)(const SdoExchange&, std::array<std::uint8_t, 8>& data));
 /// Changes every frame of a service other than SDO.
 [[nodiscard]] Filter reshape(Service service, void (*change)(const FilterContext&, Frame&));
 /// Drops the frames of a service in one state.

@@ -16,11 +16,12 @@ namespace refnode::testing {
 
 using namespace std::chrono_literals;
 
-/// Node 5 unless said otherwise. Frames are written "605: 40 00 10 00 00 00 00 00"; what the node sent since the
-/// last look is returned the same way.
+/// Node 5 unless said otherwise. Frames are written "605: 40 00 10 00 00 00 00 00"; what the node sent since
+/// the last look is returned the same way.
 class Bench {
  public:
-  explicit Bench(std::vector<std::string> defects = {}, std::shared_ptr<Storage> storage = {}, std::uint8_t id = 5) {
+  explicit Bench(std::vector<std::string> defects = {}, std::shared_ptr<Storage> storage = {},
+                 std::uint8_t id = 5) {
     auto made = Node::create({id, std::move(defects), std::move(storage), {}});
     REQUIRE(made.has_value());
     node_ = std::move(*made);
@@ -82,7 +83,10 @@ class Bench {
     return conform::hex_bytes(frame.bytes()).insert(0, id + ": ");
   }
   std::string stamp() const {
-    return "@" + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(now_.time_since_epoch()).count()) + " ";
+    return "@" +
+           std::to_string(
+               std::chrono::duration_cast<std::chrono::milliseconds>(now_.time_since_epoch()).count()) +
+           " ";
   }
 
   conform::BusTime now_{};

@@ -67,8 +67,8 @@ TEST_CASE("Restricted CAN-IDs cannot become active, their neighbours can") {
     const conform::Bytes bytes = conform::to_le(id, 4);
     return bench.sdo("23 14 10 00 " + conform::hex_bytes(bytes)).starts_with("60");
   };
-  for (const unsigned id : {0x000U, 0x001U, 0x07FU, 0x101U, 0x180U, 0x581U, 0x5FFU, 0x601U, 0x67FU, 0x6E0U, 0x6FFU,
-                            0x701U, 0x77FU, 0x780U, 0x7FFU}) {
+  for (const unsigned id : {0x000U, 0x001U, 0x07FU, 0x101U, 0x180U, 0x581U, 0x5FFU, 0x601U, 0x67FU, 0x6E0U,
+                            0x6FFU, 0x701U, 0x77FU, 0x780U, 0x7FFU}) {
     INFO(id);
     CHECK_FALSE(set(id));
   }

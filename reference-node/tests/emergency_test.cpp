@@ -70,9 +70,11 @@ TEST_CASE("The inhibit time of 1015h delays and loses nothing") {
   Bench bench;
   bench.wait(100ms);
   CHECK(bench.sdo("2B 15 10 00 88 13 00 00") == "60 15 10 00 00 00 00 00");
-  CHECK(bench.send("605: 2B 00 2F 01 10 42 00 00\n605: 2B 00 2F 01 10 23 00 00\n605: 2B 00 2F 02 00 00 00 00") ==
+  CHECK(bench.send(
+            "605: 2B 00 2F 01 10 42 00 00\n605: 2B 00 2F 01 10 23 00 00\n605: 2B 00 2F 02 00 00 00 00") ==
         Frames{"085: 10 42 09 00 00 00 00 00", raised, raised, cleared});
-  CHECK(bench.wait(2s, true) == Frames{"@600 085: 10 23 0B 00 00 00 00 00", "@1100 085: 00 00 00 00 00 00 00 00"});
+  CHECK(bench.wait(2s, true) ==
+        Frames{"@600 085: 10 23 0B 00 00 00 00 00", "@1100 085: 00 00 00 00 00 00 00 00"});
 }
 
 TEST_CASE("EMCY is silent in Stopped and tells the latest state afterwards") {

@@ -80,7 +80,8 @@ TEST_CASE("Event timer and inhibit time bound the distance of event-driven TPDOs
   CHECK(bench.sdo("2B 00 18 03 D0 07 00 00") == "60 00 18 03 00 00 00 00");
   CHECK(bench.sdo("2B 00 18 05 00 00 00 00") == "60 00 18 05 00 00 00 00");
   CHECK(bench.sdo("23 00 18 01 85 01 00 40") == done1800);
-  CHECK(bench.send("605: 2F 00 62 01 01 00 00 00") == Frames{"185: 01 00 00 00", "585: 60 00 62 01 00 00 00 00"});
+  CHECK(bench.send("605: 2F 00 62 01 01 00 00 00") ==
+        Frames{"185: 01 00 00 00", "585: 60 00 62 01 00 00 00 00"});
   CHECK(bench.sdo("2F 00 62 01 02 00 00 00") == "60 00 62 01 00 00 00 00");
   CHECK(bench.wait(1s, true) == Frames{"@550 185: 02 00 00 00"});
 }
@@ -153,7 +154,8 @@ TEST_CASE("A mapping is changed by the procedure of the standard and refused oth
   CHECK(bench.sdo("2F 00 1A 00 02 00 00 00") == "60 00 1A 00 00 00 00 00");
   CHECK(bench.sdo("23 00 18 01 85 01 00 40") == done1800);
   bench.send("000: 01 05");
-  CHECK(bench.send("605: 2B 11 64 02 34 12 00 00") == Frames{"185: 34 12 00", "585: 60 11 64 02 00 00 00 00"});
+  CHECK(bench.send("605: 2B 11 64 02 34 12 00 00") ==
+        Frames{"185: 34 12 00", "585: 60 11 64 02 00 00 00 00"});
 }
 
 TEST_CASE("A mapping of more than 64 bits is refused, placeholders are not") {

@@ -32,8 +32,9 @@ void change_all(Bench& bench) {
 
 // The values of 1017h, 6206h:01 and 2007h as SDO responses.
 std::string values(Bench& bench) {
-  return bench.sdo("40 17 10 00 00 00 00 00").substr(12, 5) + " / " + bench.sdo("40 06 62 01 00 00 00 00").substr(12, 2) +
-         " / " + bench.sdo("40 07 20 00 00 00 00 00").substr(12, 2);
+  return bench.sdo("40 17 10 00 00 00 00 00").substr(12, 5) + " / " +
+         bench.sdo("40 06 62 01 00 00 00 00").substr(12, 2) + " / " +
+         bench.sdo("40 07 20 00 00 00 00 00").substr(12, 2);
 }
 
 void reset_node(Bench& bench) {
@@ -132,9 +133,10 @@ TEST_CASE("A storage file outlives the node") {
 
 TEST_CASE("A damaged storage file is refused with its line") {
   TemporaryFile file;
-  for (const char* content : {"", "something else\n", "canopen-refnode storage 1\n[communication]\n1017h:00 = E8 03\n",
-                              "canopen-refnode storage 1\n[nobody]\nend\n",
-                              "canopen-refnode storage 1\n[application]\n6206h:01 = 0\nend\n"}) {
+  for (const char* content :
+       {"", "something else\n", "canopen-refnode storage 1\n[communication]\n1017h:00 = E8 03\n",
+        "canopen-refnode storage 1\n[nobody]\nend\n",
+        "canopen-refnode storage 1\n[application]\n6206h:01 = 0\nend\n"}) {
     std::ofstream(file.name, std::ios::trunc) << content;
     const auto storage = FileStorage::open(file.name);
     INFO(content);

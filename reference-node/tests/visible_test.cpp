@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every defect shows on the bus: the same conversation gives another transcript than with a conformant node. This
-// keeps rows from outliving the code they switch; which requirement they violate is for the suite to prove.
+// Every defect shows on the bus: the same conversation gives another transcript than with a conformant node.
+// This keeps rows from outliving the code they switch; which requirement they violate is for the suite to
+// prove.
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@ using namespace refnode::testing;
 
 namespace {
 
-// Each conversation runs with a fresh node 5. Lines are frames to send, "wait <ms>", "rtr <id> <dlc>", "ext <frame>";
-// "sdo <bytes>" is a request on 605h.
+// Each conversation runs with a fresh node 5. Lines are frames to send, "wait <ms>", "rtr <id> <dlc>", "ext
+// <frame>"; "sdo <bytes>" is a request on 605h.
 const std::vector<std::string> conversations = {
     // Reading everything the description lists, and some more.
     "read 0000 00\nread 0260 00\nread 0800 00\nread 0FFF 00\nread 1004 00\nread 1004 01\nread 1000 00\nread 1000 01\n"
@@ -154,9 +155,11 @@ std::string transcript(const std::vector<std::string>& defects) {
       } else if (verb == "read") {
         std::string index, sub;
         words >> index >> sub;
-        std::string answer = bench.sdo("40 " + index.substr(2) + " " + index.substr(0, 2) + " " + sub + " 00 00 00 00");
+        std::string answer =
+            bench.sdo("40 " + index.substr(2) + " " + index.substr(0, 2) + " " + sub + " 00 00 00 00");
         note({answer});
-        for (int toggle = 0; answer.starts_with("41") || answer.starts_with("00") || answer.starts_with("10"); toggle ^= 1) {
+        for (int toggle = 0; answer.starts_with("41") || answer.starts_with("00") || answer.starts_with("10");
+             toggle ^= 1) {
           answer = bench.sdo(toggle == 0 ? "60 00 00 00 00 00 00 00" : "70 00 00 00 00 00 00 00");
           note({answer});
         }
