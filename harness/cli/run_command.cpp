@@ -48,7 +48,9 @@ Result<device::Profile> profile_for(const RunCommand& options, const std::string
   if (path.empty() && options.simulate) path = suites + "/devices/reference-node.yaml";
   if (path.empty()) {
     if (!options.node) return fail("the node-ID of the device is missing", {}, "--node 1..127, or --device FILE");
-    return device::default_profile(node);
+    auto profile = device::default_profile(node);
+    profile.interface = options.interface;
+    return profile;
   }
   auto document = device::load_profile_file(path);
   if (!document) return std::unexpected(document.error());
