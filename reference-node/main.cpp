@@ -12,6 +12,7 @@
 #include "base/text.hpp"
 #include "can/socket_loop.hpp"
 #include "defects/defect.hpp"
+#include "eds_text.hpp"
 #include "node.hpp"
 #include "storage.hpp"
 
@@ -69,11 +70,13 @@ int main(int argc, char** argv) {
   int node_id = 1;
   refnode::Options options;
   bool list = false;
+  bool print_eds = false;
   app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0");
   app.add_option("-n,--node", node_id, "node-ID, 1 to 127")->check(CLI::Range(1, 127))->capture_default_str();
   app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
   app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
   app.add_flag("--list-defects", list, "print all defects and what they violate");
+  app.add_flag("--eds", print_eds, "print the device description (EDS) of the conformant node");
   app.set_version_flag("--version", "canopen-refnode " CONFORM_VERSION);
   try {
     app.parse(argc, argv);
@@ -82,6 +85,10 @@ int main(int argc, char** argv) {
   }
   if (list) {
     list_defects();
+    return 0;
+  }
+  if (print_eds) {
+    fmt::print("{}", refnode::eds_text());
     return 0;
   }
   if (interface_name.empty()) {

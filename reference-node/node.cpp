@@ -195,6 +195,8 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
   return std::unique_ptr<Node>(new Node(std::move(impl)));
 }
 
+const ObjectDictionary& Node::dictionary() const { return impl_->device.dictionary; }
+
 void Node::attach(Sender sender, conform::BusTime now) {
   impl_->device.outbox.attach(std::move(sender));
   impl_->device.now = now;

@@ -13,6 +13,7 @@
 #include "base/time.hpp"
 #include "can/participant.hpp"
 #include "defects/defect.hpp"
+#include "object_dictionary.hpp"
 #include "storage.hpp"
 
 namespace refnode {
@@ -34,6 +35,9 @@ class Node final : public conform::can::Participant {
   void on_frame(const conform::can::Frame& frame, conform::BusTime now) override;
   void on_time(conform::BusTime now) override;
   [[nodiscard]] std::optional<conform::BusTime> next_wakeup() const override;
+
+  /// What the node holds at present; edits of defects included.
+  [[nodiscard]] const ObjectDictionary& dictionary() const;
 
  private:
   struct Impl;
