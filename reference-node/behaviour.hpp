@@ -97,6 +97,8 @@ struct Behaviour {
   bool nmt_pre_operational_ignored = false;
   bool nmt_pre_operational_resets = false;
   bool nmt_reset_ignored_in_stopped = false;
+  bool nmt_reset_ignored_in_pre_operational = false;
+  bool nmt_reset_ignored_in_operational = false;
   bool nmt_unknown_command_stops = false;
   bool reset_during_start_up_hangs = false;
   bool boot_up_on_pre_operational = false;
@@ -124,6 +126,8 @@ struct Behaviour {
   bool consumer_error_never_resolved = false;
   bool consumer_loss_not_detected = false;
   bool consumer_wrong_code = false;
+  bool consumer_only_first_entry = false;
+  bool consumer_zero_time_monitored = false;
   bool consumer_loss_keeps_operational = false;
 
   // Error register, EMCY, history
@@ -141,6 +145,7 @@ struct Behaviour {
   int emergency_inhibit_unit_us = 100;
   bool records_error_reset = false;
   bool history_not_written = false;
+  bool history_starts_with_error = false;
   bool history_count_not_updated = false;
   bool history_code_in_upper_half = false;
   bool history_code_byte_swapped = false;

@@ -153,6 +153,7 @@ void Emergency::on_reset(bool whole_node) {
   std::erase_if(causes_,
                 [&](const ErrorCause& cause) { return whole_node || cause.source != application_source; });
   history_.clear();
+  if (device_->behaviour.history_starts_with_error) history_.push_back(0x00001000);
   pending_.clear();
   inhibited_until_.reset();
   reported_ = !causes_.empty();

@@ -59,6 +59,7 @@ Duration HeartbeatConsumer::time_of(std::uint64_t value) const {
 }
 
 bool HeartbeatConsumer::monitored(std::uint64_t value) const {
+  if (device_->behaviour.consumer_zero_time_monitored && node_of(value) != 0) return true;
   return (value & 0xFFFFU) != 0 && node_of(value) >= 1 && node_of(value) <= 127;
 }
 
@@ -93,7 +94,7 @@ void HeartbeatConsumer::on_reset() { watches_ = {}; }
 void HeartbeatConsumer::on_heartbeat(std::uint8_t node) {
   for (std::uint8_t sub = 1; sub <= entries; ++sub) {
     const std::uint64_t value = value_of(sub);
-    if (!monitored(value)) continue;
+    if (!monitored(value) || (sub > 1 && device_->behaviour.consumer_only_first_entry)) continue;
     if (node_of(value) != node && !device_->behaviour.consumer_node_id_unchecked) continue;
     Watch& watch = watches_[sub - 1U];
     if (watch.due && device_->behaviour.consumer_timer_not_restarted) continue;

@@ -30,13 +30,24 @@ bool NmtSlave::addressed(const Frame& frame) const {
   return target == device_->node_id;
 }
 
+bool NmtSlave::obeys_reset() const {
+  const Behaviour& behaviour = device_->behaviour;
+  switch (device_->state) {
+    case NmtState::stopped: return !behaviour.nmt_reset_ignored_in_stopped;
+    case NmtState::pre_operational: return !behaviour.nmt_reset_ignored_in_pre_operational;
+    case NmtState::operational: return !behaviour.nmt_reset_ignored_in_operational;
+    case NmtState::initialising: return true;
+  }
+  return true;
+}
+
 void NmtSlave::on_command(const Frame& frame) {
   if (!addressed(frame)) return;
   const Behaviour& behaviour = device_->behaviour;
   const NmtState state = device_->state;
   switch (frame.data[0]) {
     case command_reset_node:
-      if (!behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped) start_reset(Reset::node);
+      if (obeys_reset()) start_reset(Reset::node);
       return;
     case command_reset_communication:
       if (!behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped)

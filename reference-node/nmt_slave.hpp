@@ -29,6 +29,7 @@ class NmtSlave {
 
  private:
   [[nodiscard]] bool addressed(const Frame& frame) const;
+  [[nodiscard]] bool obeys_reset() const;
 
   Device* device_;
   std::optional<BusTime> boot_due_;

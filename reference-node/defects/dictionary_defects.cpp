@@ -16,6 +16,20 @@ constexpr DataType u32 = DataType::unsigned32;
 
 Bytes text(std::string_view value) { return Bytes(value.begin(), value.end()); }
 
+// A text whose last character counts the uploads.
+DictionaryEdit changing(std::uint16_t index) {
+  return [index](ObjectDictionary& od, std::uint8_t) {
+    Entry* entry = od.entry(index, 0);
+    if (entry == nullptr || entry->value.empty()) return;
+    entry->read = [value = entry->value]() mutable -> Upload {
+      value.back() = static_cast<std::uint8_t>(value.back() == '9'                         ? '0'
+                                               : value.back() >= '0' && value.back() < '9' ? value.back() + 1
+                                                                                           : '0');
+      return value;
+    };
+  };
+}
+
 DefectTable identity_rows() {
   return {
       {"1000-absent", "1000h does not exist", {"OD-1000-01", "OD-CAT-01"}, absent(0x1000)},
@@ -44,6 +58,7 @@ DefectTable identity_rows() {
        "1008h contains a control character",
        {"OD-1008-01"},
        bytes(0x1008, 0, text("canopen\x07refnode"))},
+      {"1008-changes", "1008h changes with every upload", {"OD-1008-03", "OD-ACC-06"}, changing(0x1008)},
       {"1008-writable",
        "1008h can be written",
        {"OD-1008-02", "SDO-DNL-08", "OD-ACC-02"},
@@ -52,6 +67,7 @@ DefectTable identity_rows() {
        "1009h contains a character above 7Eh",
        {"OD-1009-01"},
        bytes(0x1009, 0, text("M\xFChle 1"))},
+      {"1009-changes", "1009h changes with every upload", {"OD-1009-03", "OD-ACC-06"}, changing(0x1009)},
       {"1009-writable",
        "1009h can be written",
        {"OD-1009-02", "SDO-DNL-08", "OD-ACC-02"},
@@ -60,6 +76,7 @@ DefectTable identity_rows() {
        "100Ah contains a tab",
        {"OD-100A-01"},
        bytes(0x100A, 0, text("1.00\tbeta"))},
+      {"100a-changes", "100Ah changes with every upload", {"OD-100A-03", "OD-ACC-06"}, changing(0x100A)},
       {"100a-writable",
        "100Ah can be written",
        {"OD-100A-02", "SDO-DNL-08", "OD-ACC-02"},

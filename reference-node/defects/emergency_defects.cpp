@@ -84,6 +84,15 @@ DefectTable emergency_defects() {
        "1015h counts in 10 us",
        {"OD-1015-03", "EMCY-INH-01"},
        behave(&B::emergency_inhibit_unit_us, 10)},
+      {"emcy-without-error",
+       "EMCY 1000h follows the boot-up message although there is no error",
+       {"EMCY-SEQ-03"},
+       Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+         if (context.service != Service::boot_up) return;
+         frames.push_back({conform::can::data_frame(conform::CanId(0x80U + context.node_id),
+                                                    {0x00, 0x10, 0, 0, 0, 0, 0, 0}),
+                           {}});
+       })},
       {"sync-length-not-reported",
        "A SYNC with unexpected data causes no EMCY",
        {"SYNC-CON-05", "NMT-SVC-02"},

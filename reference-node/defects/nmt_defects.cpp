@@ -63,6 +63,21 @@ DefectTable nmt_defects() {
        "Reset commands have no effect in Stopped",
        {"NMT-FSA-11", "NMT-FSA-12"},
        behave(&B::nmt_reset_ignored_in_stopped)},
+      {"nmt-reset-ignored-in-preop",
+       "Reset commands have no effect in Pre-operational",
+       {"NMT-FSA-07", "NMT-FSA-08", "NMT-BOOT-02", "NMT-BOOT-03", "OD-RST-07"},
+       behave(&B::nmt_reset_ignored_in_pre_operational)},
+      {"nmt-reset-ignored-in-operational",
+       "Reset commands have no effect in Operational",
+       {"NMT-FSA-09", "NMT-FSA-10"},
+       behave(&B::nmt_reset_ignored_in_operational)},
+      {"slave-sends-nmt",
+       "The node starts node 127 after its boot-up message",
+       {"NMT-SVC-05"},
+       Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+         if (context.service == Service::boot_up)
+           frames.push_back({conform::can::data_frame(conform::CanId(0x000), {0x01, 0x7F}), {}});
+       })},
       {"nmt-self-transition-resets",
        "Enter pre-operational resets a node that is there already",
        {"NMT-FSA-13"},

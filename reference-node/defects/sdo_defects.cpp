@@ -33,6 +33,9 @@ bool last_download_segment(const SdoExchange& e) {
 bool segment_without_transfer(const SdoExchange& e) {
   return e.step == SdoStep::upload_segment && e.aborted == abort_code::command_unknown;
 }
+bool download_segment_without_transfer(const SdoExchange& e) {
+  return e.step == SdoStep::download_segment && e.aborted == abort_code::command_unknown;
+}
 bool unknown_command(const SdoExchange& e) {
   return e.step == SdoStep::other && e.aborted == abort_code::command_unknown;
 }
@@ -244,6 +247,10 @@ DefectTable transfer_rows() {
        "An upload segment request without transfer gets an empty last segment",
        {"SDO-SUP-08", "SDO-SUP-09"},
        respond(segment_without_transfer, 0x0F, 0)},
+      {"download-segment-served-without-initiate",
+       "A download segment without transfer is confirmed",
+       {"SDO-SDN-16", "SDO-SDN-26"},
+       respond(download_segment_without_transfer, 0x20, 0)},
       {"transfer-not-closed-after-last-segment",
        "After the last upload segment the transfer starts again",
        {"SDO-SUP-09"},

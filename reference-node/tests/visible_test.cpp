@@ -88,6 +88,8 @@ const std::vector<std::string> conversations = {
     "sdo 23 16 10 01 64 00 7E 00\nwait 500\n77E: 05\nwait 60\n77E: 05\nwait 60\n77D: 05\nwait 60\n77D: 05\nwait 200\n77E: 05\nread 1001 00\n",
     "sdo 23 16 10 01 E8 03 7E 00\nread 1016 01\nsdo 23 16 10 02 D0 07 7E 00\nsdo 23 16 10 02 00 00 7E 00\nsdo 23 16 10 01 D0 07 7E 00\n"
     "sdo 23 16 10 01 E8 03 7E 01\nsdo 2B 17 10 00 64 00 00 00\nsdo 23 16 10 01 64 00 7E 00\n000: 01 05\n77E: 05\nwait 250\n000: 02 05\n77E: 05\nwait 250\n",
+    "sdo 23 16 10 02 64 00 7E 00\n77E: 05\nwait 250\n",
+    "sdo 23 16 10 01 00 00 7E 00\n77E: 05\nwait 250\n000: 01 05\n000: 81 05\nwait 100\nsdo 01 00 00 00 00 00 00 00\n",
     // COB-IDs.
     "sdo 23 05 10 00 80 00 00 40\nsdo 23 05 10 00 80 00 00 20\nsdo 23 05 10 00 80 00 00 80\nsdo 23 05 10 00 80 08 00 00\n"
     "sdo 23 05 10 00 01 00 00 00\nsdo 23 05 10 00 A0 06 00 00\n080: 01\n6A0: 01\n",
