@@ -105,7 +105,6 @@ Dictionary dictionary_of(const Profile& profile) {
 
 Profile default_profile(NodeId node) {
   Profile profile;
-  profile.name = "unnamed device";
   profile.node = node;
   profile.errors.push_back(heartbeat_trigger(NodeId{0x7E}));
   return profile;

@@ -64,6 +64,9 @@ class Run {
     auto properties = device_properties(session_);
     if (!properties) return std::unexpected(properties.error());
     out_.properties = std::move(*properties);
+    for (const auto& property : out_.properties) {
+      if (property.name == "dut.name" && profile_.name.empty()) out_.device += " (" + property.value + ")";
+    }
     auto values = snapshot(session_);
     if (!values) return std::unexpected(values.error());
     snapshot_ = std::move(*values);
@@ -87,9 +90,6 @@ class Run {
       out_.aborted = "stopped by the user";
     } else {
       out_.aborted = error.text();
-    }
-    for (auto& each : out_.cases) {
-      if (!each.finished && each.verdict == Verdict::error) each.reason = "not run: " + *out_.aborted;
     }
   }
 

@@ -196,6 +196,11 @@ Result<steps::Window> RunSession::window_after(std::string_view label) const {
 }
 
 void RunSession::consume(std::size_t index) {
+  const auto recorded = recorder_.capture().size();
+  if (index >= recorded) {
+    window_ = {recorded, recorder_.now()};
+    return;
+  }
   window_.first = std::max(window_.first, index + 1);
 }
 

@@ -54,7 +54,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
   [[nodiscard]] Result<void> send(const can::Frame& frame) override;
   [[nodiscard]] Result<void> will_change(Multiplexer object) override;
-  void sdo_channel_dirty() override { channel_.dirty(); }
+  void sdo_channel_dirty() override { channel_.dirty(false); }
   [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match, BusTime deadline) override {
     return recorder_.find(from, match, deadline);
   }

@@ -6,16 +6,25 @@
 #include "canopen/cob_id.hpp"
 #include "canopen/sdo_initiate.hpp"
 
+#include <chrono>
+#include <utility>
+
 namespace conform::engine {
+namespace {
+
+/// A server that wrongly answers the abort does so within this time, and its answer is then no answer to what follows.
+constexpr Duration after_conversation = std::chrono::milliseconds(20);
+
+}  // namespace
 
 Result<void> SdoChannel::make_idle() {
-  if (!dirty_) return {};
-  dirty_ = false;
+  if (state_ == State::idle) return {};
+  const auto rest = std::exchange(state_, State::idle) == State::late_answers ? quiet_ : after_conversation;
   // An abort is never answered; after it, answers to what was before must not be taken for answers to what comes.
   const auto abort = canopen::encode_abort({Index(0), SubIndex(0)}, AbortCode(0x0800'0000));
   auto sent = recorder_.send(can::data_frame(canopen::connection_set(node_).sdo_request, abort));
   if (!sent) return std::unexpected(sent.error());
-  return recorder_.wait_until(recorder_.now() + quiet_);
+  return recorder_.wait_until(recorder_.now() + rest);
 }
 
 template <typename Transfer>
@@ -45,7 +54,7 @@ Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object, 
       const auto abort = canopen::encode_abort(object, canopen::abort::timed_out);
       auto told = recorder_.send(can::data_frame(set.sdo_request, abort));
       if (!told) return std::unexpected(told.error());
-      dirty_ = true;
+      dirty(true);
       return out;
     }
     out.decisive = **found;
@@ -68,7 +77,7 @@ Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object, 
       auto told = recorder_.send(can::data_frame(set.sdo_request, canopen::encode_abort(object, *result.reply)));
       if (!told) return std::unexpected(told.error());
     }
-    if (result.kind == Kind::violation) dirty_ = true;
+    if (result.kind == Kind::violation) dirty(true);
     return out;
   }
 }

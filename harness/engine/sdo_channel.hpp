@@ -18,8 +18,9 @@ class SdoChannel {
   [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout);
   [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                                   std::optional<Duration> timeout);
-  /// The state of the server's channel is unknown (a conversation, a time-out): abort and let late answers pass first.
-  void dirty() { dirty_ = true; }
+  /// The state of the server's channel is unknown: abort before the next transfer. After a time-out or a broken answer late
+  /// ones may follow, so the channel rests as well; after a conversation a short pause is enough.
+  void dirty(bool late_answers) { state_ = late_answers || state_ == State::late_answers ? State::late_answers : State::open; }
   /// Requests of the latest transfer: index of the first, stamp of the last frame we sent.
   [[nodiscard]] std::size_t first_request() const { return first_request_; }
   [[nodiscard]] BusTime last_request() const { return last_request_; }
@@ -32,7 +33,7 @@ class SdoChannel {
   Recorder& recorder_;
   NodeId node_;
   Duration timeout_, quiet_;
-  bool dirty_ = false;
+  enum class State : std::uint8_t { idle, open, late_answers } state_ = State::idle;
   std::size_t first_request_ = 0;
   BusTime last_request_{};
 };

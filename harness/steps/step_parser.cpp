@@ -76,7 +76,7 @@ std::vector<Branch> parse_branches(const yaml::Field& field, ParseContext& conte
         }
         branch.steps.push_back(std::move(step));
       }
-    } else if (const auto on = fields.required("on")) {
+    } else if (const auto on = fields.required("if")) {
       branch.on = parse_outcomes(on, context.names);
     }
     if (const auto verdict = fields.optional("verdict")) {

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must hold whatever happens: values are put back, faults of the world are no verdicts, nothing is sent unasked.
+#include <csignal>
+
+#include "bench.hpp"
+
+using namespace conform;
+using namespace conform::engine;
+using namespace conform::engine::testing;
+using namespace std::chrono_literals;
+using result::Verdict;
+
+namespace {
+
+const std::string change_1017 = R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+)";
+
+const std::string three_reads = R"(
+  - id: first
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+  - id: second
+    title: t
+    steps:
+      - upload: {object: 1001h:00}
+        checks: T-MUST
+  - id: third
+    title: t
+    steps:
+      - upload: {object: 1018h:01}
+        checks: T-MUST
+)";
+
+}  // namespace
+
+TEST_CASE("a changed value is put back after the case") {
+  ScriptedDevice device;
+  const auto out = play(device, change_1017);
+  CHECK(out.only().verdict == Verdict::pass);
+  CHECK(device.writes == std::vector<std::string>{"1017h = E8 03", "1017h = 00 00"});
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+  CHECK(out.run.notes.empty());
+}
+
+TEST_CASE("a COB-ID is put back by switching it off, changing it and switching it on") {
+  ScriptedDevice device;
+  (void)play(device, R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - set_cob_id: {object: 1014h:00, to: 6A0h}
+        checks: T-MUST
+)");
+  CHECK(device.writes == std::vector<std::string>{"1014h = 81 00 00 80", "1014h = A0 06 00 80", "1014h = A0 06 00 00",
+                                                  "1014h = A0 06 00 80", "1014h = 81 00 00 80", "1014h = 81 00 00 00"});
+}
+
+TEST_CASE("a download hidden in a conversation is put back as well") {
+  ScriptedDevice device;
+  (void)play(device, R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - talk: |
+          > 600+N: 2B 17 10 00 E8 03 00 00
+          < 580+N: 60 17 10 00 zz zz zz zz
+        checks: T-MUST
+)");
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+}
+
+TEST_CASE("a value that cannot be put back is said in the notes") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] != 0x2B || self.writes.empty()) return false;
+    self.abort(frame, 0x08000000);
+    return true;
+  };
+  const auto out = play(device, change_1017);
+  CHECK_FALSE(out.run.notes.empty());
+  CHECK(out.run.notes.front().find("1017h:00") != std::string::npos);
+}
+
+TEST_CASE("when nothing is heard every case is an error, none a failure, and the exit code is 3") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  device.dead = true;
+  const auto out = play(bus, device, three_reads);
+  REQUIRE(out.run.cases.size() == 3);
+  for (const auto& each : out.run.cases) CHECK(each.verdict == Verdict::error);
+  CHECK(out.run.aborted.has_value());
+  CHECK(out.run.elapsed < 5s);
+  CHECK(result::exit_code(out.run) == 3);
+}
+
+TEST_CASE("when the device vanishes half-way what was judged stays and the rest neither passes nor fails") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    // Gone with the second read of 1001h:00: discovery made the first.
+    const bool reads_1001 = frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && frame.data[3] == 0;
+    if (reads_1001 && !self.writes.empty()) self.dead = true;
+    if (reads_1001) self.writes.emplace_back("1001h was read");
+    return self.dead;
+  };
+  const auto out = play(device, three_reads);
+  REQUIRE(out.run.cases.size() == 3);
+  CHECK(out.run.cases[0].verdict == Verdict::pass);
+  CHECK(out.run.cases[1].verdict == Verdict::error);
+  CHECK(out.run.cases[2].verdict == Verdict::error);
+  CHECK(result::exit_code(out.run) == 3);
+}
+
+TEST_CASE("a device that hangs over a request and needs a reset has failed, and the run goes on") {
+  ScriptedDevice device;
+  bool hanging = false;
+  device.before = [&hanging](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x2B) hanging = true;
+    if (!self.nmt.empty() && self.nmt.back() >= 0x81) hanging = false;
+    return hanging;
+  };
+  const auto out = play(device, change_1017 + three_reads);
+  REQUIRE(out.run.cases.size() == 4);
+  CHECK(out.run.cases[3].id == "test/change");
+  CHECK(out.run.cases[3].verdict == Verdict::fail);
+  CHECK_FALSE(out.run.aborted.has_value());
+}
+
+TEST_CASE("frames lost by the host make the case inconclusive") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  // Discovery takes a known number of frames; the answer to the case's own upload is the one the host loses.
+  bool armed = false;
+  device.before = [&](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    if (frame.data[1] == 0x17 && frame.data[0] == 0x40 && armed) bus.drop_at_harness(bus.frame_count() + 1);
+    if (frame.data[1] == 0x18 && frame.data[3] == 0x01) armed = true;
+    return false;
+  };
+  const auto out = play(bus, device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1018h:01}
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+)");
+  CHECK(out.only().verdict == Verdict::inconclusive);
+  CHECK(out.only().reason.find("the host lost") != std::string::npos);
+}
+
+TEST_CASE("an interface that breaks ends the run as an error with the interface's message") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.break_harness(BusTime(50ms), {"the interface went down", "can0", "sudo ip link set can0 up"});
+  const auto out = play(bus, device, three_reads);
+  CHECK(out.run.aborted->find("the interface went down") != std::string::npos);
+  for (const auto& each : out.run.cases) CHECK(each.verdict != Verdict::fail);
+  CHECK(result::exit_code(out.run) == 3);
+}
+
+TEST_CASE("a late answer is never taken for the answer to the next request") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x80) {
+      // The client gave up; only now the answer to 1017h comes.
+      self.send(can::data_frame(CanId(0x581), {0x4B, 0x17, 0x10, 0, 0x55, 0x55, 0, 0}));
+      return true;
+    }
+    return frame.data[1] == 0x17 && self.nmt.size() == 1;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+        expect: {value: 0000 0191h}
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::pass);
+}
+
+TEST_CASE("a read-only run sends SDO uploads to the device and nothing else") {
+  ScriptedDevice device;
+  RunOptions options;
+  options.plan.allowed = scenario::Risk::read_only;
+  const auto out = play(device, change_1017 + three_reads, options);
+  for (const auto& captured : out.capture.frames()) {
+    if (captured.direction != can::Direction::transmitted) continue;
+    CHECK(captured.frame.id == 0x601);
+    CHECK((captured.frame.data[0] == 0x40 || captured.frame.data[0] == 0x60 || captured.frame.data[0] == 0x70));
+  }
+  REQUIRE(out.run.cases.size() == 4);
+  CHECK(out.run.cases[3].verdict == Verdict::not_applicable);
+  CHECK(out.run.cases[3].reason.find("held back: risk 'config'") == 0);
+  CHECK(device.nmt.empty());
+  CHECK(result::exit_code(out.run) == 0);
+}
+
+TEST_CASE("NMT commands go to the node under test and never to all nodes") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: motion
+    steps:
+      - nmt: start
+      - nmt: stop
+      - reset: node
+        checks: T-MUST
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+  for (const auto& captured : out.capture.frames()) {
+    if (captured.frame.id == 0) CHECK(captured.frame.data[1] == 1);
+  }
+}
+
+TEST_CASE("a stop request ends the run, puts values back and passes nothing unfinished") {
+  ScriptedDevice device;
+  std::atomic<int> stop{0};
+  device.before = [&stop](ScriptedDevice& self, const can::Frame&, BusTime) {
+    if (!self.writes.empty()) stop = SIGINT;
+    return false;
+  };
+  RunOptions options;
+  options.stop = &stop;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+      - upload: {object: 1017h:00}
+        checks: T-OTHER
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+)", options);
+  CHECK(out.run.signal == SIGINT);
+  CHECK(result::exit_code(out.run) == 130);
+  CHECK(out.only().verdict == Verdict::error);
+  CHECK_FALSE(out.only().finished);
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+}
+
+TEST_CASE("the same seed gives the same frames at the same times") {
+  const auto frames_of = [](std::uint64_t seed) {
+    can::SimulatedBus bus(can::SimulatedBus::Options{.seed = seed});
+    ScriptedDevice device;
+    std::vector<std::pair<Duration::rep, std::uint32_t>> out;
+    const auto played = play(bus, device, three_reads + change_1017);
+    for (const auto& captured : played.capture.frames()) {
+      out.emplace_back(captured.time.time_since_epoch().count(), captured.frame.id);
+    }
+    return out;
+  };
+  CHECK(frames_of(7) == frames_of(7));
+  CHECK(frames_of(7) != frames_of(8));
+}
