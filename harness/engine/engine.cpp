@@ -209,7 +209,7 @@ class Run {
       // What cannot be written back is lost with a reset, unless it was stored.
       auto booted = reset(canopen::NmtCommand::reset_node);
       if (!booted) return std::unexpected(booted.error());
-      (void)enter_pre_operational();
+      if (auto ready = enter_pre_operational(); !ready) return ready;
       report = restore(session_, std::move(changes));
       if (!report) return std::unexpected(report.error());
     }
@@ -303,14 +303,22 @@ class Run {
         for (const auto& left : report->left) out_.notes.push_back("could not be put back: " + left);
       }
     }
-    if (may(scenario::Risk::config)) (void)enter_pre_operational();
+    leave_pre_operational_behind();
     recorder_.ignore_stop(false);
+  }
+
+  /// The state a device is left in; that it could not be commanded is said, not judged.
+  void leave_pre_operational_behind() {
+    if (!may(scenario::Risk::config)) return;
+    if (auto done = enter_pre_operational(); !done) {
+      out_.notes.push_back("the device may not be in Pre-operational: " + done.error().text());
+    }
   }
 
   /// The device is left as it was found; what is not is said.
   void finish() {
     if (out_.aborted) return;
-    if (may(scenario::Risk::config)) (void)enter_pre_operational();
+    leave_pre_operational_behind();
     auto now = snapshot(session_);
     if (!now) return;
     for (const auto& [object, before] : snapshot_) {

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The command line as a user meets it: exit codes, reports, messages. Simulation only. Usage: cli_test.py PROGRAM"""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120, **options)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def test_the_conformant_node_exits_0_without_a_warning(self):
+        done = run("run", "--simulate", "--junit", self.path("j.xml"))
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+        self.assertNotIn("\nwarn ", done.stdout)
+        suites = ElementTree.parse(self.path("j.xml")).getroot()
+        self.assertEqual((suites.get("failures"), suites.get("errors")), ("0", "0"))
+
+    def test_a_defect_exits_1_and_names_the_requirement(self):
+        done = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("FAIL: OD-1003-06", done.stdout)
+
+    def test_a_selection_that_matches_nothing_exits_2(self):
+        done = run("run", "--simulate", "cia301/no-such-thing")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nothing is selected", done.stderr)
+
+    def test_usage_mistakes_exit_2_with_a_hint(self):
+        for arguments, said in [
+            (["run"], "say where the device is"),
+            (["run", "--simulate", "--interface", "can0"], "say where the device is"),
+            (["run", "--interface", "can0"], "node-ID"),
+            (["run", "--simulate", "--defect", "1003-nonzero-write-acepted"], "1003-nonzero-write-accepted"),
+            (["run", "--simulate", "--requirement", "OD-1003-6"], "did you mean"),
+            (["run", "--simulate", "--allow", "nmv"], "read-only, config, nvm or motion"),
+            (["run", "--simulate", "--device", "/no/such/file.yaml"], "/no/such/file.yaml"),
+            (["run", "--simulate", "--suites", "/no/such/folder"], "/no/such/folder"),
+            (["explain", "OD-1003-6"], "did you mean"),
+            (["frobnicate"], ""),
+        ]:
+            with self.subTest(arguments=arguments):
+                done = run(*arguments)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertIn(said, done.stderr + done.stdout)
+
+    def test_a_missing_interface_exits_3_and_says_what_to_type(self):
+        done = run("run", "--interface", "nocan77", "--node", "5")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("nocan77", done.stderr)
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        for name in ("a", "b"):
+            done = run("run", "--simulate", "--seed", "7", "--junit", self.path(name + ".xml"), "--capture",
+                       self.path(name + ".pcapng"), "--candump", self.path(name + ".log"))
+            self.assertEqual(done.returncode, 0)
+        for suffix in (".xml", ".pcapng", ".log"):
+            with open(self.path("a" + suffix), "rb") as one, open(self.path("b" + suffix), "rb") as two:
+                self.assertEqual(one.read(), two.read(), suffix)
+
+    def test_a_dry_run_sends_nothing_and_lists_everything(self):
+        done = run("run", "--simulate", "--dry-run")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("cia301/dictionary/1003-error-history/non-zero-write[02h]", done.stdout)
+        self.assertIn("nothing was sent", done.stdout)
+
+    def test_a_risk_tier_holds_cases_back_and_says_so(self):
+        done = run("run", "--simulate", "--allow", "read-only", "cia301/dictionary/1003-error-history")
+        self.assertIn("--allow config", done.stdout)
+        self.assertNotIn("\nfail ", "\n" + done.stdout)
+
+    def test_a_report_that_cannot_be_written_exits_3_and_not_0(self):
+        done = run("run", "--simulate", "cia301/dictionary/1003-error-history", "--junit", "/no/such/folder/j.xml")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("/no/such/folder", done.stderr)
+
+    def test_a_closed_pipe_costs_no_report(self):
+        with open(self.path("full"), "wb"):
+            pass
+        command = f"'{PROGRAM}' run --simulate --junit '{self.path('j.xml')}' | head -n 1; exit ${{PIPESTATUS[0]}}"
+        done = subprocess.run(["bash", "-c", command], capture_output=True, timeout=120)
+        self.assertEqual(done.returncode, 0)
+        ElementTree.parse(self.path("j.xml"))
+
+    def test_a_killed_run_leaves_a_valid_report_that_passes_nothing_unfinished(self):
+        finished = 0
+        for delay in [0.002 * step for step in range(1, 41)]:
+            report = self.path("killed.xml")
+            if os.path.exists(report):
+                os.unlink(report)
+            process = subprocess.Popen([PROGRAM, "run", "--simulate", "--junit", report], stdout=subprocess.DEVNULL)
+            time.sleep(delay)  # the moment of the kill is what varies; nothing is waited for
+            process.send_signal(signal.SIGKILL)
+            process.wait()
+            if not os.path.exists(report):
+                continue
+            root = ElementTree.parse(report).getroot()
+            cases = root.findall(".//testcase")
+            self.assertTrue(cases)
+            finished += 1
+            if process.returncode == 0:
+                continue
+            for case in cases:
+                if case.find("error") is None and case.find("skipped") is None and case.find("failure") is None:
+                    self.assertGreater(float(case.get("time")), 0.0, case.get("name"))
+        self.assertGreater(finished, 0)
+
+    def test_list_and_explain_show_requirements(self):
+        self.assertIn("OD-1003-06", run("list", "cia301/dictionary/1003-error-history").stdout)
+        explained = run("explain", "OD-1003-06").stdout
+        self.assertIn("7.5.2.4", explained)
+        self.assertIn("cia301/dictionary/1003-error-history/non-zero-write", explained)
+        self.assertIn("1003-nonzero-write-accepted", explained)
+        self.assertIn("OD-1003-06", run("explain", "EMCY-HIS-04").stdout)
+
+    def test_the_suites_have_no_mistakes(self):
+        done = run("lint")
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

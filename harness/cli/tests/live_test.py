@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The programs on a real AF_CAN socket. Usage: live_test.py BIN_FOLDER SUITES; the interface is $CONFORM_TEST_CAN."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+FOLDER, SUITES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+INTERFACE = os.environ.get("CONFORM_TEST_CAN", "")
+if not INTERFACE:
+    print("skipped: CONFORM_TEST_CAN names no interface (scripts/with-vcan env CONFORM_TEST_CAN=vcan0 ...)")
+    sys.exit(77)
+del sys.argv[1:]
+
+# One defect of each family of the mission, and the requirement that must be named.
+FAMILIES = [
+    ("1000-is-u16", "OD-1000-01", "cia301/dictionary*"),
+    ("ro-write-accepted", "OD-ACC-01", "cia301/dictionary*"),
+    ("missing-object-wrong-abort", "OD-GEN-04", "cia301/dictionary*"),
+    ("1010-wrong-signature-accepted", "OD-1010-08", "cia301/storage*"),
+    ("1003-oldest-first", "OD-1003-12", "cia301/dictionary/1003*"),
+    ("1014-lock-missing", "OD-1014-06", "cia301/cob-id*"),
+]
+
+
+class Node:
+    """canopen-refnode on the interface, ready when its line has come."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([os.path.join(FOLDER, "canopen-refnode"), "--interface", INTERFACE, "--node", "5",
+                                         *arguments], stdout=subprocess.PIPE, text=True)
+        line = self.process.stdout.readline()
+        assert "node 5" in line, line
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(10)
+        self.process.stdout.close()
+
+
+def command(*arguments):
+    return [os.path.join(FOLDER, "canopen-conform"), "run", "--interface", INTERFACE, "--node", "5", *arguments]
+
+
+def run(*arguments):
+    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=500)
+
+
+class Live(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.junit = os.path.join(folder.name, "j.xml")
+        self.capture = os.path.join(folder.name, "run.pcapng")
+
+    def cases(self):
+        return ElementTree.parse(self.junit).getroot().findall(".//testcase")
+
+    def test_the_conformant_node_passes_without_a_warning(self):
+        with Node():
+            done = run("--junit", self.junit, "--capture", self.capture)
+        self.assertEqual(done.returncode, 0, done.stdout[-6000:] + done.stderr)
+        self.assertNotIn("\nwarn ", "\n" + done.stdout)
+        self.assertGreater(len(self.cases()), 100)
+        self.assertGreater(os.path.getsize(self.capture), 10000)
+        print(f"\n  {len(self.cases())} cases on {INTERFACE}, an AF_CAN socket", flush=True)
+
+    def test_with_its_profile_the_manufacturer_objects_are_judged_too(self):
+        with Node():
+            done = run("--device", os.path.join(SUITES, "devices/reference-node.yaml"), "cia301/dictionary*")
+        self.assertEqual(done.returncode, 0, done.stdout[-6000:] + done.stderr)
+        self.assertIn("2000h", done.stdout)
+
+    def test_a_defect_of_each_family_fails_the_right_requirement(self):
+        for defect, requirement, select in FAMILIES:
+            with self.subTest(defect=defect), Node("--defect", defect):
+                done = run("--quiet", "--device", os.path.join(SUITES, "devices/reference-node.yaml"), select)
+                self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
+                self.assertIn(f"FAIL: {requirement}", done.stdout)
+
+    def test_without_a_node_everything_is_an_error_within_seconds(self):
+        begin = time.monotonic()
+        done = run("--junit", self.junit, "--quiet")
+        self.assertEqual(done.returncode, 3)
+        self.assertLess(time.monotonic() - begin, 10)
+        for case in self.cases():
+            self.assertIsNotNone(case.find("error"))
+            self.assertIsNone(case.find("failure"))
+
+    def until_some_cases_ran(self, process):
+        """The run is under way when its console shows the third verdict."""
+        seen = 0
+        for line in process.stdout:
+            seen += line.startswith("pass ")
+            if seen == 3:
+                return
+        self.fail("the run ended too early")
+
+    def test_a_node_that_vanishes_half_way_leaves_the_rest_unjudged(self):
+        with Node() as node:
+            process = subprocess.Popen(command("--junit", self.junit), stdout=subprocess.PIPE, text=True)
+            self.until_some_cases_ran(process)
+            node.process.send_signal(signal.SIGKILL)
+            process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+        kinds = ["error" if c.find("error") is not None else "failure" if c.find("failure") is not None else "other"
+                 for c in self.cases()]
+        self.assertNotIn("failure", kinds)
+        self.assertIn("other", kinds)
+        self.assertEqual(kinds[-1], "error")
+
+    def test_an_interrupt_ends_in_good_order_with_130(self):
+        with Node():
+            process = subprocess.Popen(command("--junit", self.junit), stdout=subprocess.PIPE, text=True)
+            self.until_some_cases_ran(process)
+            begin = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+            self.assertLess(time.monotonic() - begin, 8)
+        self.assertEqual(process.returncode, 130)
+        self.assertIsNotNone(self.cases()[-1].find("error"))
+
+    def test_a_kill_leaves_a_valid_report(self):
+        with Node():
+            process = subprocess.Popen(command("--junit", self.junit), stdout=subprocess.PIPE, text=True)
+            self.until_some_cases_ran(process)
+            process.send_signal(signal.SIGKILL)
+            process.communicate(timeout=60)
+        self.assertIsNotNone(self.cases()[-1].find("error"))
+
+    def test_an_interface_that_goes_down_is_an_error_and_no_verdict(self):
+        with Node():
+            process = subprocess.Popen(command("--junit", self.junit), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.until_some_cases_ran(process)
+            down = subprocess.run(["ip", "link", "set", INTERFACE, "down"], capture_output=True)
+            if down.returncode != 0:
+                process.kill()
+                process.communicate()
+                self.skipTest("the interface cannot be switched here")
+            try:
+                process.communicate(timeout=60)
+            finally:
+                subprocess.run(["ip", "link", "set", INTERFACE, "up"], check=True)
+        self.assertEqual(process.returncode, 3)
+        self.assertFalse([c for c in self.cases() if c.find("failure") is not None])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
