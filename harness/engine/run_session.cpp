@@ -112,6 +112,14 @@ bool RunSession::may_change(Multiplexer object) const {
 
 bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
 
+std::size_t RunSession::error_triggers() const {
+  // A heartbeat can stay away only from a device that consumes heartbeats.
+  const auto consumer = present_.find({Index(0x1016), SubIndex(1)});
+  const bool consumes = consumer != present_.end() && consumer->second;
+  return static_cast<std::size_t>(
+      std::ranges::count_if(profile_.errors, [consumes](const auto& trigger) { return trigger.raise || consumes; }));
+}
+
 void RunSession::note_sent(std::size_t index) {
   if (stimulus_open_) {
     window_.first = index;
@@ -192,7 +200,7 @@ Result<void> RunSession::send(const can::Frame& frame) {
 Result<steps::Window> RunSession::window_after(std::string_view label) const {
   const auto found = labels_.find(label);
   if (found == labels_.end()) return fail("label '" + std::string(label) + "' was not reached", "scenario");
-  return steps::Window{found->second, recorder_.capture().frames()[found->second].time};
+  return steps::Window{found->second + 1, recorder_.capture().frames()[found->second].time};
 }
 
 void RunSession::consume(std::size_t index) {

@@ -39,7 +39,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::string access_of(Multiplexer object) const override;
   [[nodiscard]] bool may_change(Multiplexer object) const override;
   [[nodiscard]] bool claims(std::string_view feature) const override;
-  [[nodiscard]] std::size_t error_triggers() const override { return profile_.errors.size(); }
+  [[nodiscard]] std::size_t error_triggers() const override;
+  [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults; }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
 
   // Session

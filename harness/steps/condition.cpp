@@ -14,7 +14,7 @@ struct Condition::Tree {
   enum class Kind {
     all, any, negation,                                    // and, or, not
     present, claimed, readable, writable, access, changes, // about an entry
-    feature, triggers, remote,                             // about device and bench
+    feature, triggers, remote, factory,                    // about device and bench
     equal, at_least, at_most, above, below                 // two expressions
   };
   Kind kind = Kind::all;
@@ -153,6 +153,13 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     node->kind = Kind::remote;
     return node;
   }
+  if (in.peek() == "factory" && in.peek(1) == "defaults") {
+    in.take();
+    in.take();
+    if (!in.accept("are") || !in.accept("active")) return fail("'are active' is missing");
+    node->kind = Kind::factory;
+    return node;
+  }
   // "error trigger is known", "2 error triggers are known"
   {
     const auto at = in.position();
@@ -252,6 +259,7 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   if (node.kind == Kind::feature) return facts.claims(node.word);
   if (node.kind == Kind::triggers) return facts.error_triggers() >= node.count;
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
+  if (node.kind == Kind::factory) return facts.factory_defaults();
   if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
   const auto object = node.object.resolve(facts);
   if (!object) return std::unexpected(object.error());
@@ -323,6 +331,7 @@ std::vector<std::string_view> condition_forms() {
           "device claims sync producer",
           "error trigger is known",
           "2 error triggers are known",
+          "factory defaults are active",
           "interface can send RTR",
           "A and B, A or B, not A, (A)"};
 }

@@ -35,6 +35,17 @@ Result<Actual> write(Session& session, Multiplexer object, const Bytes& bytes) {
   return out;
 }
 
+/// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer of heartbeats.
+Result<std::vector<device::ErrorTrigger>> usable_triggers(Session& session) {
+  auto consumes = session.is_present(consumer_entry, false);
+  if (!consumes) return std::unexpected(consumes.error());
+  std::vector<device::ErrorTrigger> out;
+  for (const auto& trigger : session.profile().errors) {
+    if (trigger.raise || *consumes) out.push_back(trigger);
+  }
+  return out;
+}
+
 /// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed away.
 Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger) {
   if (trigger.raise) return write(session, trigger.raise->object, trigger.raise->bytes);
@@ -92,11 +103,12 @@ class RaiseError final : public Action {
     return (clear_ ? "clear " : "raise ") + name;
   }
   Result<Actual> run(Session& session) const override {
-    const auto& triggers = session.profile().errors;
-    if (number_ > triggers.size()) {
+    const auto triggers = usable_triggers(session);
+    if (!triggers) return std::unexpected(triggers.error());
+    if (number_ > triggers->size()) {
       return fail("error trigger " + std::to_string(number_) + " is not known", "scenario", "name one under errors: in the device profile");
     }
-    const auto& trigger = triggers[number_ - 1];
+    const auto& trigger = (*triggers)[number_ - 1];
     auto out = clear_ ? clear(session, trigger) : raise(session, trigger);
     if (out && !clear_) {
       if (!save_.empty()) session.set(save_, Value::of_number(trigger.code));
@@ -219,13 +231,14 @@ class FillHistory final : public Action {
   std::string words(Session&) const override { return "raise errors until the history is full, and one more"; }
 
   Result<Actual> run(Session& session) const override {
-    const auto& triggers = session.profile().errors;
-    if (triggers.size() < 2) return fail("two error triggers are needed", "scenario", "when: 2 error triggers are known");
+    const auto triggers = usable_triggers(session);
+    if (!triggers) return std::unexpected(triggers.error());
+    if (triggers->size() < 2) return fail("two error triggers are needed", "scenario", "when: 2 error triggers are known");
     constexpr int most = 254 + 1;  // 1003h holds at most 254 errors (7.5.2.4)
     std::uint64_t count = 0;
     std::uint16_t newest = 0;
     for (int i = 0; i < most; ++i) {
-      const auto& trigger = triggers[static_cast<std::size_t>(i) % triggers.size()];
+      const auto& trigger = (*triggers)[static_cast<std::size_t>(i) % triggers->size()];
       for (auto* act : {&raise, &clear}) {
         auto done = (*act)(session, trigger);
         if (!done || done->kind != Actual::Kind::matched) return done;

@@ -81,8 +81,8 @@ class Wait final : public Action {
   Result<Actual> run(Session& session) const override {
     auto waited = session.wait_until(session.now() + time_.resolve(session.profile()));
     if (!waited) return std::unexpected(waited.error());
-    // What came during the pause is past: windows of later steps begin here.
-    if (session.capture().size() > 0) session.consume(session.capture().size() - 1);
+    // What came during the pause is past: windows of later steps begin here and count from here.
+    session.consume(session.capture().size());
     return Actual{};
   }
 

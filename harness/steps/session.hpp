@@ -82,7 +82,8 @@ class Session : public Facts {
   /// Window of the step that runs, or counted from a labelled frame.
   [[nodiscard]] virtual Window window() const = 0;
   [[nodiscard]] virtual Result<Window> window_after(std::string_view label) const = 0;
-  /// The step has used the trace up to and including `index`: later steps look behind it.
+  /// The step has used the trace up to and including `index`: later steps look behind it. An index behind the last frame
+  /// means all that was recorded; windows then count from now.
   virtual void consume(std::size_t index) = 0;
   /// Where EMCY frames of the device are expected now (1014h as last read or written; 80h + node-ID otherwise).
   [[nodiscard]] virtual CanId emcy_can_id() const = 0;
