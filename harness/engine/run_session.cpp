@@ -150,6 +150,8 @@ Result<void> RunSession::will_change(Multiplexer object) {
   before_write_[object] = before->data;
   // A write to a command has an effect, not a value: writing the old value back would be another command.
   if (found->command) return {};
+  // Nor can a value be put back that only the device itself sets, like an error field.
+  if (found->may_change && !found->writable()) return {};
   if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) journal_.push_back({object, before->data});
   return {};
 }
