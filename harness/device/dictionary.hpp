@@ -56,6 +56,8 @@ struct Entry {
   bool may_change = false;  ///< changes by itself: error register, process inputs, counters
   bool command = false;     ///< a write has an effect other than storing: 1003h:00, 1010h, 1011h, 1F50h ...
   bool claimed = false;     ///< the EDS or the profile says that it is there
+  bool declared_default = false;  ///< the default is the description's, not only the standard's
+  bool safe = false;              ///< the profile allows tests to write it
 
   [[nodiscard]] Presence presence() const {
     if (category == Category::mandatory) return Presence::claimed_mandatory;

@@ -100,6 +100,9 @@ Dictionary dictionary_of(const Profile& profile) {
     added.claimed = true;
     dictionary.add(at_node(added, profile.node));
   }
+  for (const Multiplexer mux : profile.safe_objects) {
+    if (Entry* entry = dictionary.find(mux)) entry->safe = !profile.is_untouchable(mux);
+  }
   return dictionary;
 }
 

@@ -75,6 +75,7 @@ std::optional<Bytes> read_value(const Field& field, DataType type) {
 void read_default(const Field& field, Entry& entry) {
   if (!field.present()) return;
   entry.default_adds_node_id = false;
+  entry.declared_default = true;
   const std::string& written = field.node()->text();
   const std::size_t plus = written.rfind('+');
   const bool adds = canopen::is_integer(entry.type) && plus != std::string::npos &&

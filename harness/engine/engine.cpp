@@ -27,7 +27,9 @@ class Run {
         options_(options),
         recorder_(transport, options.stop),
         session_(recorder_, profile_, device::dictionary_of(profile_)),
-        runner_(session_, catalogue_, options.strict) {}
+        runner_(session_, catalogue_, options.strict) {
+    session_.try_all_objects(options.plan.all_objects);
+  }
 
   result::RunResult execute() {
     out_.device = profile_.name.empty() ? "node " + std::to_string(profile_.node.value()) : profile_.name;

@@ -46,6 +46,21 @@ Result<steps::Value> RunSession::read(Multiplexer object) {
   return fail("the value of " + to_string(object) + " cannot be read: " + why, "scenario");
 }
 
+Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared what) {
+  const auto* found = entry(object);
+  static const device::Entry nothing;
+  const auto& known = found != nullptr ? *found : nothing;
+  const auto& bytes = what == steps::Declared::low_limit    ? known.low
+                      : what == steps::Declared::high_limit ? known.high
+                                                            : known.default_value;
+  if (!bytes) return fail("the description of " + to_string(object) + " does not say it", "scenario");
+  auto value = steps::Value::of_bytes(*bytes);
+  if (value.number && canopen::is_signed(known.type) && bytes->size() < 8 && (bytes->back() & 0x80U) != 0) {
+    *value.number |= ~std::uint64_t{0} << (8 * bytes->size());
+  }
+  return value;
+}
+
 Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
   if (whole_object) {
     for (const auto& candidate : dictionary_.object(object.index)) {

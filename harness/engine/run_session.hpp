@@ -42,6 +42,10 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::size_t error_triggers() const override;
   [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults; }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
+  [[nodiscard]] Result<steps::Value> declared(Multiplexer object, steps::Declared what) override;
+  [[nodiscard]] bool is_described() const override { return !profile_.objects.empty(); }
+  [[nodiscard]] bool tries_all_objects() const override { return all_objects_; }
+  void try_all_objects(bool all) { all_objects_ = all; }
 
   // Session
   [[nodiscard]] const device::Profile& profile() const override { return profile_; }
@@ -107,6 +111,7 @@ class RunSession final : public steps::Session {
   std::map<Multiplexer, Bytes> before_write_;
   steps::Window window_;
   bool stimulus_open_ = false;  ///< the running step acts, and its first frame begins the window
+  bool all_objects_ = false;
   bool state_changed_ = true;
   bool silence_seen_ = false;
   const steps::ObjectReference* object_ = nullptr;

@@ -13,6 +13,15 @@ using Clause = std::function<bool(const device::Entry&)>;
 using device::Entry;
 using device::ObjectCode;
 
+/// Whether the type holds a value beyond the limit, so that the limit can be broken at all.
+bool limit_leaves_room(const Entry& entry, const std::optional<Bytes>& limit, bool upper) {
+  if (!limit || limit->empty() || limit->size() > 8 || !canopen::is_integer(entry.type)) return false;
+  const auto all = limit->size() == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * limit->size())) - 1;
+  const auto sign = all ^ (all >> 1U);
+  const auto end = canopen::is_signed(entry.type) ? (upper ? all >> 1U : sign) : (upper ? all : 0);
+  return load_le(*limit) != end;
+}
+
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> out;
   for (const auto word : split(text, ' ')) {
@@ -47,9 +56,14 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
     return Clause([type = *type](const Entry& entry) { return entry.type == type; });
   }
   if (words.front() == "size" && words.size() == 2) {
-    const auto size = parse_number(words[1]);
-    if (!size) return fail("'size' needs a number of bytes");
-    return Clause([size = *size](const Entry& entry) { return entry.size() == size; });
+    const auto dots = words[1].find("..");
+    const auto low = parse_number(words[1].substr(0, dots));
+    const auto high = dots == std::string_view::npos ? low : parse_number(words[1].substr(dots + 2));
+    if (!low || !high) return fail("'size' needs a number of bytes or a range", {}, "size 4, size 2..8");
+    return Clause([low = *low, high = *high](const Entry& entry) {
+      const auto size = entry.size();
+      return size && *size >= low && *size <= high;
+    });
   }
   if (words.front() == "index" && words.size() == 2) {
     const auto dots = words[1].find("..");
@@ -70,13 +84,18 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
       {"low limit", [](const Entry& e) { return e.low.has_value(); }},
       {"high limit", [](const Entry& e) { return e.high.has_value(); }},
       {"limits", [](const Entry& e) { return e.low.has_value() && e.high.has_value(); }},
+      {"high limit below type maximum", [](const Entry& e) { return limit_leaves_room(e, e.high, true); }},
+      {"low limit above type minimum", [](const Entry& e) { return limit_leaves_room(e, e.low, false); }},
       {"default", [](const Entry& e) { return e.default_value.has_value(); }},
+      {"declared default", [](const Entry& e) { return e.declared_default && e.default_value.has_value(); }},
       {"mappable", [](const Entry& e) { return e.pdo_mappable; }},
       {"domain", [](const Entry& e) { return e.type == canopen::DataType::domain; }},
       {"command", [](const Entry& e) { return e.command; }},
       {"claimed", [](const Entry& e) { return e.presence() != device::Presence::unclaimed; }},
       {"complex", [](const Entry& e) { return e.object == ObjectCode::array || e.object == ObjectCode::record; }},
       {"array", [](const Entry& e) { return e.object == ObjectCode::array; }},
+      {"integer", [](const Entry& e) { return canopen::is_integer(e.type); }},
+      {"safe", [](const Entry& e) { return e.safe; }},
       {"fixed size", [](const Entry& e) { return e.size().has_value(); }},
       {"changing", [](const Entry& e) { return e.may_change; }},
       {"open access", [](const Entry& e) { return e.access_open; }},

@@ -13,8 +13,9 @@
 namespace conform::scenario {
 
 /// entries | objects | rpdos | tpdos [with CLAUSE {and CLAUSE}], where a clause may begin with `not` and is one of
-/// access WORD {or WORD}, readable, writable, type NAME, size N, index A..B, low limit, high limit, limits, default,
-/// mappable, domain, command, claimed, complex, changing.
+/// access WORD {or WORD}, readable, writable, type NAME, size N or A..B, index A..B, low limit, high limit, limits, default,
+/// high limit below type maximum, low limit above type minimum, declared default, mappable, domain, integer, command, claimed,
+/// complex, array, fixed size, changing, open access, safe.
 class Query {
  public:
   static Result<Query> parse(std::string_view text);

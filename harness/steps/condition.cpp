@@ -14,7 +14,7 @@ struct Condition::Tree {
   enum class Kind {
     all, any, negation,                                    // and, or, not
     present, claimed, readable, writable, access, changes, // about an entry
-    feature, triggers, remote, factory,                    // about device and bench
+    feature, triggers, remote, factory, described, sweep,  // about device and bench
     equal, at_least, at_most, above, below                 // two expressions
   };
   Kind kind = Kind::all;
@@ -160,6 +160,20 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     node->kind = Kind::factory;
     return node;
   }
+  struct Phrase {
+    std::string_view words[4];
+    Kind kind;
+  };
+  static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
+                                       {{"all", "objects", "are", "tried"}, Kind::sweep}};
+  for (const auto& phrase : phrases) {
+    std::size_t same = 0;
+    while (same < 4 && in.peek(same) == phrase.words[same]) ++same;
+    if (same != 4) continue;
+    for (const auto word : phrase.words) (void)in.accept(word);
+    node->kind = phrase.kind;
+    return node;
+  }
   // "error trigger is known", "2 error triggers are known"
   {
     const auto at = in.position();
@@ -259,6 +273,8 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   if (node.kind == Kind::feature) return facts.claims(node.word);
   if (node.kind == Kind::triggers) return facts.error_triggers() >= node.count;
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
+  if (node.kind == Kind::described) return facts.is_described();
+  if (node.kind == Kind::sweep) return facts.tries_all_objects();
   if (node.kind == Kind::factory) return facts.factory_defaults();
   if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
   const auto object = node.object.resolve(facts);
@@ -333,6 +349,8 @@ std::vector<std::string_view> condition_forms() {
           "2 error triggers are known",
           "factory defaults are active",
           "interface can send RTR",
+          "device description is given",
+          "all objects are tried",
           "A and B, A or B, not A, (A)"};
 }
 

@@ -30,6 +30,10 @@ class Facts : public Scope {
   /// Whether nothing is stored in the device, so that the values after a reset are the defaults.
   [[nodiscard]] virtual bool factory_defaults() const { return false; }
   [[nodiscard]] virtual bool can_send_remote_frames() const = 0;
+  /// An EDS or a profile lists the entries of the device.
+  [[nodiscard]] virtual bool is_described() const { return false; }
+  /// The user wants full sweeps instead of samples.
+  [[nodiscard]] virtual bool tries_all_objects() const { return false; }
 };
 
 class Condition {

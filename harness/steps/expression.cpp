@@ -50,6 +50,8 @@ bool Value::same_as(const Value& other) const {
   return word && other.word && *word == *other.word;
 }
 
+Result<Value> Scope::declared(Multiplexer object, Declared) { return fail("nothing is known of " + to_string(object)); }
+
 namespace {
 
 using Node = Expression::Tree;
@@ -63,7 +65,7 @@ Result<NodePtr> parse_sum(TokenReader& in) {
   std::string used;
   while (true) {
     const auto op = in.peek();
-    if (op != "+" && op != "|" && op != "&" && op != "^") return left;
+    if (op != "+" && op != "-" && op != "|" && op != "&" && op != "^") return left;
     if (!used.empty() && used != op) {
       return fail("'" + used + "' and '" + std::string(op) + "' are mixed", {}, "use parentheses: there is no precedence");
     }
@@ -73,6 +75,7 @@ Result<NodePtr> parse_sum(TokenReader& in) {
     if (!right) return right;
     auto node = std::make_shared<Node>();
     node->kind = used == "+"   ? Node::Kind::add
+                 : used == "-" ? Node::Kind::subtract
                  : used == "|" ? Node::Kind::bit_or
                  : used == "&" ? Node::Kind::bit_and
                                : Node::Kind::bit_xor;
@@ -119,6 +122,18 @@ Result<NodePtr> parse_term(TokenReader& in) {
     node->object = *object;
     return node;
   }
+  if (const bool of_default = in.peek() == "default" && in.peek(1) == "of";
+      of_default || ((in.peek() == "low" || in.peek() == "high") && in.peek(1) == "limit" && in.peek(2) == "of")) {
+    node->kind = Node::Kind::declared;
+    node->declared = of_default                ? Declared::default_value
+                     : in.peek() == "low" ? Declared::low_limit
+                                          : Declared::high_limit;
+    for (int i = of_default ? 2 : 3; i > 0; --i) in.take();
+    auto object = ObjectReference::parse(in.take());
+    if (!object) return std::unexpected(object.error());
+    node->object = *object;
+    return node;
+  }
   const auto word = in.take();
   if (word == "N") {
     node->kind = Node::Kind::node_id;
@@ -141,7 +156,7 @@ Result<NodePtr> parse_term(TokenReader& in) {
 void collect_names(const NodePtr& node, std::vector<std::string>& out) {
   if (!node) return;
   if (node->kind == Node::Kind::name) out.push_back(node->name);
-  if (node->kind == Node::Kind::value_of || node->kind == Node::Kind::bit_of) {
+  if (node->kind == Node::Kind::value_of || node->kind == Node::Kind::bit_of || node->kind == Node::Kind::declared) {
     for (auto& name : node->object.names()) out.push_back(name);
   }
   collect_names(node->left, out);
@@ -168,6 +183,11 @@ Result<Value> evaluate_node(const NodePtr& node, Scope& scope) {
       if (!object) return std::unexpected(object.error());
       return scope.read(*object);
     }
+    case Kind::declared: {
+      auto object = node->object.resolve(scope);
+      if (!object) return std::unexpected(object.error());
+      return scope.declared(*object, node->declared);
+    }
     case Kind::bit_of: {
       auto object = node->object.resolve(scope);
       if (!object) return std::unexpected(object.error());
@@ -185,6 +205,7 @@ Result<Value> evaluate_node(const NodePtr& node, Scope& scope) {
   if (!right) return std::unexpected(right.error());
   switch (node->kind) {
     case Kind::add: return Value::of_number(*left + *right);
+    case Kind::subtract: return Value::of_number(*left - *right);
     case Kind::bit_or: return Value::of_number(*left | *right);
     case Kind::bit_and: return Value::of_number(*left & *right);
     default: return Value::of_number(*left ^ *right);
@@ -336,6 +357,21 @@ Result<bool> Range::holds(std::uint64_t value, Scope& scope) const {
     const auto bound = high.number(scope);
     if (!bound) return std::unexpected(bound.error());
     if (value > *bound) return false;
+  }
+  return true;
+}
+
+Result<bool> Range::holds_signed(std::uint64_t value, Scope& scope) const {
+  const auto as_signed = [](std::uint64_t number) { return static_cast<std::int64_t>(number); };
+  if (!low.empty()) {
+    const auto bound = low.number(scope);
+    if (!bound) return std::unexpected(bound.error());
+    if (as_signed(value) < as_signed(*bound)) return false;
+  }
+  if (!high.empty()) {
+    const auto bound = high.number(scope);
+    if (!bound) return std::unexpected(bound.error());
+    if (as_signed(value) > as_signed(*bound)) return false;
   }
   return true;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values a scenario computes with, and the small arithmetic on them: + | & ^ ~ on saved values, the node-ID and what
+// Values a scenario computes with, and the small arithmetic on them: + - | & ^ ~ on saved values, the node-ID and what
 // an entry holds. Deliberately nothing more: what does not fit becomes a verb with a name.
 #pragma once
 
@@ -37,6 +37,9 @@ struct Value {
   [[nodiscard]] bool same_as(const Value& other) const;
 };
 
+/// What a description says about an entry beside its type and access.
+enum class Declared : std::uint8_t { low_limit, high_limit, default_value };
+
 /// What expressions are evaluated against.
 class Scope {
  public:
@@ -47,6 +50,8 @@ class Scope {
   [[nodiscard]] virtual Result<Value> current() = 0;
   /// `value of 1003h:00`: an upload that judges nothing.
   [[nodiscard]] virtual Result<Value> read(Multiplexer object) = 0;
+  /// `low limit of $object`, `default of $object`: what is known of the entry. Error when the description leaves it open.
+  [[nodiscard]] virtual Result<Value> declared(Multiplexer object, Declared what);
 };
 
 /// An entry as a scenario writes it: 1003h:00, $object, 1003h:$count, 1018h:($max + 1), $pdo:01.
@@ -93,10 +98,12 @@ class ObjectReference {
   bool sub_given_ = false;
 };
 
-/// "1..240", "1..", "..FFh": an inclusive range of numbers, either end may be open.
+/// "1..240", "1..", "..FFh": an inclusive range of numbers, either end may be open. Of signed numbers the value and the bounds
+/// are sign-extended two's complement, as declared limits are.
 struct Range {
   Expression low, high;
   static Result<Range> parse(std::string_view text);
+  [[nodiscard]] Result<bool> holds_signed(std::uint64_t value, Scope& scope) const;
   [[nodiscard]] Result<bool> holds(std::uint64_t value, Scope& scope) const;
   [[nodiscard]] std::string text() const;
 };

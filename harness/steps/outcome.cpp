@@ -32,8 +32,19 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
     case Kind::visible_text:
       return std::ranges::all_of(actual.data, [](std::uint8_t byte) { return byte == 0 || (byte >= 0x20 && byte <= 0x7E); });
     case Kind::size: return demand.range.holds(actual.data.size(), scope);
+    case Kind::declared_size: {
+      // Strings and domains have no length of their own.
+      const auto size = actual.type ? canopen::size_bytes(*actual.type) : std::nullopt;
+      return !size || actual.data.size() == *size;
+    }
     case Kind::range:
       if (actual.data.empty() || actual.data.size() > 8) return false;
+      if (actual.type && canopen::is_signed(*actual.type)) {
+        const auto width = width_mask(actual.data.size());
+        const auto number = load_le(actual.data);
+        const bool negative = (number & (width ^ (width >> 1U))) != 0;
+        return demand.range.holds_signed(negative ? number | ~width : number, scope);
+      }
       return demand.range.holds(load_le(actual.data), scope);
     case Kind::one_of:
       for (const auto& expression : demand.values) {
@@ -214,10 +225,14 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
     }
   }
   if (const auto size = fields.optional("size")) {
-    if (const auto text = size.text()) {
+    if (const auto text = size.text(); text == "declared") {
+      Demand demand;
+      demand.kind = Demand::Kind::declared_size;
+      add(demand, "the declared length");
+    } else if (text) {
       auto parsed = Range::parse(text->find("..") == std::string::npos ? *text + ".." + *text : *text);
       if (!parsed) {
-        size.error(parsed.error().what, "write 4 or 1..");
+        size.error(parsed.error().what, "write 4, 1.. or declared");
       } else {
         Demand demand;
         demand.kind = Demand::Kind::size;
@@ -373,7 +388,9 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
   const auto in = [&](const std::vector<Outcome>& set) -> Result<bool> {
     for (const auto& outcome : set) {
       auto hit = outcome.matches(actual, scope);
-      size_asked = std::ranges::any_of(outcome.demands, [](const Demand& d) { return d.kind == Demand::Kind::size; });
+      size_asked = std::ranges::any_of(outcome.demands, [](const Demand& d) {
+        return d.kind == Demand::Kind::size || d.kind == Demand::Kind::declared_size;
+      });
       if (!hit || *hit) return hit;
     }
     return false;
