@@ -152,6 +152,7 @@ Accepted Emergency::write_history_count(ByteView bytes) {
 void Emergency::on_reset(bool whole_node) {
   std::erase_if(causes_,
                 [&](const ErrorCause& cause) { return whole_node || cause.source != application_source; });
+  if (whole_node) raised_ = false;
   history_.clear();
   if (device_->behaviour.history_starts_with_error) history_.push_back(0x00001000);
   pending_.clear();
