@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
+#include "scenario/query.hpp"
 
 namespace conform::engine {
 namespace {
@@ -49,6 +50,16 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   session_.begin_case();
   for (const auto& [name, text] : planned.names) session_.set(name, bind(text, session_, catalogue_));
   const auto& scenario = *planned.scenario;
+  for (const auto& given : scenario.given) {
+    auto entry = look_for(given.query);
+    if (!entry) return std::unexpected(entry.error());
+    if (!*entry) {
+      out.verdict = Verdict::not_applicable;
+      out.reason = "the device has no " + given.query;
+      return {};
+    }
+    session_.set(given.name, steps::Value::of_object(**entry));
+  }
   if (scenario.when) {
     auto holds = scenario.when->evaluate(session_);
     if (!holds) {
@@ -77,6 +88,34 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
     if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
   }
   return {};
+}
+
+Result<std::optional<Multiplexer>> CaseRunner::look_for(const std::string& text) {
+  const auto query = scenario::Query::parse(text);
+  if (!query) return std::unexpected(query.error());
+  for (const auto object : query->select(session_.dictionary())) {
+    const auto* entry = session_.dictionary().find(object);
+    if (query->holding() && entry != nullptr) {
+      const auto wanted = *query->holding();
+      const auto fits = [wanted](std::uint64_t size) { return size >= wanted.least && size <= wanted.most; };
+      // A fixed length need not be asked for; what it is on the wire is for the scenarios to judge.
+      if (!entry->readable() || (entry->size() && !fits(*entry->size()))) continue;
+      if (!entry->size()) {
+        auto held = held_.find(object);
+        if (held == held_.end()) {
+          auto asked = session_.channel().held_bytes(object);
+          if (!asked) return std::unexpected(asked.error());
+          held = held_.emplace(object, *asked).first;
+        }
+        if (held->second && fits(*held->second)) return std::optional(object);
+        continue;
+      }
+    }
+    auto present = session_.is_present(object, false);
+    if (!present) return std::unexpected(present.error());
+    if (*present) return std::optional(object);
+  }
+  return std::optional<Multiplexer>();
 }
 
 Result<CaseRunner::Flow> CaseRunner::run_steps(const Steps& list) {
@@ -120,7 +159,12 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     for (auto value = *low; value <= *high && values.size() < 65536; ++value) values.push_back(steps::Value::of_number(value));
   }
   for (const auto& set : walk.sets) {
-    if (set != "restricted CAN-IDs") continue;
+    if (set != "restricted CAN-IDs") {
+      const auto query = scenario::Query::parse(set);
+      if (!query) return cannot_go_on(step, query.error());
+      for (const auto object : query->select(session_.dictionary())) values.push_back(steps::Value::of_object(object));
+      continue;
+    }
     for (const auto& range : canopen::restricted_ranges()) {
       for (auto id = range.first; id <= range.last; ++id) values.push_back(steps::Value::of_number(id));
     }

@@ -32,6 +32,8 @@ class CaseRunner {
   };
   using Steps = std::vector<steps::Step>;
 
+  /// The first entry of a `given` that the device has; nullopt when there is none.
+  [[nodiscard]] Result<std::optional<Multiplexer>> look_for(const std::string& text);
   [[nodiscard]] Result<Flow> run_steps(const Steps& list);
   [[nodiscard]] Result<Flow> run_step(const steps::Step& step);
   [[nodiscard]] Result<Flow> run_walk(const steps::Step& step);
@@ -56,6 +58,7 @@ class CaseRunner {
   std::string walk_value_;   ///< not empty: inside an `over`
   std::map<std::pair<const steps::Step*, std::string>, Offenders> offenders_;
   std::string stopped_because_;
+  std::map<Multiplexer, std::optional<std::uint64_t>> held_;  ///< bytes of entries without a fixed length, as asked
 };
 
 }  // namespace conform::engine

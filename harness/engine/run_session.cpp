@@ -53,6 +53,12 @@ Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared wh
   const auto& bytes = what == steps::Declared::low_limit    ? known.low
                       : what == steps::Declared::high_limit ? known.high
                                                             : known.default_value;
+  if (!bytes && what == steps::Declared::default_value && object.index == Index(0x1018)) {
+    const auto& identity = profile_.identity;
+    const std::optional<std::uint32_t> wanted[] = {identity.vendor, identity.product, identity.revision, identity.serial};
+    const auto sub = object.sub.value();
+    if (sub >= 1 && sub <= 4 && wanted[sub - 1]) return steps::Value::of_bytes(to_le(*wanted[sub - 1], 4));
+  }
   if (!bytes) return fail("the description of " + to_string(object) + " does not say it", "scenario");
   auto value = steps::Value::of_bytes(*bytes);
   if (value.number && canopen::is_signed(known.type) && bytes->size() < 8 && (bytes->back() & 0x80U) != 0) {
@@ -156,6 +162,8 @@ Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Du
 Result<void> RunSession::will_change(Multiplexer object) {
   const auto* found = entry(object);
   if (found == nullptr || !found->readable()) return {};
+  // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
+  if (channel_.is_open() && before_write_.contains(object)) return {};
   auto before = peek(object);
   if (!before) return std::unexpected(before.error());
   if (before->kind != steps::SdoAnswer::Kind::confirmed) {

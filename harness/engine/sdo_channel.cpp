@@ -86,6 +86,28 @@ Result<steps::SdoAnswer> SdoChannel::upload(Multiplexer object, std::optional<Du
   return run(canopen::SdoUpload(object), object, timeout);
 }
 
+Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) {
+  using Size = std::optional<std::uint64_t>;
+  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
+  const auto set = canopen::connection_set(node_);
+  auto sent = recorder_.send(can::data_frame(set.sdo_request, canopen::encode_upload_request(object)));
+  if (!sent) return std::unexpected(sent.error());
+  const auto response = [id = set.sdo_response](const can::CapturedFrame& captured) {
+    return captured.direction == can::Direction::received && captured.frame.is_data(id);
+  };
+  auto found = recorder_.find(*sent + 1, response, recorder_.capture().frames()[*sent].time + timeout_);
+  if (!found) return std::unexpected(found.error());
+  dirty(!*found);
+  if (!*found) return Size();
+  const auto answer = canopen::decode_upload_response(recorder_.capture().frames()[**found].frame.bytes());
+  if (!answer) return Size();
+  if (answer->expedited) return Size(answer->expedited_size());
+  if (answer->size_indicated) return Size(answer->value);
+  auto whole = upload(object, std::nullopt);
+  if (!whole) return std::unexpected(whole.error());
+  return whole->kind == steps::SdoAnswer::Kind::confirmed ? Size(whole->data.size()) : Size();
+}
+
 Result<steps::SdoAnswer> SdoChannel::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                               std::optional<Duration> timeout) {
   return run(canopen::SdoDownload(object, std::move(data), mode), object, timeout);

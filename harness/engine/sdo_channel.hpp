@@ -18,9 +18,13 @@ class SdoChannel {
   [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout);
   [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                                   std::optional<Duration> timeout);
+  /// How many bytes the entry holds, as the answer to the initiate request tells; the transfer is not carried through.
+  /// nullopt: it cannot be read.
+  [[nodiscard]] Result<std::optional<std::uint64_t>> held_bytes(Multiplexer object);
   /// The state of the server's channel is unknown: abort before the next transfer. After a time-out or a broken answer late
   /// ones may follow, so the channel rests as well; after a conversation a short pause is enough.
   void dirty(bool late_answers) { state_ = late_answers || state_ == State::late_answers ? State::late_answers : State::open; }
+  [[nodiscard]] bool is_open() const { return state_ == State::open; }
   /// Requests of the latest transfer: index of the first, stamp of the last frame we sent.
   [[nodiscard]] std::size_t first_request() const { return first_request_; }
   [[nodiscard]] BusTime last_request() const { return last_request_; }

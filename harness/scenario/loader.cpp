@@ -75,9 +75,32 @@ std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseCont
     }
   } else if (const auto text = values.text()) {
     out.query = *text;
-    if (auto query = Query::parse(*text); !query) values.error(query.error().what, query.error().hint);
+    const auto query = Query::parse(*text);
+    if (!query) {
+      values.error(query.error().what, query.error().hint);
+    } else if (query->holding()) {
+      values.error("what an entry holds is not known when the cases are planned", "look for one such entry with 'given'");
+    }
   }
   context.know(out.variable);
+  return out;
+}
+
+/// `given: {long: entries with readable and holding 15.. bytes}`
+std::vector<Given> parse_given(const yaml::Field& field, steps::ParseContext& context) {
+  std::vector<Given> out;
+  if (!field.node()->is_mapping() || field.node()->entries().empty()) {
+    field.error("'given' needs names with queries", "write given: {long: entries with readable and holding 15.. bytes}");
+    return out;
+  }
+  for (const auto& entry : field.node()->entries()) {
+    const yaml::Field value(&entry.value, context.diagnostics, entry.key.text());
+    const auto text = value.text();
+    if (!text) continue;
+    if (auto query = Query::parse(*text); !query) value.error(query.error().what, query.error().hint);
+    context.know(entry.key.text());
+    out.push_back({entry.key.text(), *text});
+  }
   return out;
 }
 
@@ -107,6 +130,7 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   if (const auto sample = fields.optional("sample")) out.sample = sample.number(1, 65536).value_or(0);
   context.names.clear();
   context.default_checks.clear();
+  if (const auto given = fields.optional("given")) out.given = parse_given(given, context);
   if (const auto for_each = fields.optional("for_each")) out.for_each = parse_for_each(for_each, context);
   if (const auto checks = fields.optional("checks")) context.default_checks = parse_checks(checks, context);
   if (const auto when = fields.optional("when")) out.when = steps::parse_condition_at(when, context.names);
@@ -150,7 +174,13 @@ ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnosti
   (void)fields.required("format").number(1, 1);
   out.title = fields.required("title").text().value_or("");
   out.about = fields.optional("about").text().value_or("");
-  steps::ParseContext context{diagnostics, {}, {}, {}, {}};
+  steps::ParseContext context{diagnostics, {}, {}, {}, {}, {}};
+  context.check_query = [](std::string_view text) -> Result<void> {
+    auto query = Query::parse(text);
+    if (!query) return std::unexpected(query.error());
+    if (query->holding()) return fail("'holding' needs an answer of the device", {}, "look for one such entry with 'given'");
+    return {};
+  };
   context.requirement = [&catalogue](std::string_view id) { return catalogue.canonical(id); };
   context.all_requirements = [&catalogue] { return catalogue.ids(); };
   std::set<std::string> ids;

@@ -94,6 +94,9 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
       {"claimed", [](const Entry& e) { return e.presence() != device::Presence::unclaimed; }},
       {"complex", [](const Entry& e) { return e.object == ObjectCode::array || e.object == ObjectCode::record; }},
       {"array", [](const Entry& e) { return e.object == ObjectCode::array; }},
+      {"element", [](const Entry& e) {
+         return (e.object == ObjectCode::array || e.object == ObjectCode::record) && e.mux.sub != SubIndex(0);
+       }},
       {"integer", [](const Entry& e) { return canopen::is_integer(e.type); }},
       {"safe", [](const Entry& e) { return e.safe; }},
       {"fixed size", [](const Entry& e) { return e.size().has_value(); }},
@@ -106,6 +109,18 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
   for (const auto& word : table) known.push_back(word.word);
   const auto near = did_you_mean(all, known);
   return fail("unknown property '" + all + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+}
+
+/// "holding 15.. bytes", "holding 8 bytes"
+Result<Query::Holding> parse_holding(const std::vector<std::string_view>& words) {
+  const auto wrong = [] { return fail("'holding' needs a number or range of bytes", {}, "holding 15.. bytes, holding 8 bytes"); };
+  if (words.size() != 3 || words[2] != "bytes") return wrong();
+  const auto dots = words[1].find("..");
+  const auto low = parse_number(words[1].substr(0, dots));
+  const auto high_text = dots == std::string_view::npos ? words[1] : words[1].substr(dots + 2);
+  const auto high = high_text.empty() ? std::optional(~std::uint64_t{0}) : parse_number(high_text);
+  if (!low || !high || *low > *high) return wrong();
+  return Query::Holding{*low, *high};
 }
 
 }  // namespace
@@ -135,6 +150,13 @@ Result<Query> Query::parse(std::string_view text) {
   for (std::size_t i = 2; i <= words.size(); ++i) {
     if (i < words.size() && words[i] != "and") {
       clause.push_back(words[i]);
+      continue;
+    }
+    if (!clause.empty() && clause.front() == "holding") {
+      auto holding = parse_holding(clause);
+      if (!holding) return std::unexpected(holding.error());
+      out.holding_ = *holding;
+      clause.clear();
       continue;
     }
     auto parsed = parse_clause(clause);

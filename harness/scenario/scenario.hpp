@@ -35,6 +35,12 @@ struct ForEach {
   std::vector<Row> rows;
 };
 
+/// An entry a scenario needs and looks for: the first of a query that the device has (and that is long enough).
+struct Given {
+  std::string name;
+  std::string query;           ///< "entries with readable and holding 15.. bytes"
+};
+
 struct Scenario {
   std::string id;              ///< "cia301/dictionary/1003-error-history/non-zero-write"
   std::string title;
@@ -42,6 +48,7 @@ struct Scenario {
   std::string suite;           ///< file path without extension
   result::SourcePosition position;
   std::vector<std::string> cct;
+  std::vector<Given> given;    ///< found before `when` is asked; not applicable when one is missing
   std::optional<steps::Condition> when;
   std::optional<ForEach> for_each;
   std::uint64_t sample = 0;    ///< most instances of a query, 0: all

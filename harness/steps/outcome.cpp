@@ -64,6 +64,8 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
     mask = *value;
   } else if (wanted->bytes) {
     return *wanted->bytes == actual.data;
+  } else if (wanted->word) {
+    return std::ranges::equal(*wanted->word, actual.data, {}, {}, [](std::uint8_t byte) { return static_cast<char>(byte); });
   }
   if (!wanted->number) return fail("'" + demand.value.text() + "' is not a number");
   return !actual.data.empty() && actual.data.size() <= 8 && equals(*wanted->number, actual.data, mask);
@@ -256,7 +258,8 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
       add(demand, "visible characters (20h-7Eh, 00h)");
     }
   }
-  for (const std::string_view name : {"count", "period", "shortest", "longest", "first", "register"}) {
+  for (const std::string_view name : {"count", "period", "shortest", "longest", "first", "register", "latency", "segments",
+                                      "wrong_toggles", "difference", "unmarked", "empty_last"}) {
     const auto measure = fields.optional(name);
     if (!measure) continue;
     if (const auto bounds = read_bounds(measure)) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verbs of the SDO client: upload, download, and the change of a COB-ID by the procedure the standard prescribes.
+#include <algorithm>
+
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "steps/verb_tables.hpp"
@@ -72,6 +74,10 @@ class Upload final : public Action {
     if (!answer) return std::unexpected(answer.error());
     auto out = to_actual(*answer, session, *object, true);
     out.unchanged_from = session.before_last_write(*object);
+    if (answer->kind == SdoAnswer::Kind::confirmed) {
+      const auto latency = session.capture().frames()[answer->decisive].time - session.window().anchor;
+      out.measured["latency"] = static_cast<std::uint64_t>(std::max<Duration::rep>(0, latency.count()));
+    }
     if (!save_.empty() && out.kind == Actual::Kind::confirmed) session.set(save_, Value::of_bytes(out.data));
     return out;
   }
@@ -94,9 +100,9 @@ class Download final : public Action {
       if (auto parsed = parse_object_at(object, context.names)) out->object_ = *parsed;
     }
     const auto content = fields.exactly_one_of({"value", "bytes", "text"});
-    if (content && content.name() == "value") {
+    if (content && fields.has("value")) {
       if (auto expression = parse_expression_at(content, context.names)) out->value_ = *expression;
-    } else if (content && content.name() == "bytes") {
+    } else if (content && fields.has("bytes")) {
       if (auto bytes = content.bytes()) out->bytes_ = *bytes;
     } else if (content) {
       if (auto text = content.text()) out->bytes_ = Bytes(text->begin(), text->end());
@@ -157,6 +163,7 @@ class Download final : public Action {
     auto value = value_.evaluate(session);
     if (!value) return std::unexpected(value.error());
     if (value->bytes && !as_) return *value->bytes;
+    if (value->word) return Bytes(value->word->begin(), value->word->end());
     if (!value->number) return fail("'" + value_.text() + "' is not a number");
     const auto type = type_of(session, object);
     if (!type) {

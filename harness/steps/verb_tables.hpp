@@ -15,5 +15,6 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> error_verbs();
 [[nodiscard]] std::span<const Verb> flow_verbs();
 [[nodiscard]] std::span<const Verb> conversation_verbs();
+[[nodiscard]] std::span<const Verb> segment_verbs();
 
 }  // namespace conform::steps
