@@ -51,9 +51,12 @@ class Nmt final : public Action {
   }
   std::string words(Session&) const override { return "NMT " + std::string(canopen::to_string(command_)); }
   Result<Actual> run(Session& session) const override {
+    const auto index = session.capture().size();
     auto sent = session.nmt(command_);
     if (!sent) return std::unexpected(sent.error());
-    return Actual{};
+    Actual out;
+    out.decisive = sent_frame(session, index);
+    return out;
   }
 
  private:
@@ -153,6 +156,9 @@ class Produce final : public Action {
     return "produce heartbeat of node " + std::to_string(node_) + (cyclic_ ? " every " + every_.text() : ", once");
   }
   Result<Actual> run(Session& session) const override {
+    if (node_ == session.node().value()) {
+      return fail("node " + std::to_string(node_) + " is the device under test, its heartbeat cannot be produced", "scenario");
+    }
     const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
     if (cyclic_) {
       session.produce({"heartbeat", frame, every_.resolve(session.profile()), count_});
