@@ -14,6 +14,7 @@ struct Condition::Tree {
   enum class Kind {
     all, any, negation,                                    // and, or, not
     present, claimed, readable, writable, access, changes, // about an entry
+    has_default,
     feature, triggers, remote, factory, described, sweep,  // about device and bench
     equal, at_least, at_most, above, below                 // two expressions
   };
@@ -51,6 +52,11 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
     in.take();
     if (in.accept("by") && !in.accept("itself")) return fail("'itself' is missing after 'may change by'");
     node->kind = Kind::changes;
+    return node;
+  }
+  if (in.peek() == "has" && in.peek(1) == "a" && in.peek(2) == "default") {
+    for (int i = 0; i < 3; ++i) in.take();
+    node->kind = Kind::has_default;
     return node;
   }
   if (in.peek() != "is" && in.peek() != "are") return TreePtr();
@@ -284,6 +290,7 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
     case Kind::claimed: return facts.is_claimed(*object, node.whole_object);
     case Kind::readable: return facts.is_readable(*object);
     case Kind::writable: return facts.is_writable(*object);
+    case Kind::has_default: return facts.declared(*object, Declared::default_value).has_value();
     case Kind::access: return facts.access_of(*object) == node.word;
     default: return facts.may_change(*object);
   }
@@ -340,6 +347,7 @@ std::vector<std::string_view> condition_forms() {
           "1017h:00 is readable",
           "1017h:00 is const",
           "$object may change by itself",
+          "1018h:03 has a default",
           "value of 1003h:00 is not 0",
           "value of 1018h:00 is at least 2",
           "bit 30 of 1005h:00 is 1",

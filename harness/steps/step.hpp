@@ -51,7 +51,7 @@ struct Walk {
   std::string name;
   std::vector<Expression> values;
   std::vector<Range> ranges;
-  std::vector<std::string> sets;  ///< named sets: "restricted CAN-IDs"
+  std::vector<std::string> sets;  ///< named sets: "restricted CAN-IDs", and queries: "entries with access const"
   std::vector<Step> steps;
 };
 
@@ -75,6 +75,8 @@ struct ParseContext {
   std::function<std::vector<std::string_view>()> all_requirements;  ///< for "did you mean"
   NameCheck names;                  ///< known at this place; verbs that save add to it
   std::vector<std::string> default_checks;
+  /// What is wrong with a query; queries are the scenario room's, steps only carry them.
+  std::function<Result<void>(std::string_view)> check_query;
   void know(std::string name) { names.push_back(std::move(name)); }
 };
 

@@ -34,6 +34,9 @@ std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) 
     if (!text) continue;
     if (*text == "restricted CAN-IDs") {
       walk.sets.push_back(*text);
+    } else if (context.check_query && (text->starts_with("entries") || text->starts_with("objects"))) {
+      if (auto fine = context.check_query(*text); !fine) item.error(fine.error().what, fine.error().hint);
+      walk.sets.push_back(*text);
     } else if (text->find("..") != std::string::npos) {
       auto range = Range::parse(*text);
       if (!range) {
