@@ -63,10 +63,11 @@ struct Source {
       if (!number) return std::unexpected(number.error());
       can_id = CanId(static_cast<std::uint32_t>(*number));
     }
-    const bool no_boot_up = service == "heartbeat";
-    return [can_id, no_boot_up](const can::CapturedFrame& c) {
+    const bool no_boot_up = service == "heartbeat", only_boot_up = service == "boot-up";
+    return [can_id, no_boot_up, only_boot_up](const can::CapturedFrame& c) {
       if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
-      return !no_boot_up || c.frame.size() == 0 || c.frame.data[0] != 0;
+      const bool boot_up = c.frame.size() > 0 && c.frame.data[0] == 0;
+      return only_boot_up ? boot_up : !no_boot_up || !boot_up;
     };
   }
 };
@@ -106,15 +107,17 @@ Result<Window> window_of(Session& session, const std::string& after) {
   return after.empty() ? Result<Window>(session.window()) : session.window_after(after);
 }
 
-void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {
-  const auto field = fields.optional("after");
-  if (!field) return;
+void parse_label(const yaml::Field& field, const ParseContext& context, std::string& label) {
   auto name = field.text().value_or("");
   if (name.starts_with('$')) name.erase(0, 1);
   if (std::ranges::find(context.names, name) == context.names.end()) {
     field.error("unknown label '" + name + "'", "labels come from as:");
   }
-  after = name;
+  label = name;
+}
+
+void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {
+  if (const auto field = fields.optional("after")) parse_label(field, context, after);
 }
 
 class Send final : public Action {
@@ -142,9 +145,12 @@ class Send final : public Action {
   Result<Actual> run(Session& session) const override {
     auto frame = build(session);
     if (!frame) return std::unexpected(frame.error());
+    const auto index = session.capture().size();
     auto sent = session.send(*frame);
     if (!sent) return std::unexpected(sent.error());
-    return Actual{};
+    Actual out;
+    out.decisive = sent_frame(session, index);
+    return out;
   }
 
  private:
@@ -230,11 +236,13 @@ class Silence final : public Action {
     auto out = std::make_unique<Silence>();
     auto fields = value.fields("silence");
     const auto of = fields.required("of");
-    const auto time = fields.required("for");
+    const auto time = fields.exactly_one_of({"for", "until"});
     for (const auto& item : of.items_or_one()) {
       if (auto source = Source::parse(item, context.names)) out->sources_.push_back(*source);
     }
-    if (time) {
+    if (time && fields.has("until")) {
+      parse_label(time, context, out->until_);
+    } else if (time) {
       if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
     }
     parse_after(fields, context, out->after_);
@@ -244,7 +252,7 @@ class Silence final : public Action {
   std::string words(Session&) const override {
     std::vector<std::string> parts;
     for (const auto& source : sources_) parts.push_back(source.words());
-    return "silence of " + join(parts, ", ") + " for " + time_.text();
+    return "silence of " + join(parts, ", ") + (until_.empty() ? " for " + time_.text() : " until " + until_);
   }
   Result<Actual> run(Session& session) const override {
     const auto window = window_of(session, after_);
@@ -255,7 +263,12 @@ class Silence final : public Action {
       if (!match) return std::unexpected(match.error());
       matches.push_back(*match);
     }
-    const auto time = time_.resolve(session.profile());
+    auto time = time_.resolve(session.profile());
+    if (!until_.empty()) {
+      const auto end = session.window_after(until_);
+      if (!end) return std::unexpected(end.error());
+      time = end->anchor - window->anchor;
+    }
     auto found = session.find_frame(
         window->first,
         [&matches](const auto& captured) {
@@ -279,7 +292,7 @@ class Silence final : public Action {
  private:
   std::vector<Source> sources_;
   TimeReference time_;
-  std::string after_;
+  std::string after_, until_;
 };
 
 class Collect final : public Action {
@@ -372,7 +385,8 @@ constexpr Verb table[] = {
     {"frame", "Wait for a frame of the device.",
      "id: CAN-ID, or heartbeat, emcy, sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
      "- frame: {id: 6A0h, within: 2 s}\n  checks: OD-1014-07", &AwaitFrame::parse},
-    {"silence", "No frame may come.", "of: CAN-ID or service, or a list of them\nfor: how long\nafter: label to count from",
+    {"silence", "No frame may come.", "of: CAN-ID or service, or a list of them\nfor: how long\nuntil: instead of for, a label that "
+     "was reached\nafter: label to count from",
      "- silence: {of: [emcy, 6A0h], for: 1 s}\n  checks: OD-1014-08", &Silence::parse},
     {"collect", "Count and time frames.",
      "from: CAN-ID or service\nfor: how long\nafter: label to count from\nmeasured: count, period, shortest, longest, first, state",

@@ -13,8 +13,18 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> nmt_verbs();
 [[nodiscard]] std::span<const Verb> frame_verbs();
 [[nodiscard]] std::span<const Verb> error_verbs();
+[[nodiscard]] std::span<const Verb> pdo_verbs();
 [[nodiscard]] std::span<const Verb> flow_verbs();
 [[nodiscard]] std::span<const Verb> conversation_verbs();
 [[nodiscard]] std::span<const Verb> segment_verbs();
+
+/// The first frame of ours recorded at or behind `begin`, for labels of sending steps.
+[[nodiscard]] inline std::optional<std::size_t> sent_frame(const Session& session, std::size_t begin) {
+  const auto& frames = session.capture().frames();
+  for (auto i = begin; i < frames.size(); ++i) {
+    if (frames[i].direction == can::Direction::transmitted) return i;
+  }
+  return std::nullopt;
+}
 
 }  // namespace conform::steps
