@@ -259,7 +259,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
     }
   }
   for (const std::string_view name : {"count", "period", "shortest", "longest", "first", "register", "latency", "segments",
-                                      "wrong_toggles", "difference", "unmarked", "empty_last"}) {
+                                      "wrong_toggles", "difference", "unmarked", "empty_last", "bits", "absent", "longer", "shorter"}) {
     const auto measure = fields.optional(name);
     if (!measure) continue;
     if (const auto bounds = read_bounds(measure)) {

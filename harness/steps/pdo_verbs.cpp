@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verbs about PDOs: configure one by the procedure of the standard, look at its mapping, read what it would carry, send SYNC.
+#include <array>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
+#include "steps/verb_tables.hpp"
+
+namespace conform::steps {
+namespace {
+
+constexpr std::uint16_t mapping_offset = 0x200;
+constexpr std::uint64_t most_entries = 0x40;
+
+Actual from_answer(const SdoAnswer& answer) {
+  Actual out;
+  out.decisive = answer.decisive;
+  out.code = answer.code;
+  out.detail = answer.detail;
+  switch (answer.kind) {
+    case SdoAnswer::Kind::confirmed:
+      out.kind = Actual::Kind::confirmed;
+      out.data = answer.data;
+      out.detail = "confirmed";
+      break;
+    case SdoAnswer::Kind::aborted: out.kind = Actual::Kind::aborted; break;
+    case SdoAnswer::Kind::silence: out.kind = Actual::Kind::silence; break;
+    case SdoAnswer::Kind::violation: out.kind = Actual::Kind::violation; break;
+  }
+  return out;
+}
+
+Result<Actual> read(Session& session, Multiplexer object) {
+  auto answer = session.upload(object, std::nullopt);
+  if (!answer) return std::unexpected(answer.error());
+  return from_answer(*answer);
+}
+
+Result<Actual> write(Session& session, Multiplexer object, std::uint64_t value, std::size_t size) {
+  auto answer = session.download(object, to_le(value, size), canopen::SdoDownload::Mode::automatic, std::nullopt);
+  if (!answer) return std::unexpected(answer.error());
+  return from_answer(*answer);
+}
+
+bool confirmed(const Result<Actual>& actual) { return actual && actual->kind == Actual::Kind::confirmed; }
+
+bool is_absent(const Actual& actual) {
+  return actual.kind == Actual::Kind::aborted &&
+         (actual.code == canopen::abort::no_object || actual.code == canopen::abort::no_sub_index);
+}
+
+/// The communication object of a PDO, named by itself or by its mapping object.
+Result<Index> communication_of(const ObjectReference& pdo, Session& session) {
+  const auto object = pdo.resolve(session);
+  if (!object) return std::unexpected(object.error());
+  const auto index = object->index.value();
+  if ((index >= 0x1400 && index <= 0x15FF) || (index >= 0x1800 && index <= 0x19FF)) return object->index;
+  if ((index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF)) {
+    return Index(static_cast<std::uint16_t>(index - mapping_offset));
+  }
+  return fail(to_string(*object) + " is not a PDO", "scenario", "1400h-15FFh, 1800h-19FFh or the mapping of one");
+}
+
+Index mapping_of(Index communication) { return Index(static_cast<std::uint16_t>(communication.value() + mapping_offset)); }
+
+std::string pdo_words(const ObjectReference& pdo, Session& session) {
+  const auto index = communication_of(pdo, session);
+  if (!index) return pdo.text();
+  const bool receive = index->value() < 0x1800;
+  return (receive ? "RPDO " : "TPDO ") + std::to_string(index->value() - (receive ? 0x1400 : 0x1800) + 1);
+}
+
+/// An entry of a mapping: index in bits 31-16, sub-index in bits 15-8, length in bits in bits 7-0.
+struct MappedEntry {
+  std::optional<ObjectReference> object;
+  Expression value;           ///< the whole entry, when no object is named
+  std::optional<Expression> bits;  ///< another length than the object's own
+
+  static std::optional<MappedEntry> parse(const yaml::Field& field, const NameCheck& names) {
+    MappedEntry out;
+    if (field.node()->is_mapping()) {
+      auto fields = field.fields("mapping entry");
+      const auto object = fields.required("object");
+      if (!object) return std::nullopt;
+      out.object = parse_object_at(object, names);
+      if (const auto bits = fields.optional("bits")) out.bits = parse_expression_at(bits, names);
+      return out.object ? std::optional(out) : std::nullopt;
+    }
+    const auto text = field.text();
+    if (!text) return std::nullopt;
+    if (text->starts_with('$') || text->find(':') != std::string::npos) {
+      out.object = parse_object_at(field, names);
+      return out.object ? std::optional(out) : std::nullopt;
+    }
+    auto value = parse_expression_at(field, names);
+    if (!value) return std::nullopt;
+    out.value = *value;
+    return out;
+  }
+
+  [[nodiscard]] Result<std::uint64_t> resolve(Session& session) const {
+    if (!object) return value.number(session);
+    const auto mux = object->resolve(session);
+    if (!mux) return std::unexpected(mux.error());
+    std::uint64_t length = 0;
+    if (bits) {
+      const auto number = bits->number(session);
+      if (!number) return number;
+      length = *number & 0xFF;
+    } else {
+      const auto* entry = session.dictionary().find(*mux);
+      if (entry == nullptr || !entry->size()) return fail("the length of " + to_string(*mux) + " is not known", "scenario", "add bits:");
+      length = *entry->size() * 8;
+    }
+    return (std::uint64_t{mux->index.value()} << 16U) | (std::uint64_t{mux->sub.value()} << 8U) | length;
+  }
+};
+
+/// Destroy the PDO, write mapping and parameters, create it again (7.5.2.36, 7.5.2.38). The first refusal ends it.
+class SetPdo final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<SetPdo>();
+    auto fields = value.fields("set_pdo");
+    const auto pdo = fields.required("pdo");
+    if (pdo) {
+      if (auto parsed = parse_object_at(pdo, context.names)) out->pdo_ = *parsed;
+    }
+    if (const auto mapping = fields.optional("mapping")) {
+      out->maps_ = true;
+      for (const auto& item : mapping.items()) {
+        if (auto entry = MappedEntry::parse(item, context.names)) out->entries_.push_back(*entry);
+      }
+    }
+    if (const auto least = fields.optional("at_least")) out->least_bits_ = least.number(1, 512).value_or(0);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const auto field = fields.optional(parameters[i].name);
+      if (!field) continue;
+      if (auto expression = parse_expression_at(field, context.names)) out->values_[i] = *expression;
+    }
+    if (const auto can_id = fields.optional("can_id")) {
+      if (auto expression = parse_expression_at(can_id, context.names)) out->can_id_ = *expression;
+    }
+    if (const auto valid = fields.optional("valid")) out->valid_ = valid.boolean().value_or(true);
+    return pdo ? std::move(out) : nullptr;
+  }
+
+  std::string words(Session& session) const override {
+    std::string out = "configure " + pdo_words(pdo_, session);
+    if (maps_) out += ", " + std::to_string(entries_.size()) + " mapped";
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (values_[i].empty()) continue;
+      const auto value = values_[i].evaluate(session);
+      out += ", " + std::string(parameters[i].words) + " " + (value ? value->text() : values_[i].text());
+    }
+    return out + (valid_ ? " (off, change, on)" : " (off, change)");
+  }
+
+  Result<Actual> run(Session& session) const override {
+    const auto index = communication_of(pdo_, session);
+    if (!index) return std::unexpected(index.error());
+    const Multiplexer cob_id{*index, SubIndex(1)};
+    auto actual = read(session, cob_id);
+    if (!confirmed(actual)) return actual;
+    const auto before = static_cast<std::uint32_t>(load_le(actual->data));
+    if ((before & canopen::cob_id::bit31) == 0) {
+      actual = write(session, cob_id, before | canopen::cob_id::bit31, 4);
+      if (!confirmed(actual)) return actual;
+    }
+    if (maps_) {
+      actual = write_mapping(session, mapping_of(*index));
+      if (!confirmed(actual)) return actual;
+    }
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (values_[i].empty()) continue;
+      const auto wanted = values_[i].number(session);
+      if (!wanted) return std::unexpected(wanted.error());
+      actual = write_parameter(session, {*index, SubIndex(parameters[i].sub)}, *wanted, parameters[i].size);
+      if (!confirmed(actual)) return actual;
+    }
+    if (!valid_) return actual;
+    auto target = before & ~canopen::cob_id::bit31;
+    if (!can_id_.empty()) {
+      const auto id = can_id_.number(session);
+      if (!id) return std::unexpected(id.error());
+      target = (before & canopen::cob_id::bit30) | static_cast<std::uint32_t>(*id);
+      actual = write(session, cob_id, target | canopen::cob_id::bit31, 4);
+      if (!confirmed(actual)) return actual;
+    }
+    actual = write(session, cob_id, target, 4);
+    if (actual) actual->data.clear();
+    return actual;
+  }
+
+ private:
+  struct Parameter {
+    std::string_view name, words;
+    std::uint8_t sub;
+    std::size_t size;
+  };
+  static constexpr std::array<Parameter, 4> parameters = {{{"type", "type", 2, 1},
+                                                           {"inhibit_time", "inhibit time", 3, 2},
+                                                           {"event_timer", "event timer", 5, 2},
+                                                           {"sync_start", "SYNC start value", 6, 1}}};
+
+  /// What already holds the value stays untouched; a parameter that is absent does what its value 0 says.
+  static Result<Actual> write_parameter(Session& session, Multiplexer object, std::uint64_t wanted, std::size_t size) {
+    auto actual = read(session, object);
+    if (!actual) return actual;
+    const bool same = actual->kind == Actual::Kind::confirmed && load_le(actual->data) == wanted;
+    if (same || (wanted == 0 && is_absent(*actual))) {
+      actual->kind = Actual::Kind::confirmed;
+      actual->detail = "confirmed";
+      return actual;
+    }
+    return write(session, object, wanted, size);
+  }
+
+  Result<Actual> write_mapping(Session& session, Index mapping) const {
+    auto actual = write(session, {mapping, SubIndex(0)}, 0, 1);
+    if (!confirmed(actual)) return actual;
+    std::uint64_t bits = 0, count = 0;
+    while (!entries_.empty() && count < most_entries && (count < entries_.size() || bits < least_bits_)) {
+      const auto entry = entries_[count % entries_.size()].resolve(session);
+      if (!entry) return std::unexpected(entry.error());
+      ++count;
+      actual = write(session, {mapping, SubIndex(static_cast<std::uint8_t>(count))}, *entry, 4);
+      if (!confirmed(actual)) return actual;
+      bits += *entry & 0xFF;
+    }
+    return count == 0 ? actual : write(session, {mapping, SubIndex(0)}, count, 1);
+  }
+
+  ObjectReference pdo_;
+  bool maps_ = false, valid_ = true;
+  std::vector<MappedEntry> entries_;
+  std::uint64_t least_bits_ = 0;
+  std::array<Expression, parameters.size()> values_;
+  Expression can_id_;
+};
+
+struct Mapping {
+  std::uint64_t bits = 0, absent = 0, longer = 0, shorter = 0;
+  std::vector<std::uint32_t> entries;
+  std::vector<std::uint8_t> data;  ///< what the objects hold, packed without gaps, least significant bit first
+};
+
+/// Reads the mapping and the objects in it. Not confirmed: the answer that stood in the way.
+Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool needs_data) {
+  auto actual = read(session, {mapping, SubIndex(0)});
+  if (!confirmed(actual)) return actual;
+  const auto count = load_le(actual->data);
+  for (std::uint64_t sub = 1; sub <= count && count <= most_entries; ++sub) {
+    actual = read(session, {mapping, SubIndex(static_cast<std::uint8_t>(sub))});
+    if (!confirmed(actual)) return actual;
+    const auto entry = static_cast<std::uint32_t>(load_le(actual->data));
+    const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)), SubIndex(static_cast<std::uint8_t>((entry >> 8U) & 0xFFU))};
+    const std::uint64_t length = entry & 0xFFU;
+    out.entries.push_back(entry);
+    const bool placeholder = mapping.value() < 0x1800 && object.index.value() > 0 && object.index.value() < 0x0020;
+    std::optional<std::uint64_t> own;
+    Bytes held;
+    if (!placeholder) {
+      auto value = read(session, object);
+      if (!value) return value;
+      if (value->kind == Actual::Kind::confirmed) {
+        held = value->data;
+        own = held.size() * 8;
+      } else if (is_absent(*value)) {
+        ++out.absent;
+      }
+      if (needs_data && value->kind != Actual::Kind::confirmed) return value;
+    }
+    // A BOOLEAN is a byte for SDO and a bit in a PDO.
+    if (own && length > *own) ++out.longer;
+    const auto* known = session.dictionary().find(object);
+    const bool boolean = known != nullptr && known->type == canopen::DataType::boolean;
+    if (own && length < *own && !boolean) ++out.shorter;
+    for (std::uint64_t bit = 0; bit < length; ++bit, ++out.bits) {
+      if (out.bits % 8 == 0) out.data.push_back(0);
+      const auto byte = static_cast<std::size_t>(bit / 8);
+      const bool set = byte < held.size() && ((held[byte] >> (bit % 8)) & 1U) != 0;
+      if (set) out.data.back() = static_cast<std::uint8_t>(out.data.back() | (1U << (out.bits % 8)));
+    }
+  }
+  return actual;
+}
+
+class PdoMapping final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) { return parse_as(value, context, false); }
+  static std::unique_ptr<Action> parse_data(const yaml::Field& value, ParseContext& context) {
+    return parse_as(value, context, true);
+  }
+  static std::unique_ptr<Action> parse_as(const yaml::Field& value, ParseContext& context, bool data) {
+    auto out = std::make_unique<PdoMapping>();
+    out->data_ = data;
+    auto fields = value.fields(data ? "mapped_data" : "mapping");
+    const auto pdo = fields.required("pdo");
+    if (pdo) {
+      if (auto parsed = parse_object_at(pdo, context.names)) out->pdo_ = *parsed;
+    }
+    if (data) {
+      out->save_ = fields.required("save").text().value_or("");
+      context.know(out->save_);
+    }
+    return pdo ? std::move(out) : nullptr;
+  }
+  std::string words(Session& session) const override {
+    return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);
+  }
+  Result<Actual> run(Session& session) const override {
+    const auto index = communication_of(pdo_, session);
+    if (!index) return std::unexpected(index.error());
+    Mapping mapping;
+    auto actual = read_mapping(session, mapping_of(*index), mapping, data_);
+    if (!confirmed(actual)) return actual;
+    actual->kind = Actual::Kind::matched;
+    if (data_) {
+      actual->data = mapping.data;
+      actual->detail = hex_bytes(mapping.data);
+      session.set(save_, Value::of_bytes(mapping.data));
+      return actual;
+    }
+    actual->data.clear();
+    actual->measured["count"] = mapping.entries.size();
+    actual->measured["bits"] = mapping.bits;
+    actual->measured["absent"] = mapping.absent;
+    actual->measured["longer"] = mapping.longer;
+    actual->measured["shorter"] = mapping.shorter;
+    std::vector<std::string> parts;
+    for (const auto entry : mapping.entries) parts.push_back(hex(entry, 8) + "h");
+    actual->detail = std::to_string(mapping.entries.size()) + " entries, " + std::to_string(mapping.bits) + " bits; " +
+                     std::to_string(mapping.absent) + " absent, " + std::to_string(mapping.longer) + " longer and " +
+                     std::to_string(mapping.shorter) + " shorter than the object: " + join(parts, ", ");
+    return actual;
+  }
+
+ private:
+  ObjectReference pdo_;
+  bool data_ = false;
+  std::string save_;
+};
+
+class SendSync final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    auto out = std::make_unique<SendSync>();
+    if (!value.node()->is_mapping()) return value.one_of({"once"}) ? std::move(out) : nullptr;
+    auto fields = value.fields("send_sync");
+    out->count_ = fields.required("count").number(1, 100'000);
+    const auto every = fields.required("every");
+    if (every) {
+      if (auto time = parse_time_at(every)) out->every_ = *time;
+    }
+    return every ? std::move(out) : nullptr;
+  }
+  std::string words(Session&) const override {
+    return count_ ? "send " + std::to_string(*count_) + " SYNC, one every " + every_.text() : "send SYNC";
+  }
+  Result<Actual> run(Session& session) const override {
+    // The CAN-ID the device listens on; a device without 1005h gets the pre-defined one.
+    auto id = canopen::sync_can_id;
+    auto known = session.read({Index(0x1005), SubIndex(0)});
+    if (known && known->number) id = canopen::can_id_of(CobId(static_cast<std::uint32_t>(*known->number)));
+    const auto frame = can::data_frame(id, Bytes());
+    if (count_) {
+      session.consume(session.capture().size());
+      session.produce({"sync", frame, every_.resolve(session.profile()), count_});
+      return Actual{};
+    }
+    auto sent = session.send(frame);
+    if (!sent) return std::unexpected(sent.error());
+    return Actual{};
+  }
+
+ private:
+  TimeReference every_;
+  std::optional<std::uint64_t> count_;
+};
+
+constexpr Verb table[] = {
+    {"set_pdo", "Configure a PDO by the procedure of the standard: switch off, mapping, parameters, switch on. The first refusal ends it.",
+     "pdo: its communication or mapping object\nmapping: list of entries: an object, {object, bits}, or the 32-bit value\n"
+     "at_least: repeat the entries until they make up this many bits\ntype, inhibit_time, event_timer, sync_start: sub-indices 02h, 03h, "
+     "05h, 06h\ncan_id: another CAN-ID\nvalid: false to leave it switched off",
+     "- set_pdo: {pdo: 1800h, type: 1, event_timer: 0}\n- set_pdo: {pdo: $pdo, mapping: [$word, $word], valid: false}\n  checks: OD-1A00-05",
+     &SetPdo::parse},
+    {"mapping", "Read the mapping of a PDO and look for the objects it names.",
+     "pdo: its communication or mapping object\nmeasured: count, bits, absent, longer, shorter (entries against their objects)",
+     "- mapping: {pdo: 1600h}\n  checks: OD-1600-03\n  expect: {bits: ..64}", &PdoMapping::parse},
+    {"mapped_data", "Read what the objects mapped to a PDO hold, packed as the PDO carries them.",
+     "pdo: its communication or mapping object\nsave: name that the data get",
+     "- mapped_data: {pdo: $pdo, save: held}", &PdoMapping::parse_data},
+    {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.", "(word): once\nevery: time between two\ncount: how many",
+     "- send_sync: once\n- send_sync: {every: 50 ms, count: 10}", &SendSync::parse},
+};
+
+}  // namespace
+
+std::span<const Verb> pdo_verbs() { return table; }
+
+}  // namespace conform::steps
