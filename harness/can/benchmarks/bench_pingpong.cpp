@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Round trips per second on a CAN interface against a forked responder of raw system calls: first with epoll
-// and read/write and nothing else, the yardstick, then through SocketCanTransport.
-//   bench_pingpong INTERFACE [ROUND TRIPS]
+// and read/write and nothing else, the yardstick, then with time stamps, then through SocketCanTransport.
+//   bench_pingpong INTERFACE [ROUND TRIPS [raw|node]]
+// raw: only the second, with time stamps; node: the same, but node 5 on the bus answers.
 #include <linux/can.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -19,6 +20,7 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "can/socketcan_transport.hpp"
@@ -87,13 +89,103 @@ void measure(const char* what, int count, const std::function<void()>& round_tri
   std::fflush(stdout);
 }
 
+/// A raw socket and its epoll instance, for as long as one measurement takes.
+struct RawClient {
+  RawClient(const std::string& interface, bool stamps) : fd(open_raw(interface, answer_id)) {
+    const int on = 1;
+    if (stamps) {
+      ::setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+      ::setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+    }
+    epoll_event wanted{};
+    wanted.events = EPOLLIN;
+    ::epoll_ctl(poller, EPOLL_CTL_ADD, fd, &wanted);
+    frame.can_id = request_id;
+    frame.len = 8;
+    frame.data[0] = 0x40;  // an upload of 1000h:00, so that a real node can answer
+    frame.data[2] = 0x10;
+  }
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+  ~RawClient() {
+    ::close(poller);
+    ::close(fd);
+  }
+  [[nodiscard]] bool answered_within(int milliseconds) const {
+    epoll_event event{};
+    return ::write(fd, &frame, sizeof frame) == static_cast<ssize_t>(sizeof frame) &&
+           ::epoll_wait(poller, &event, 1, milliseconds) == 1;
+  }
+  void send_and_wait() const {
+    if (!answered_within(1000)) die("a raw round trip failed");
+  }
+
+  int fd;
+  int poller = ::epoll_create1(0);
+  can_frame frame{};
+};
+
+void measure_read(const std::string& name, int count) {
+  const RawClient client(name, false);
+  measure("raw epoll and read/write:", count, [&] {
+    client.send_and_wait();
+    can_frame answer{};
+    if (::read(client.fd, &answer, sizeof answer) != static_cast<ssize_t>(sizeof answer))
+      die("a raw read failed");
+  });
+}
+
+// The same with what a verdict needs: time stamps and loss counters come as control messages.
+void measure_recvmsg(const std::string& name, int count) {
+  const RawClient client(name, true);
+  measure("raw epoll and recvmsg:", count, [&] {
+    client.send_and_wait();
+    can_frame answer{};
+    alignas(cmsghdr) std::array<char, 128> control;
+    iovec vector{.iov_base = &answer, .iov_len = sizeof answer};
+    msghdr message{};
+    message.msg_iov = &vector;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    if (::recvmsg(client.fd, &message, 0) != static_cast<ssize_t>(sizeof answer)) die("a raw recvmsg failed");
+  });
+}
+
+void measure_transport(const std::string& name, int count) {
+  auto transport = SocketCanTransport::open(name);
+  if (!transport) die(transport.error().text());
+  const Frame request = data_frame(CanId(request_id), {0x40, 0, 0x10, 0, 0, 0, 0, 0});
+  measure("SocketCanTransport:", count, [&] {
+    if (!(*transport)->send(request)) die("a send failed");
+    const BusTime deadline = (*transport)->now() + std::chrono::seconds(1);
+    for (;;) {
+      const auto event = (*transport)->receive(deadline);
+      if (!event || !*event) die("a round trip through the transport failed");
+      if ((*event)->direction == Direction::received && (*event)->frame.id == answer_id) return;
+    }
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) die("usage: bench_pingpong INTERFACE [ROUND TRIPS]");
+  const std::string_view what = argc > 3 ? argv[3] : "all";
+  if (argc < 2 || argc > 4 || (what != "all" && what != "raw" && what != "node")) {
+    die("usage: bench_pingpong INTERFACE [ROUND TRIPS [raw|node]]");
+  }
   const std::string name = argv[1];
   const int count = argc > 2 ? std::max(std::atoi(argv[2]), 2) : 20'000;
   if (const auto facts = preflight(name); !facts) die(facts.error().text());
+  if (what == "node") {
+    // A node that has just started hears nothing before its boot-up message.
+    const RawClient probe(name, false);
+    for (int tries = 0; !probe.answered_within(20); ++tries) {
+      if (tries == 100) die("node 5 does not answer");
+    }
+    measure_recvmsg(name, count);
+    return 0;
+  }
 
   const int responder_socket = open_raw(name, request_id);
   const pid_t parent = ::getpid();
@@ -106,73 +198,9 @@ int main(int argc, char** argv) {
   }
   ::close(responder_socket);
 
-  {
-    const int fd = open_raw(name, answer_id);
-    const int poller = ::epoll_create1(0);
-    epoll_event wanted{};
-    wanted.events = EPOLLIN;
-    ::epoll_ctl(poller, EPOLL_CTL_ADD, fd, &wanted);
-    can_frame frame{};
-    frame.can_id = request_id;
-    frame.len = 8;
-    measure("raw epoll and read/write:", count, [&] {
-      can_frame answer{};
-      epoll_event event{};
-      if (::write(fd, &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame) ||
-          ::epoll_wait(poller, &event, 1, 1000) != 1 ||
-          ::read(fd, &answer, sizeof answer) != static_cast<ssize_t>(sizeof answer)) {
-        die("a raw round trip failed");
-      }
-    });
-    ::close(poller);
-    ::close(fd);
-  }
-  {
-    // The same with what a verdict needs: time stamps and loss counters come as control messages.
-    const int fd = open_raw(name, answer_id);
-    const int on = 1;
-    ::setsockopt(fd, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-    ::setsockopt(fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-    const int poller = ::epoll_create1(0);
-    epoll_event wanted{};
-    wanted.events = EPOLLIN;
-    ::epoll_ctl(poller, EPOLL_CTL_ADD, fd, &wanted);
-    can_frame frame{};
-    frame.can_id = request_id;
-    frame.len = 8;
-    measure("raw epoll and recvmsg:", count, [&] {
-      can_frame answer{};
-      epoll_event event{};
-      alignas(cmsghdr) std::array<char, 128> control;
-      iovec vector{.iov_base = &answer, .iov_len = sizeof answer};
-      msghdr message{};
-      message.msg_iov = &vector;
-      message.msg_iovlen = 1;
-      message.msg_control = control.data();
-      message.msg_controllen = control.size();
-      if (::write(fd, &frame, sizeof frame) != static_cast<ssize_t>(sizeof frame) ||
-          ::epoll_wait(poller, &event, 1, 1000) != 1 ||
-          ::recvmsg(fd, &message, 0) != static_cast<ssize_t>(sizeof answer)) {
-        die("a raw round trip failed");
-      }
-    });
-    ::close(poller);
-    ::close(fd);
-  }
-  {
-    auto transport = SocketCanTransport::open(name);
-    if (!transport) die(transport.error().text());
-    const Frame request = data_frame(CanId(request_id), {0x40, 0, 0x10, 0, 0, 0, 0, 0});
-    measure("SocketCanTransport:", count, [&] {
-      if (!(*transport)->send(request)) die("a send failed");
-      const BusTime deadline = (*transport)->now() + std::chrono::seconds(1);
-      for (;;) {
-        const auto event = (*transport)->receive(deadline);
-        if (!event || !*event) die("a round trip through the transport failed");
-        if ((*event)->direction == Direction::received && (*event)->frame.id == answer_id) return;
-      }
-    });
-  }
+  if (what == "all") measure_read(name, count);
+  measure_recvmsg(name, count);
+  if (what == "all") measure_transport(name, count);
   ::kill(responder, SIGKILL);
   ::waitpid(responder, nullptr, 0);
 }
