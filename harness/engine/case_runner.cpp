@@ -83,6 +83,12 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   // Cleanup judges nothing and always runs to its end.
   for (const auto& step : scenario.cleanup) {
     if (step.action == nullptr) continue;
+    const auto says = [this](const std::optional<steps::Condition>& condition, bool wanted) {
+      if (!condition) return true;
+      const auto holds = condition->evaluate(session_);
+      return !holds || *holds == wanted;
+    };
+    if (!says(step.when, true) || !says(step.unless, false)) continue;
     session_.begin_step(step.action->acts(), step.action->object());
     auto actual = step.action->run(session_);
     if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
