@@ -176,6 +176,12 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
   if (const auto either = fields.optional("either")) {
     if (step.expectation.given) either.error("'either' and 'expect' in one step", "the branches are the expectation");
     step.branches = parse_branches(either, context);
+    for (auto& branch : step.branches) {
+      // A conversation as alternative decides what the step decides, unless it says otherwise.
+      if (!branch.on.empty() || branch.steps.empty()) continue;
+      auto& own = branch.steps.front().expectation.checks;
+      if (own.empty()) own = step.expectation.checks;
+    }
   }
   if (step.walk && step.expectation.given) fields.optional("expect").error("'over' expects nothing itself; its steps do");
   return step;
