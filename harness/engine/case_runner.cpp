@@ -195,8 +195,12 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       if (actual.kind != Actual::Kind::matched && actual.kind != Actual::Kind::confirmed) break;
       auto begins = branch.steps.front().action->begins(session_);
       if (!begins) return cannot_go_on(step, begins.error());
-      if (*begins) return run_steps(branch.steps);
-      continue;
+      if (!*begins) continue;
+      if (branch.verdict != Verdict::pass) {
+        const Grade grade{branch.verdict, branch.verdict == Verdict::warn ? "tolerated, but not what the standard names" : "an outcome that is ruled out"};
+        for (const auto& requirement : checks_of(branch.steps.front())) record(step, requirement, grade, actual);
+      }
+      return run_steps(branch.steps);
     }
     for (const auto& outcome : branch.on) {
       auto hit = outcome.matches(actual, session_);

@@ -112,6 +112,11 @@ bool parse_abort(std::string_view text, const yaml::Field& field, std::vector<Ou
     out.push_back(outcome);
     return true;
   }
+  if (text == "defined") {
+    outcome.kind = Outcome::Kind::abort_defined;
+    out.push_back(outcome);
+    return true;
+  }
   outcome.kind = Outcome::Kind::abort_code;
   const auto dots = text.find("..");
   const auto first = read_code(trim(text.substr(0, dots)));
@@ -309,6 +314,7 @@ Result<bool> Outcome::matches(const Actual& actual, Scope& scope) const {
   switch (kind) {
     case Kind::ok: return actual.kind == ActualKind::confirmed || actual.kind == ActualKind::matched;
     case Kind::abort_any: return actual.kind == ActualKind::aborted;
+    case Kind::abort_defined: return actual.kind == ActualKind::aborted && !canopen::meaning(actual.code).empty();
     case Kind::abort_code: return actual.kind == ActualKind::aborted && actual.code >= code && actual.code <= last_code;
     case Kind::silence: return actual.kind == ActualKind::silence;
     case Kind::unchanged:
@@ -329,6 +335,7 @@ std::string Outcome::words(Scope& scope, std::optional<canopen::DataType> type) 
   switch (kind) {
     case Kind::ok: return "success";
     case Kind::abort_any: return "any abort";
+    case Kind::abort_defined: return "an abort code that CiA 301 defines";
     case Kind::silence: return "no answer";
     case Kind::unchanged: return "the value it had before";
     case Kind::abort_code:

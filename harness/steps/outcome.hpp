@@ -59,7 +59,7 @@ struct Demand {
 
 /// One member of a graded set.
 struct Outcome {
-  enum class Kind : std::uint8_t { ok, abort_code, abort_any, silence, unchanged, data };
+  enum class Kind : std::uint8_t { ok, abort_code, abort_any, abort_defined, silence, unchanged, data };
   Kind kind = Kind::ok;
   AbortCode code{}, last_code{};    ///< abort_code: an inclusive range, mostly of one
   std::vector<Demand> demands;      ///< data

@@ -48,9 +48,9 @@ class Segments final : public Action {
     const auto initiate = canopen::decode_upload_response(**first);
     if (!initiate) return wrong_answer(so_far, **first, "an upload response");
     if (initiate->expedited) {
-      so_far.out.kind = Actual::Kind::violation;
-      so_far.out.detail = "sends at most four bytes, expedited";
-      return so_far.out;
+      so_far.data.assign((*first)->begin() + 4, (*first)->begin() + 4 + static_cast<std::ptrdiff_t>(initiate->expedited_size()));
+      so_far.marked = true;
+      return measured(session, so_far);
     }
     if (initiate->size_indicated) so_far.announced = initiate->value;
     for (bool toggle = false;; toggle = !toggle) {
@@ -166,7 +166,7 @@ class Segments final : public Action {
 constexpr Verb table[] = {
     {"segments", "Read an entry of more than four bytes segment by segment, to the end even where the server errs.",
      "of: the entry\npause: time before each request\nsave: name that the data get\n"
-     "measured: segments, wrong_toggles, difference (of the told size and the bytes that came), unmarked (1: no segment is "
+     "measured: segments (0: expedited), wrong_toggles, difference (of the told size and the bytes that came), unmarked (1: no segment is "
      "marked as the last), empty_last (1: an empty segment ends the transfer)",
      "- segments: {of: 1008h:00, save: name}\n  checks: SDO-SUP-03\n  expect: {wrong_toggles: 0}", &Segments::parse},
 };
