@@ -185,6 +185,7 @@ Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, ca
   const auto copy = data;
   auto answer = channel_.download(object, std::move(data), mode, timeout);
   if (!answer) return answer;
+  write_refused_ = answer->kind == steps::SdoAnswer::Kind::aborted;
   note_sent(channel_.first_request());
   window_.anchor = channel_.last_request();
   if (answer->kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
@@ -254,6 +255,7 @@ void RunSession::begin_case() {
   window_ = {recorder_.capture().size(), recorder_.now()};
   object_ = nullptr;
   silence_seen_ = false;
+  write_refused_ = false;
 }
 
 void RunSession::begin_step(bool acts, const steps::ObjectReference* object) {

@@ -44,6 +44,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
   [[nodiscard]] Result<steps::Value> declared(Multiplexer object, steps::Declared what) override;
   [[nodiscard]] bool is_described() const override { return !profile_.objects.empty(); }
+  [[nodiscard]] bool write_was_refused() const override { return write_refused_; }
   [[nodiscard]] bool tries_all_objects() const override { return all_objects_; }
   void try_all_objects(bool all) { all_objects_ = all; }
 
@@ -112,6 +113,7 @@ class RunSession final : public steps::Session {
   steps::Window window_;
   bool stimulus_open_ = false;  ///< the running step acts, and its first frame begins the window
   bool all_objects_ = false;
+  bool write_refused_ = false;
   bool state_changed_ = true;
   bool silence_seen_ = false;
   const steps::ObjectReference* object_ = nullptr;

@@ -15,7 +15,7 @@ struct Condition::Tree {
     all, any, negation,                                    // and, or, not
     present, claimed, readable, writable, access, changes, // about an entry
     has_default,
-    feature, triggers, remote, factory, described, sweep,  // about device and bench
+    feature, triggers, remote, factory, described, refused, sweep,  // about device and bench
     equal, at_least, at_most, above, below                 // two expressions
   };
   Kind kind = Kind::all;
@@ -171,6 +171,7 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     Kind kind;
   };
   static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
+                                       {{"the", "write", "was", "refused"}, Kind::refused},
                                        {{"all", "objects", "are", "tried"}, Kind::sweep}};
   for (const auto& phrase : phrases) {
     std::size_t same = 0;
@@ -280,6 +281,7 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   if (node.kind == Kind::triggers) return facts.error_triggers() >= node.count;
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
   if (node.kind == Kind::described) return facts.is_described();
+  if (node.kind == Kind::refused) return facts.write_was_refused();
   if (node.kind == Kind::sweep) return facts.tries_all_objects();
   if (node.kind == Kind::factory) return facts.factory_defaults();
   if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
@@ -358,6 +360,7 @@ std::vector<std::string_view> condition_forms() {
           "factory defaults are active",
           "interface can send RTR",
           "device description is given",
+          "the write was refused",
           "all objects are tried",
           "A and B, A or B, not A, (A)"};
 }

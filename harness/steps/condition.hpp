@@ -32,6 +32,8 @@ class Facts : public Scope {
   [[nodiscard]] virtual bool can_send_remote_frames() const = 0;
   /// An EDS or a profile lists the entries of the device.
   [[nodiscard]] virtual bool is_described() const { return false; }
+  /// The last download of the scenario was answered by an abort.
+  [[nodiscard]] virtual bool write_was_refused() const { return false; }
   /// The user wants full sweeps instead of samples.
   [[nodiscard]] virtual bool tries_all_objects() const { return false; }
 };
