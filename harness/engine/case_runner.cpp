@@ -197,8 +197,14 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       if (!begins) return cannot_go_on(step, begins.error());
       if (!*begins) continue;
       if (branch.verdict != Verdict::pass) {
-        const Grade grade{branch.verdict, branch.verdict == Verdict::warn ? "tolerated, but not what the standard names" : "an outcome that is ruled out"};
+        const Grade grade{branch.verdict, branch.verdict == Verdict::warn   ? "tolerated, but not what the standard names"
+                                          : branch.verdict == Verdict::fail ? "an outcome that is ruled out"
+                                                                            : "does not concern this device"};
         for (const auto& requirement : checks_of(branch.steps.front())) record(step, requirement, grade, actual);
+        if (branch.verdict == Verdict::not_applicable) {
+          out_->reason = grade.reason;
+          return Flow::stop;
+        }
       }
       return run_steps(branch.steps);
     }

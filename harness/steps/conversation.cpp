@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
+#include "yaml/source.hpp"
 
 namespace conform::steps {
 namespace {
@@ -48,8 +49,10 @@ class LineParser {
  private:
   std::nullopt_t problem(std::string what, std::string hint, std::size_t at = std::string_view::npos, std::size_t length = 1) {
     if (at == std::string_view::npos) at = at_;
-    problems_.push_back({number_, static_cast<int>(std::min(at, text_.size())), static_cast<int>(length), std::move(what),
-                         std::move(hint)});
+    at = std::min(at, text_.size());
+    // Editors count characters, not bytes.
+    problems_.push_back({number_, yaml::code_points(text_.substr(0, at)), std::max(yaml::code_points(text_.substr(at, length)), 1),
+                         std::move(what), std::move(hint)});
     return std::nullopt;
   }
   void skip_blanks() {
@@ -81,6 +84,10 @@ class LineParser {
         problem("'" + std::string(id) + "' is not a CAN-ID", "hexadecimal: 600+N, 80+N, 7E5", begin, std::max<std::size_t>(id.size(), 1));
         return false;
       }
+    }
+    if (line.id > 0x1FFF'FFFFU) {
+      problem("'" + std::string(id) + "' is beyond 29 bits", "", begin, id.size());
+      return false;
     }
     return true;
   }
@@ -361,6 +368,7 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope, std:
         if (scope.find(pattern.name) != nullptr) {
           const auto known = named_bytes(pattern, scope);
           if (!known || !std::ranges::equal(part, *known)) return wrong(at, "{" + pattern.name + "} differs from before");
+          break;  // a part of known data must not become the whole of it
         }
         out.names.emplace_back(pattern.name, Bytes(part.begin(), part.end()));
         break;
