@@ -26,6 +26,7 @@ struct RunCommand {
   std::uint64_t seed = 1;
   bool strict = false;
   bool all_objects = false;
+  bool slow = false;
   bool dry_run = false;
   bool quiet = false;
   std::string color = "auto";         ///< auto, always, never
@@ -50,6 +51,7 @@ struct ListCommand {
 
 struct ExplainCommand {
   std::string topic;
+  bool markdown = false;              ///< of verbs: the page docs/verbs.md
   std::string suites;
 };
 [[nodiscard]] int explain_command(const ExplainCommand& options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cli/commands.hpp"
 #include "cli/suite_folder.hpp"
@@ -13,6 +14,8 @@
 
 namespace conform::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct Totals {
   std::size_t files = 0, errors = 0, warnings = 0;
@@ -26,6 +29,48 @@ void show(const yaml::Diagnostics& diagnostics, bool colour, Totals& totals) {
   if (!diagnostics.empty()) print(diagnostics.render(colour));
 }
 
+std::string counted(std::size_t count, std::string_view word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
+
+/// The name by which the suites know a file, however the user wrote its path.
+std::string name_in_suites(const std::string& file, const std::string& root) {
+  std::error_code error;
+  const auto whole = fs::weakly_canonical(file, error);
+  const auto top = fs::weakly_canonical(root, error);
+  const auto relative = whole.lexically_relative(top).generic_string();
+  return relative.empty() || relative.starts_with("..") ? file : relative;
+}
+
+/// Ids of this file that another file of the catalogue gives as well.
+void compare_with_catalogue(const std::vector<scenario::Requirement>& requirements, const std::string& name,
+                            const scenario::Catalogue& catalogue, yaml::Diagnostics& diagnostics) {
+  for (const auto& requirement : requirements) {
+    std::vector<std::string> ids = requirement.same_as;
+    ids.push_back(requirement.id);
+    for (const auto& id : ids) {
+      const auto* other = catalogue.find(id);
+      if (other == nullptr || other->file == name) continue;
+      diagnostics.error({requirement.line, 1}, 1, "requirement id '" + id + "' is given twice",
+                        "also in " + other->file + ":" + std::to_string(other->line));
+    }
+  }
+}
+
+/// The kinds of file tell themselves apart by the keys only one of them has.
+void check(const yaml::Node& root, const std::string& name, const scenario::Catalogue& catalogue, yaml::Diagnostics& diagnostics) {
+  const auto has = [&root](std::initializer_list<std::string_view> keys) {
+    return std::ranges::any_of(keys, [&root](std::string_view key) { return root.find(key) != nullptr; });
+  };
+  if (has({"requirements", "area"})) {
+    compare_with_catalogue(scenario::load_requirements(root, diagnostics, name), name, catalogue, diagnostics);
+  } else if (!has({"scenarios"}) && has({"node", "claims", "objects", "errors", "identity", "boot_time", "interface", "name"})) {
+    (void)device::load_profile(root, diagnostics);
+  } else {
+    (void)scenario::load_scenarios(root, diagnostics, name, catalogue);
+  }
+}
+
 }  // namespace
 
 int lint_command(const LintCommand& options) {
@@ -33,6 +78,7 @@ int lint_command(const LintCommand& options) {
   if (!root) return report_error(root.error(), exit_usage);
   const bool colour = use_colour(options.color, 1);
   Totals totals;
+  // Mistakes of the catalogue are told where its files are checked.
   std::vector<std::string> problems;
   auto catalogue = scenario::Catalogue::load(*root, problems, colour);
   if (!catalogue) return report_error(catalogue.error(), exit_usage);
@@ -41,33 +87,16 @@ int lint_command(const LintCommand& options) {
     auto found = scenario::yaml_files_below(*root, "");
     if (!found) return report_error(found.error(), exit_usage);
     for (const auto& file : *found) files.push_back(*root + "/" + file);
-    for (const auto& problem : problems) print(problem);
-    totals.errors += problems.size();
   }
   for (const auto& file : files) {
-    if (options.files.empty() && file.find("/requirements/") != std::string::npos) {
-      ++totals.files;
-      continue;  // read above, as the catalogue
-    }
     auto document = yaml::load_file(file);
     if (!document) return report_error(document.error(), exit_usage);
     ++totals.files;
-    if (document->root) {
-      const auto& node = *document->root;
-      // The kinds of file tell themselves apart by the list they hold.
-      if (node.find("requirements") != nullptr) {
-        // The catalogue loader reads whole folders; a single file is checked for its YAML here.
-      } else if (node.find("scenarios") != nullptr || node.find("claims") == nullptr) {
-        auto name = file;
-        if (name.starts_with(*root + "/")) name = name.substr(root->size() + 1);
-        (void)scenario::load_scenarios(node, document->diagnostics, name, *catalogue);
-      } else {
-        (void)device::load_profile(node, document->diagnostics);
-      }
-    }
+    if (document->root) check(*document->root, name_in_suites(file, *root), *catalogue, document->diagnostics);
     show(document->diagnostics, colour, totals);
   }
-  print(fmt::format("{} files, {} errors, {} warnings\n", totals.files, totals.errors, totals.warnings));
+  print(fmt::format("{}, {}, {}\n", counted(totals.files, "file"), counted(totals.errors, "error"),
+                    counted(totals.warnings, "warning")));
   return totals.errors == 0 ? 0 : exit_usage;
 }
 

@@ -34,6 +34,7 @@ int dispatch(int argc, char** argv) {
   run_sub->add_flag("--dry-run", run.dry_run, "List what would run; send nothing");
   run_sub->add_flag("--strict", run.strict, "Deviations from recommended and optional rules fail as well");
   run_sub->add_flag("--all-objects", run.all_objects, "No sampling in scenarios over many objects");
+  run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)");
   run_sub->add_flag("-q,--quiet", run.quiet, "Only what did not pass, and the summary");
   run_sub->add_option("--color", run.color, "auto, always or never")->check(CLI::IsMember({"auto", "always", "never"}));
@@ -52,6 +53,7 @@ int dispatch(int argc, char** argv) {
   ExplainCommand explain;
   auto* explain_sub = app.add_subcommand("explain", "Explain a requirement, a verb, a defect, 'verbs' or 'conditions'");
   explain_sub->add_option("topic", explain.topic, "For example OD-1003-06, download, verbs")->required();
+  explain_sub->add_flag("--markdown", explain.markdown, "With 'verbs': the whole reference page as Markdown");
 
   SelftestCommand selftest;
   auto* selftest_sub = app.add_subcommand("selftest", "Prove the suite: every defect of the reference node must be caught");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/catalogue.hpp"
 
+#include <set>
+
 #include "base/text.hpp"
 #include "scenario/files.hpp"
 #include "yaml/fields.hpp"
@@ -26,20 +28,42 @@ Requirement read_requirement(const yaml::Field& item) {
   out.level = fields.required("level").one_of({"mandatory", "conditional", "optional", "recommended"}).value_or("mandatory");
   out.applies = fields.optional("applies").text().value_or("");
   out.statement = fields.required("statement").text().value_or("");
-  out.passes = fields.optional("passes").text().value_or("");
+  out.passes = fields.required("passes").text().value_or("");
   out.warns = fields.optional("warns").text().value_or("");
   out.fails = fields.optional("fails").text().value_or("");
   if (const auto same_as = fields.optional("same_as")) out.same_as = texts(same_as);
   if (const auto cct = fields.optional("cct")) out.cct = texts(cct);
-  out.risk = fields.optional("risk").one_of({"read-only", "config", "nvm", "motion"}).value_or("read-only");
+  out.risk = fields.required("risk").one_of({"read-only", "config", "nvm", "motion"}).value_or("read-only");
   out.note = fields.optional("note").text().value_or("");
   out.proof = fields.optional("proof").one_of({"manual", "reference node only"}).value_or("");
   out.proof_reason = fields.optional("proof_reason").text().value_or("");
+  if (out.proof.empty() != out.proof_reason.empty()) item.error("'proof' and 'proof_reason' go together");
   out.line = item.node()->position().line;
   return out;
 }
 
 }  // namespace
+
+std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnostics& diagnostics, const std::string& path) {
+  std::vector<Requirement> out;
+  yaml::Fields fields(root, diagnostics, "requirement file");
+  (void)fields.required("format").number(1, 1);
+  const auto area = fields.required("area").text().value_or("");
+  std::set<std::string> names;
+  for (const auto& item : fields.required("requirements").items()) {
+    auto requirement = read_requirement(item);
+    requirement.area = area;
+    requirement.file = path;
+    if (item.node()->is_mapping() && !requirement.id.empty() && !names.insert(requirement.id).second) {
+      item.error("requirement id '" + requirement.id + "' is given twice");
+    }
+    for (const auto& name : requirement.same_as) {
+      if (!names.insert(name).second) item.error("requirement id '" + name + "' is given twice");
+    }
+    out.push_back(std::move(requirement));
+  }
+  return out;
+}
 
 Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::string>& problems, bool colour) {
   auto files = yaml_files_below(suites, "requirements");
@@ -50,19 +74,16 @@ Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::st
     if (!document) return std::unexpected(document.error());
     auto& diagnostics = document->diagnostics;
     if (document->root) {
-      yaml::Fields fields(*document->root, diagnostics, "requirement file");
-      (void)fields.required("format").number(1, 1);
-      const auto area = fields.required("area").text().value_or("");
-      for (const auto& item : fields.required("requirements").items()) {
-        auto requirement = read_requirement(item);
-        requirement.area = area;
-        requirement.file = file;
+      for (auto& requirement : load_requirements(*document->root, diagnostics, file)) {
         std::vector<std::string> names = requirement.same_as;
         names.push_back(requirement.id);
         for (const auto& name : names) {
-          if (!out.index_.emplace(name, out.requirements_.size()).second) {
-            item.error("requirement id '" + name + "' is given twice");
-          }
+          const auto [known, fresh] = out.index_.emplace(name, out.requirements_.size());
+          if (fresh || known->second >= out.requirements_.size()) continue;
+          const auto& other = out.requirements_[known->second];
+          if (other.file == file) continue;  // reported by load_requirements
+          diagnostics.error({requirement.line, 1}, 1, "requirement id '" + name + "' is given twice",
+                            "also in " + other.file + ":" + std::to_string(other.line));
         }
         out.requirements_.push_back(std::move(requirement));
       }

@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "result/run_result.hpp"
 #include "yaml/diagnostic.hpp"
+#include "yaml/node.hpp"
 
 namespace conform::scenario {
 
@@ -35,6 +36,9 @@ struct Requirement {
 
   [[nodiscard]] result::RequirementInfo info() const { return {id, clause, level, area, statement}; }
 };
+
+/// Reads one file of requirements. All mistakes are in `diagnostics`, ids given twice in the file included.
+[[nodiscard]] std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnostics& diagnostics, const std::string& path);
 
 class Catalogue {
  public:

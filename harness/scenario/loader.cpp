@@ -34,6 +34,7 @@ std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseCont
     out.rows.push_back(std::move(row));
   };
   if (field.node()->is_sequence()) {
+    if (field.node()->items().empty()) field.error("'for_each' without a row");
     std::optional<std::vector<std::string>> names;
     for (const auto& item : field.items()) {
       if (!item.node()->is_mapping() || item.node()->entries().empty()) {
@@ -44,7 +45,8 @@ std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseCont
       std::vector<std::string> keys;
       for (const auto& entry : item.node()->entries()) {
         keys.push_back(entry.key.text());
-        row.texts[entry.key.text()] = entry.value.text();
+        const yaml::Field value(&entry.value, context.diagnostics, "'" + entry.key.text() + "'");
+        row.texts[entry.key.text()] = value.text().value_or("");
       }
       row.name = item.node()->entries().front().value.text();
       if (!names) {
@@ -65,6 +67,7 @@ std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseCont
   out.variable = entry.key.text();
   const yaml::Field values(&entry.value, context.diagnostics, out.variable);
   if (entry.value.is_sequence()) {
+    if (entry.value.items().empty()) values.error("'for_each' without values");
     for (const auto& item : values.items()) {
       const auto text = item.text();
       if (!text) continue;
@@ -127,6 +130,8 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   if (const auto fresh = fields.optional("fresh")) {
     out.fresh = fresh.one_of<Fresh>({{"communication", Fresh::communication}, {"node", Fresh::node}}).value_or(Fresh::none);
   }
+  out.basic = fields.optional("basic").boolean().value_or(false);
+  out.slow = fields.optional("slow").boolean().value_or(false);
   if (const auto sample = fields.optional("sample")) out.sample = sample.number(1, 65536).value_or(0);
   context.names.clear();
   context.default_checks.clear();
@@ -184,9 +189,15 @@ ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnosti
   context.requirement = [&catalogue](std::string_view id) { return catalogue.canonical(id); };
   context.all_requirements = [&catalogue] { return catalogue.ids(); };
   std::set<std::string> ids;
-  for (const auto& item : fields.required("scenarios").items()) {
+  const auto list = fields.required("scenarios");
+  if (list && list.node()->is_sequence() && list.node()->items().empty()) list.error("a file without a scenario");
+  for (const auto& item : list.items()) {
+    if (!item.node()->is_mapping()) {
+      item.expected("a mapping with id, title and steps");
+      continue;
+    }
     auto scenario = parse_scenario(item, context, path);
-    if (!ids.insert(scenario.id).second) item.error("scenario id '" + scenario.id + "' is given twice");
+    if (item.node()->find("id") != nullptr && !ids.insert(scenario.id).second) item.error("scenario id '" + scenario.id + "' is given twice");
     out.scenarios.push_back(std::move(scenario));
   }
   return out;

@@ -139,6 +139,9 @@ class AwaitEmcy final : public Action {
     if (const auto after = fields.optional("after")) {
       out->after_ = after.text().value_or("");
       if (out->after_.starts_with('$')) out->after_.erase(0, 1);
+      if (std::ranges::find(context.names, out->after_) == context.names.end()) {
+        after.error("unknown label '" + out->after_ + "'", "labels come from as:");
+      }
     }
     const auto save = [&](const char* key, std::string& name) {
       if (const auto field = fields.optional(key)) {

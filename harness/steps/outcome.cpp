@@ -184,8 +184,30 @@ struct StateWord {
 };
 constexpr StateWord state_words[] = {{"stopped", 0x04}, {"operational", 0x05}, {"pre-operational", 0x7F}, {"boot-up", 0x00}};
 
+constexpr std::string_view measures[] = {"count",         "period",     "shortest", "longest",    "first", "register", "latency", "segments",
+                                         "wrong_toggles", "difference", "unmarked", "empty_last", "bits",  "absent",   "longer",  "shorter"};
+
+/// A misspelt key is a misspelt outcome: the author knows no other word for it.
+void check_keys(const yaml::Field& field) {
+  if (field.node()->entries().empty()) field.error("an empty outcome", "write {value: 02h}, {range: 1..240}, {abort: 0609 0030h}, ...");
+  const auto known = outcome_keys();
+  for (const auto& entry : field.node()->entries()) {
+    if (entry.key.faulty() || std::ranges::find(known, entry.key.text()) != known.end()) continue;
+    const auto near = did_you_mean(entry.key.text(), known);
+    std::string hint = "known here: " + join(std::vector<std::string>(known.begin(), known.end()), ", ");
+    if (!near.empty()) {
+      hint = "did you mean '" + std::string(near) + "'?";
+    } else if (field.node()->flow() && entry.value.is_null()) {
+      hint = "a comma ends an entry of { }: write several values as [a, b], or quote the text";
+    }
+    yaml::Field(&entry.key, field.diagnostics(), "outcome").error("unknown outcome '" + entry.key.text() + "'", std::move(hint));
+  }
+}
+
 void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector<Outcome>& out) {
+  check_keys(field);
   auto fields = field.fields("outcome");
+  fields.allow_others();
   if (const auto abort = fields.optional("abort")) {
     for (const auto& item : abort.items_or_one()) {
       if (const auto text = item.text()) parse_abort(*text, item, out);
@@ -263,8 +285,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
       add(demand, "visible characters (20h-7Eh, 00h)");
     }
   }
-  for (const std::string_view name : {"count", "period", "shortest", "longest", "first", "register", "latency", "segments",
-                                      "wrong_toggles", "difference", "unmarked", "empty_last", "bits", "absent", "longer", "shorter"}) {
+  for (const auto name : measures) {
     const auto measure = fields.optional(name);
     if (!measure) continue;
     if (const auto bounds = read_bounds(measure)) {
@@ -348,8 +369,15 @@ std::string Outcome::words(Scope& scope, std::optional<canopen::DataType> type) 
   return join(parts, ", ");
 }
 
+std::vector<std::string_view> outcome_keys() {
+  std::vector<std::string_view> out = {"abort", "value", "mask", "one_of", "range", "size", "bytes", "text", "state"};
+  out.insert(out.end(), std::begin(measures), std::end(measures));
+  return out;
+}
+
 std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& names) {
   std::vector<Outcome> out;
+  if (field.node()->is_sequence() && field.node()->items().empty()) field.error("an empty list of outcomes");
   for (const auto& item : field.items_or_one()) {
     if (item.node()->is_mapping()) {
       parse_mapping(item, names, out);

@@ -73,6 +73,9 @@ struct Outcome {
 /// Names of a scenario an author may use at some place; unknown ones are diagnosed.
 using NameCheck = std::vector<std::string>;
 
+/// Keys of an outcome written as a mapping, for messages and for the schema's test.
+[[nodiscard]] std::vector<std::string_view> outcome_keys();
+
 /// Reads an outcome (or list of outcomes) of `expect`, `warn`, `fail` or `either: on`. Mistakes go to the field's diagnostics.
 [[nodiscard]] std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& names);
 

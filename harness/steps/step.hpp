@@ -93,6 +93,9 @@ struct Verb {
 [[nodiscard]] std::span<const Verb> verbs();
 [[nodiscard]] const Verb* find_verb(std::string_view name);
 
+/// Keys a step may have beside its verb, for messages and for the schema's test.
+[[nodiscard]] std::span<const std::string_view> common_step_keys();
+
 /// Reads a list of steps. All mistakes go to the diagnostics; unusable steps are left out.
 [[nodiscard]] std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context);
 

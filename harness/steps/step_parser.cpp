@@ -52,12 +52,14 @@ std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) 
       walk.values.push_back(*expression);
     }
   }
+  if (entry.value.is_sequence() && entry.value.items().empty()) values.error("'over' has no values to walk over");
   return walk;
 }
 
 std::vector<Branch> parse_branches(const yaml::Field& field, ParseContext& context) {
   std::vector<Branch> out;
   const auto known_before = context.names;
+  if (field.node()->is_sequence() && field.node()->items().empty()) field.error("'either' without a branch");
   for (const auto& item : field.items()) {
     auto fields = item.fields("branch of 'either'");
     Branch branch;
@@ -209,8 +211,11 @@ std::vector<std::string> parse_checks(const yaml::Field& field, const ParseConte
   return out;
 }
 
+std::span<const std::string_view> common_step_keys() { return common_keys; }
+
 std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context) {
   std::vector<Step> out;
+  if (list.node()->is_sequence() && list.node()->items().empty()) list.error("a list of steps without a step");
   for (const auto& item : list.items()) {
     if (auto step = parse_step(item, context)) out.push_back(std::move(*step));
   }

@@ -20,6 +20,9 @@ bool is_word_character(char c) {
 }  // namespace
 
 Result<std::vector<Token>> tokenize(std::string_view text) {
+  // The parsers recurse for every parenthesis and 'not': a bound on the text is a bound on the stack.
+  constexpr std::size_t longest = 1000;
+  if (text.size() > longest) return fail("a text of " + std::to_string(text.size()) + " characters", {}, "write at most 1000");
   std::vector<Token> out;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
@@ -55,18 +58,19 @@ Result<std::vector<Token>> tokenize(std::string_view text) {
       return fail("unexpected character '" + std::string(1, c) + "'", {}, "in '" + std::string(text) + "'");
     }
   }
-  // "0609 0030h", "8000 06A0h": a group of up to four hex digits followed by groups of four, the last one with h.
+  // "0609 0030h", "8000 06A0h", "2710 016E 3600h": groups of four hex digits, the last one with h.
+  const auto is_group = [&out](std::size_t i) { return i < out.size() && out[i].text.size() == 4 && is_hex_digits(out[i].text); };
+  const auto ends_number = [&out](std::size_t i) {
+    return i < out.size() && out[i].text.size() == 5 && out[i].text.back() == 'h' &&
+           is_hex_digits(std::string_view(out[i].text).substr(0, 4));
+  };
   std::vector<Token> joined;
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (is_hex_digits(out[i].text) && out[i].text.size() == 4 && i + 1 < out.size()) {
-      const auto& next = out[i + 1].text;
-      if (next.size() == 5 && next.back() == 'h' && is_hex_digits(std::string_view(next).substr(0, 4))) {
-        joined.push_back({out[i].text + next, out[i].offset});
-        ++i;
-        continue;
-      }
-    }
+    std::size_t last = i;
+    while (last < i + 3 && is_group(last)) ++last;
     joined.push_back(out[i]);
+    if (last == i || !ends_number(last)) continue;
+    while (i < last) joined.back().text += out[++i].text;
   }
   return joined;
 }

@@ -40,6 +40,7 @@ class Field {
   [[nodiscard]] explicit operator bool() const { return node_ != nullptr; }
   [[nodiscard]] bool present() const { return node_ != nullptr; }
   [[nodiscard]] const Node* node() const { return node_; }
+  [[nodiscard]] Diagnostics& diagnostics() const { return *diagnostics_; }
   [[nodiscard]] const std::string& name() const {
     return name_;
   }  ///< as in messages: "'key'" or "an item of 'key'"
