@@ -101,6 +101,11 @@ struct MappedEntry {
 
   [[nodiscard]] Result<std::uint64_t> resolve(Session& session) const {
     if (!object) return value.number(session);
+    // "$entry" may also stand for the whole 32-bit value.
+    if (const auto text = object->text(); !bits && text.starts_with('$') && text.find(':') == std::string::npos) {
+      const auto* held = session.find(std::string_view(text).substr(1));
+      if (held != nullptr && !held->object && held->number) return *held->number;
+    }
     const auto mux = object->resolve(session);
     if (!mux) return std::unexpected(mux.error());
     std::uint64_t length = 0;
