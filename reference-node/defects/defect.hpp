@@ -47,5 +47,6 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable cob_id_defects();
 [[nodiscard]] DefectTable storage_defects();
 [[nodiscard]] DefectTable pdo_defects();
+[[nodiscard]] DefectTable structure_defects();
 
 }  // namespace refnode

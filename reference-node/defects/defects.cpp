@@ -23,7 +23,7 @@ DefectTable join(std::initializer_list<DefectTable (*)()> tables) {
 std::span<const Defect> defects() {
   static const DefectTable all =
       join({sdo_defects, abort_defects, dictionary_defects, history_defects, emergency_defects, nmt_defects,
-            heartbeat_defects, cob_id_defects, storage_defects, pdo_defects});
+            heartbeat_defects, cob_id_defects, storage_defects, pdo_defects, structure_defects});
   return all;
 }
 

@@ -26,6 +26,11 @@ const std::vector<std::string> conversations = {
     "read 1400 05\nread 1400 06\nread 1600 00\nread 1600 01\nread 1600 41\nread 1800 00\nread 1800 01\nread 1800 02\n"
     "read 1800 04\nread 1800 05\nread 1A00 00\nread 1A00 01\nread 1A00 41\nread 2007 00\nread 2001 02\nread 5FFE 00\n"
     "read 6207 01\nread A480 00\nread D000 00\nread FFFF 00\nread 2000 15\n",
+    // Data type entries and the structure of objects.
+    "read 0001 00\nread 0003 00\nread 0005 00\nread 0007 00\nread 0007 01\nread 0009 00\nread 000C 00\nread 0011 00\n"
+    "read 0017 00\nread 0020 00\nread 0020 03\nread 0021 00\nread 0021 01\nread 0022 00\nread 0023 00\nread 0023 04\n"
+    "read 0026 00\nread 0040 00\nread 0040 01\nread 0060 00\nread 1018 FF\nsdo 23 07 00 00 08 00 00 00\n"
+    "sdo 23 18 10 FF 00 00 00 00\nread 1018 FF\nread 2002 01\nread 2000 10\n",
     // Writing what must not be written.
     "sdo 23 00 10 00 91 01 0F 00\nsdo 2F 01 10 00 00 00 00 00\nsdo 23 02 10 00 00 00 00 00\nsdo 23 08 10 00 54 45 53 54\n"
     "sdo 23 09 10 00 54 45 53 54\nsdo 23 0A 10 00 54 45 53 54\nsdo 2F 10 10 00 01 00 00 00\nsdo 2F 11 10 00 01 00 00 00\n"
