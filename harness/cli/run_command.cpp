@@ -150,6 +150,7 @@ int run_command(const RunCommand& options) {
   run_options.plan.selection = {options.select, options.requirements, options.exclude};
   run_options.plan.seed = options.seed;
   run_options.plan.all_objects = options.all_objects;
+  run_options.plan.slow = options.slow || options.simulate;
   for (const auto& id : options.requirements) {
     if (id.find('*') == std::string::npos && suites->catalogue.find(id) == nullptr) {
       const auto near = did_you_mean(id, suites->catalogue.ids());

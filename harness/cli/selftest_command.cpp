@@ -64,7 +64,7 @@ int selftest_command(const SelftestCommand& options) {
   out += fmt::format("{} of {} defects killed; {} requirements proven, {} judged but unproven\n",
                      matrix->defects.size() - matrix->survivors().size(), matrix->defects.size(), matrix->proven.size(),
                      matrix->unproven.size());
-  if (options.verbose && !matrix->unproven.empty()) out += "unproven: " + join(matrix->unproven, ", ") + "\n";
+  if (options.verbose && options.defects.empty() && !matrix->unproven.empty()) out += "unproven: " + join(matrix->unproven, ", ") + "\n";
   print(out);
   if (!options.markdown.empty()) {
     auto written = write_file_atomically(options.markdown, markdown(*matrix));

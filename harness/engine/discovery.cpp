@@ -2,6 +2,7 @@
 #include "engine/discovery.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
@@ -12,6 +13,9 @@ namespace conform::engine {
 namespace {
 
 using Kind = steps::SdoAnswer::Kind;
+
+/// A user at a bench with the wrong node-ID must not wait long for being told.
+constexpr Duration boot_limit = std::chrono::seconds(1);
 
 /// An abort that says "not here"; every other answer shows that the entry exists.
 bool says_absent(const steps::SdoAnswer& answer) {
@@ -44,7 +48,7 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
     auto answer = session.peek({Index(0x1000), SubIndex(0)});
     if (!answer) return std::unexpected(answer.error());
     if (answer->kind != Kind::silence) {
-      out.alive = true;
+      out.alive = out.answers = true;
       out.heard = "SDO answer";
       return out;
     }
@@ -60,8 +64,18 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
       }
       continue;
     }
-    out.alive = attempt > 0;
+    out.alive = true;
     out.heard = "frames of the node, but no SDO answer";
+  }
+  if (!out.alive && may_command) {
+    const auto from = session.capture().size();
+    if (auto sent = session.nmt(canopen::NmtCommand::reset_node); !sent) return std::unexpected(sent.error());
+    auto heard = session.recorder().find(from, from_node, session.now() + std::min(session.profile().boot_time, boot_limit));
+    if (!heard) return std::unexpected(heard.error());
+    if (*heard) {
+      out.alive = true;
+      out.heard = "a boot-up message, but no SDO answer";
+    }
   }
   if (out.heard.empty()) out.heard = "nothing";
   return out;

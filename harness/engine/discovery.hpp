@@ -12,11 +12,13 @@ namespace conform::engine {
 
 /// How the probe ended.
 struct Liveness {
-  bool alive = false;
+  bool alive = false;     ///< an SDO answer, a boot-up message, a heartbeat or an EMCY was seen
+  bool answers = false;   ///< the default SDO server answers
   std::string heard;  ///< "SDO answer", "heartbeat: stopped", "nothing"
 };
 
-/// Listens and asks (1000h:00), for three SDO time-outs at most. `may_command`: a stopped node may be told to enter Pre-operational.
+/// Listens and asks (1000h:00), for three SDO time-outs at most. `may_command`: a stopped node may be told to enter
+/// Pre-operational, and a silent one is reset: its boot-up message shows that it is there and only its SDO server is not.
 [[nodiscard]] Result<Liveness> probe(RunSession& session, bool may_command);
 
 /// Reads every entry of the session's dictionary; afterwards the dictionary holds what is present or claimed. Read-only.

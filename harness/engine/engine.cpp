@@ -58,7 +58,12 @@ class Run {
     auto liveness = probe(session_, may(scenario::Risk::config));
     if (!liveness) return std::unexpected(liveness.error());
     alive_ = liveness->alive;
+    mute_ = alive_ && !liveness->answers;
     if (!alive_) return {};
+    if (mute_) {
+      out_.notes.push_back("heard " + liveness->heard);
+      return {};
+    }
     if (may(scenario::Risk::config)) {
       if (auto done = enter_pre_operational(); !done) return done;
     }
@@ -106,6 +111,7 @@ class Run {
         if (options_.on_case_end) options_.on_case_end(out_, i);
         continue;
       }
+      if (mute_ && !plan_[i].scenario->basic) continue;
       if (options_.on_case_begin) options_.on_case_begin(out_, i);
       auto done = run_case(plan_[i], result);
       if (options_.on_case_end) options_.on_case_end(out_, i);
@@ -113,6 +119,13 @@ class Run {
         abort_run(done.error());
         break;
       }
+      if (fell_silent_) {
+        abort_run(*fell_silent_);
+        break;
+      }
+    }
+    if (mute_) {
+      abort_run({"the device is there, but its default SDO server does not answer", {}, "only what needs no answer was judged"});
     }
     finish();
   }
@@ -195,9 +208,16 @@ class Run {
   Result<void> after_case(CaseResult& out, bool may_command) {
     recorder_.stop_producing("");
     if (session_.silence_seen() || out.verdict == Verdict::fail || out.verdict == Verdict::inconclusive) {
-      auto there = still_alive(may_command);
+      auto there = mute_ ? Result<Life>(Life::boots) : still_alive(may_command);
       if (!there) return std::unexpected(there.error());
-      if (!*there) {
+      if (*there == Life::boots) {
+        // It is there and violates the rule under test by its silence; what would come next has nothing to ask.
+        if (!mute_) {
+          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer, not even after a reset", {}, {}};
+        }
+        return {};
+      }
+      if (*there == Life::gone) {
         recall_silence(out);
         return fail("the device vanished during " + out.name(), {}, "no SDO answer, and no boot-up message after a reset");
       }
@@ -219,24 +239,28 @@ class Run {
     return {};
   }
 
-  Result<bool> still_alive(bool may_command) {
+  enum class Life : std::uint8_t { answers, boots, gone };
+
+  Result<Life> still_alive(bool may_command) {
     session_.clear_silence_seen();
+    bool boots = false;
     for (int attempt = 0; attempt < 2; ++attempt) {
       auto answer = session_.peek({Index(0x1000), SubIndex(0)});
       if (!answer) return std::unexpected(answer.error());
-      if (answer->kind != steps::SdoAnswer::Kind::silence) return true;
+      if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
       if (!may_command || attempt > 0) continue;
       // Perhaps it was left in Stopped, or the SDO server hangs: Pre-operational first, then a reset.
       if (auto sent = session_.nmt(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
       if (auto waited = session_.wait_until(session_.now() + profile_.nmt_time); !waited) return std::unexpected(waited.error());
       answer = session_.peek({Index(0x1000), SubIndex(0)});
       if (!answer) return std::unexpected(answer.error());
-      if (answer->kind != steps::SdoAnswer::Kind::silence) return true;
+      if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
       auto booted = reset(canopen::NmtCommand::reset_node);
       if (!booted) return std::unexpected(booted.error());
+      boots = *booted;
       out_.notes.push_back("the device had to be reset because it did not answer any more");
     }
-    return false;
+    return boots ? Life::boots : Life::gone;
   }
 
   /// A device that is gone has not violated the rule under test: what rests on silence is no verdict.
@@ -341,6 +365,8 @@ class Run {
   RunSession session_;
   CaseRunner runner_;
   bool alive_ = false;
+  bool mute_ = false;                  ///< alive, but without a single SDO answer
+  std::optional<Error> fell_silent_;   ///< during the run
   std::vector<PlannedCase> plan_;
   std::map<Multiplexer, Bytes> snapshot_;
   result::RunResult out_;

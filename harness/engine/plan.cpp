@@ -70,11 +70,16 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
           planned.held_back = "held back: risk '" + std::string(to_string(scenario.risk)) + "' is not allowed in this run (--allow " +
                               std::string(to_string(scenario.risk)) + ")";
         }
+        if (scenario.slow && !options.slow && planned.held_back.empty()) {
+          planned.held_back = "held back: takes long on a real bus (--slow)";
+        }
         out.push_back(std::move(planned));
       }
     }
   }
-  std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) { return planned.scenario->risk; });
+  std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
+    return std::pair(!planned.scenario->basic, planned.scenario->risk);
+  });
   return out;
 }
 

@@ -27,9 +27,10 @@ struct PlanOptions {
   scenario::Risk allowed = scenario::Risk::motion;
   std::uint64_t seed = 1;      ///< of the sample taken from long queries
   bool all_objects = false;    ///< no sampling
+  bool slow = true;            ///< scenarios that take long on a real bus
 };
 
-/// In the order of the suite, read-only scenarios first, then config, nvm and motion: what can do harm comes last.
+/// In the order of the suite, basic scenarios first, then read-only ones, then config, nvm and motion: what can do harm comes last.
 [[nodiscard]] std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                                             const device::Dictionary& dictionary, const PlanOptions& options);
 

@@ -54,6 +54,8 @@ struct Scenario {
   std::uint64_t sample = 0;    ///< most instances of a query, 0: all
   Risk risk = Risk::read_only;
   Fresh fresh = Fresh::none;
+  bool basic = false;          ///< judged first, and even when the device answers no SDO request at all
+  bool slow = false;           ///< takes long on a real bus: held back there unless asked for
   std::vector<steps::Step> steps;
   std::vector<steps::Step> cleanup;
   std::vector<std::string> requirements;  ///< ids its expectations decide, sorted; "$name" ones resolved per row

@@ -103,6 +103,49 @@ TEST_CASE("when nothing is heard every case is an error, none a failure, and the
   CHECK(result::exit_code(out.run) == 3);
 }
 
+TEST_CASE("a device that is there but answers no SDO request fails the basic rule, and nothing else is judged") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice&, const can::Frame&, BusTime) { return true; };
+  const auto out = play(device, R"(
+  - id: other
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+  - id: served
+    title: t
+    basic: true
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[0].id == "test/served");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(out.run.cases[1].verdict == Verdict::error);
+  CHECK(result::exit_code(out.run) == 1);
+}
+
+TEST_CASE("a device whose SDO server stays dead after a request has failed that rule, and the rest is not judged") {
+  ScriptedDevice device;
+  bool dead = false;
+  device.before = [&dead](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    dead = dead || frame.data[0] == 0x2B;
+    return dead;
+  };
+  const auto out = play(device, change_1017 + R"(
+  - id: next
+    title: t
+    risk: motion
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(out.run.cases[1].verdict == Verdict::error);
+  CHECK(out.run.aborted.has_value());
+}
+
 TEST_CASE("when the device vanishes half-way what was judged stays and the rest neither passes nor fails") {
   ScriptedDevice device;
   device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
