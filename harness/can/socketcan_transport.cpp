@@ -31,6 +31,11 @@ constexpr std::size_t batch_size = 64;
 // How far behind the last clock read an own frame's stamp may lie before the clock is asked again.
 constexpr Duration fresh = std::chrono::milliseconds(100);
 
+// While the deadline is far away the socket itself waits, for `patience` at first: one system call for
+// waiting and reading. The kernel rounds up to its ticks, at most 10 ms.
+constexpr Duration patience_of_socket = std::chrono::milliseconds(20);
+constexpr Duration far_away = std::chrono::milliseconds(30);
+
 std::string reason(int error) { return std::generic_category().message(error); }
 
 template <typename T>
@@ -112,7 +117,7 @@ Result<std::unique_ptr<SocketCanTransport>> SocketCanTransport::open(const std::
                                                                      const SocketCanOptions& options) {
   auto facts = preflight(interface_name);
   if (!facts) return std::unexpected(facts.error());
-  Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW));
+  Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
   if (!socket.valid()) return fail("cannot open a CAN socket: " + reason(errno), interface_name);
   std::unique_ptr<SocketCanTransport> made(
       new SocketCanTransport(std::move(socket), std::move(*facts), options, true));
@@ -162,6 +167,10 @@ Result<void> SocketCanTransport::configure() {
   if (::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     return failed("bind the socket to the interface");
   }
+  const timeval patience{
+      .tv_sec = 0,
+      .tv_usec = std::chrono::duration_cast<std::chrono::microseconds>(patience_of_socket).count()};
+  may_block_ = set_option(fd, SOL_SOCKET, SO_RCVTIMEO, patience);
   backlog_drops_at_start_ = backlog_drops();
   return {};
 }
@@ -283,12 +292,13 @@ Result<bool> SocketCanTransport::wait_until(BusTime deadline) {
   return ready > 0 && entries[2].revents == 0;
 }
 
-Result<void> SocketCanTransport::drain() {
+Result<void> SocketCanTransport::drain(Look look) {
   if (next_event_ == events_.size()) {
     events_.clear();
     next_event_ = 0;
   }
-  const int count = ::recvmmsg(socket_.get(), batch_->messages.data(), batch_size, MSG_DONTWAIT, nullptr);
+  const int count = ::recvmmsg(socket_.get(), batch_->messages.data(), batch_size,
+                               look == Look::patient ? MSG_WAITFORONE : MSG_DONTWAIT, nullptr);
   if (count < 0) {
     if (errno == EAGAIN || errno == EINTR) return {};
     return std::unexpected(fault(errno));
@@ -331,14 +341,15 @@ Result<void> SocketCanTransport::take(std::size_t index, std::optional<BusTime>&
   if (!kernel_stamp) {
     last_stamp_ = std::max(last_stamp_, read_clock());
   } else if (const auto quick = clock_.convert_if_between(*kernel_stamp, last_stamp_, last_now_ + fresh);
-             own && quick) {
+             (own || !options_.receive_own) && quick) {
     last_stamp_ = *quick;
   } else {
     last_stamp_ = clock_.convert(*kernel_stamp, last_stamp_, read_clock());
   }
   const Frame frame = from_kernel(raw);
   if (frame.error) note_error_frame(frame);
-  if (!own) health_.worst_lateness = std::max<Duration>(health_.worst_lateness, read_clock() - last_stamp_);
+  if (!own && options_.receive_own)
+    health_.worst_lateness = std::max<Duration>(health_.worst_lateness, read_clock() - last_stamp_);
   events_.push_back({frame, last_stamp_, own ? Direction::transmitted : Direction::received});
   return {};
 }
@@ -355,6 +366,7 @@ void SocketCanTransport::note_error_frame(const Frame& frame) {
 }
 
 Result<std::optional<BusEvent>> SocketCanTransport::receive(BusTime deadline) {
+  bool patient = may_block_;
   for (bool last_look = false;;) {
     if (next_event_ < events_.size()) {
       if (events_[next_event_].time > deadline) return std::nullopt;
@@ -362,15 +374,19 @@ Result<std::optional<BusEvent>> SocketCanTransport::receive(BusTime deadline) {
     }
     if (auto error = not_usable()) return std::unexpected(*error);
     if (last_look) return std::nullopt;
+    auto look = Look::at_once;
     if (echo_expected_) {
       echo_expected_ = false;  // most interfaces have it ready: look without asking poll() first
+    } else if (patient && std::max(last_now_, last_stamp_) + far_away <= deadline) {
+      patient = false;  // after one try poll() takes over, which also hears the other descriptors
+      look = Look::patient;
     } else {
       const auto more_time = wait_until(deadline);
       if (!more_time) return std::unexpected(more_time.error());
       last_look = !*more_time;
     }
     // A fault behind good frames waits: dead_ and link_down_ report it when the frames have been handed out.
-    if (auto done = drain(); !done && next_event_ == events_.size()) return std::unexpected(done.error());
+    if (auto done = drain(look); !done && next_event_ == events_.size()) return std::unexpected(done.error());
   }
 }
 

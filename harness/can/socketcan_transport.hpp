@@ -19,8 +19,9 @@ namespace conform::can {
 
 struct SocketCanOptions {
   std::uint64_t receive_buffer =
-      64U << 20U;            ///< bytes asked for; without CAP_NET_ADMIN the kernel grants less
-  bool receive_own = true;   ///< own frames come back; a device does not want them
+      64U << 20U;  ///< bytes asked for; without CAP_NET_ADMIN the kernel grants less
+  /// Own frames come back. A device does not want them, and nobody asks it when exactly a frame came.
+  bool receive_own = true;
   int wake_descriptor = -1;  ///< when readable, receive() returns before its deadline; not owned
   Duration send_bound = std::chrono::milliseconds(500);  ///< how long send() waits for a full transmit queue
 };
@@ -48,7 +49,8 @@ class SocketCanTransport final : public Transport {
 
   SocketCanTransport(Descriptor socket, InterfaceFacts facts, const SocketCanOptions& options, bool is_can);
   [[nodiscard]] Result<void> configure();
-  [[nodiscard]] Result<void> drain();
+  enum class Look : std::uint8_t { at_once, patient };
+  [[nodiscard]] Result<void> drain(Look look);
   [[nodiscard]] Result<void> take(std::size_t index, std::optional<BusTime>& current);
   void note_error_frame(const Frame& frame);
   [[nodiscard]] std::optional<Error> not_usable();
@@ -70,6 +72,7 @@ class SocketCanTransport final : public Transport {
   BusTime last_stamp_{};
   // Clock reads are system calls on some machines; the last one often is good enough to judge a stamp by.
   mutable BusTime last_now_{};
+  bool may_block_ = false;      // the socket has a time limit of its own
   bool echo_expected_ = false;  // something was sent, so a look at the socket is worth while before waiting
   BusHealth health_;
   std::uint32_t overflow_count_ = 0;        // SO_RXQ_OVFL as of the last frame

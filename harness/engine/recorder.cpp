@@ -25,12 +25,12 @@ Result<bool> Recorder::pump(BusTime deadline) {
   if (stop_requested()) return broken({stopped, {}, {}});
   auto until = deadline;
   for (const auto& running : running_) until = std::min(until, running.due);
-  // Virtual time needs no slices: only a real wait can be too long for the user.
-  if (!transport_.info().is_virtual || stop_ != nullptr) until = std::min(until, std::max(now() + stop_latency, now()));
+  if (waits_in_slices_) until = std::min(until, recent_ + stop_latency);
   auto event = transport_.receive(until);
   if (!event) return broken(event.error());
   if (*event) {
     capture_.add(**event);
+    recent_ = std::max(recent_, (**event).time);
     return true;
   }
   auto produced = produce_due();
@@ -59,12 +59,12 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   if (stop_requested()) return broken({stopped, {}, {}});
   auto sent = transport_.send(frame);
   if (!sent) return broken(sent.error());
-  auto echo = find(
-      from,
-      [&frame](const can::CapturedFrame& captured) {
-        return captured.direction == can::Direction::transmitted && captured.frame == frame;
-      },
-      now() + transmit_limit);
+  const auto is_echo = [&frame](const can::CapturedFrame& captured) {
+    return captured.direction == can::Direction::transmitted && captured.frame == frame;
+  };
+  // Nearly always the echo is there at once; only when it is not, the exact time matters.
+  auto echo = find(from, is_echo, recent_ + transmit_limit);
+  if (echo && !*echo) echo = find(from, is_echo, now() + transmit_limit);
   if (!echo) return std::unexpected(echo.error());
   if (!*echo) {
     return broken({"a frame was not transmitted within 1 s", transport_.info().name,

@@ -18,9 +18,10 @@ namespace conform::engine {
 class Recorder {
  public:
   /// `stop` becomes non-zero (a signal number) when the user wants the run to end.
-  Recorder(can::Transport& transport, const std::atomic<int>* stop) : transport_(transport), stop_(stop) {}
+  Recorder(can::Transport& transport, const std::atomic<int>* stop)
+      : transport_(transport), stop_(stop), waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {}
 
-  [[nodiscard]] BusTime now() const { return transport_.now(); }
+  [[nodiscard]] BusTime now() const { return recent_ = transport_.now(); }
   [[nodiscard]] const can::Capture& capture() const { return capture_; }
   [[nodiscard]] can::Capture& capture() { return capture_; }
   [[nodiscard]] can::Transport& transport() { return transport_; }
@@ -54,6 +55,9 @@ class Recorder {
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;
+  bool waits_in_slices_;  // virtual time needs no slices: only a real wait can be too long for the user
+  // It was at least this late when we last knew. Reading the clock costs as much as sending a frame on some machines.
+  mutable BusTime recent_{};
   bool ignore_stop_ = false;
   std::optional<Error> fault_;
   can::Capture capture_;
