@@ -139,12 +139,14 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   if (const auto for_each = fields.optional("for_each")) out.for_each = parse_for_each(for_each, context);
   if (const auto checks = fields.optional("checks")) context.default_checks = parse_checks(checks, context);
   if (const auto when = fields.optional("when")) out.when = steps::parse_condition_at(when, context.names);
+  const auto errors_before = context.diagnostics.error_count();
   if (const auto steps = fields.required("steps")) out.steps = parse_steps(steps, context);
   if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
 
   std::set<std::string> requirements;
   collect_checks(out.steps, requirements);
-  if (requirements.empty() && !out.steps.empty()) {
+  // Steps with mistakes are left out, and their checks with them.
+  if (requirements.empty() && !out.steps.empty() && context.diagnostics.error_count() == errors_before) {
     item.error("the scenario decides no requirement", "give an expectation 'checks: ID'");
   }
   // Words that rows give ("$rule") become the ids of all rows here; each instance knows its own.

@@ -107,7 +107,9 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
   if (found != table.end()) return found->clause;
   std::vector<std::string_view> known;
   for (const auto& word : table) known.push_back(word.word);
-  const auto near = did_you_mean(all, known);
+  auto near = did_you_mean(all, known);
+  static constexpr std::string_view with_value[] = {"access", "type", "size", "index", "holding"};
+  if (near.empty()) near = did_you_mean(words.front(), with_value);
   return fail("unknown property '" + all + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
 }
 

@@ -221,6 +221,15 @@ Result<TreePtr> parse_atom(TokenReader& in) {
       if (*phrase) return phrase;
     }
     in.rewind(at);
+    if (said_object) {
+      for (int i = 0; i < 2; ++i) in.take();
+      if (in.accept("is") || in.accept("are")) (void)in.accept("not");
+      static constexpr std::string_view properties[] = {"present", "absent", "claimed", "readable", "writable", "const"};
+      const std::string property(in.peek());
+      if (const auto near = did_you_mean(property, properties); !near.empty()) {
+        return fail("unknown property '" + property + "'", {}, "did you mean '" + std::string(near) + "'?");
+      }
+    }
     if (said_object) return fail("'object' must be followed by an object and 'is present', 'is writable', ...");
   }
   return parse_comparison(in);

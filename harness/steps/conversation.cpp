@@ -133,6 +133,8 @@ class LineParser {
         at_ = close + 1;
         auto pattern = parse_braces(inside, begin, close - begin + 1);
         if (!pattern) return false;
+        pattern->column = yaml::code_points(text_.substr(0, begin));
+        pattern->length = yaml::code_points(text_.substr(begin, at_ - begin));
         line.bytes.push_back(*pattern);
         continue;
       }

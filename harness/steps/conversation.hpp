@@ -33,6 +33,7 @@ struct BytePattern {
   std::string name;
   std::size_t from = 0, size = 0;            ///< name: bytes from..from+size; size 0: all that remain
   std::vector<AbortCode> passes, warns;      ///< abort
+  int column = 0, length = 1;                ///< code points in the line, for messages
 
   /// Number of bytes, or nullopt for "the rest".
   [[nodiscard]] std::optional<std::size_t> width() const;

@@ -100,14 +100,16 @@ class Talk final : public Action {
     if (lines_.empty() && problems.empty()) field.error("a conversation without lines");
     for (const auto& line : lines_) {
       for (const auto& pattern : line.bytes) {
+        auto position = field.node()->line_position(line.number);
+        position.column += pattern.column;
         if (pattern.kind == BytePattern::Kind::multiplexer && !object_) {
-          context.diagnostics.error(field.node()->line_position(line.number), 1, "{m} needs the object of the conversation",
+          context.diagnostics.error(position, pattern.length, "{m} needs the object of the conversation",
                                     "write talk: {object: 1008h:00, frames: ...} as a block");
         }
         if (pattern.kind != BytePattern::Kind::name) continue;
         const bool known = std::ranges::find(context.names, pattern.name) != context.names.end();
         if (line.kind == Line::Kind::send && !known) {
-          context.diagnostics.error(field.node()->line_position(line.number), 1, "unknown name {" + pattern.name + "}",
+          context.diagnostics.error(position, pattern.length, "unknown name {" + pattern.name + "}",
                                     "a line before it must have received it");
         } else if (!known) {
           context.know(pattern.name);

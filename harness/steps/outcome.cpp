@@ -394,6 +394,8 @@ std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& n
     } else if (*text == "unchanged") {
       outcome.kind = Outcome::Kind::unchanged;
       out.push_back(outcome);
+    } else if (*text == "abort") {
+      item.error("'abort' needs a code", "write abort 0609 0030h, or abort any");
     } else if (text->starts_with("abort ")) {
       parse_abort(std::string_view(*text).substr(6), item, out);
     } else {

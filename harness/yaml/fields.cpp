@@ -78,7 +78,9 @@ std::optional<std::uint64_t> Field::number(std::uint64_t min, std::uint64_t max)
   if (*value < min || *value > max) {
     const bool bounded = max != std::numeric_limits<std::uint64_t>::max();
     error(fmt::format("{} is {}", name_, node_->text()),
-          bounded ? fmt::format("allowed is {} to {}", min, max) : fmt::format("the least is {}", min));
+          min == max ? fmt::format("only {} is known here", min)
+          : bounded  ? fmt::format("allowed is {} to {}", min, max)
+                     : fmt::format("the least is {}", min));
     return std::nullopt;
   }
   return value;
