@@ -129,7 +129,9 @@ class Send final : public Action {
     if (id) {
       if (auto expression = parse_expression_at(id, context.names)) out->id_ = *expression;
     }
-    if (const auto data = fields.optional("data")) {
+    if (const auto data = fields.optional("data"); data && data.node()->text().starts_with('$')) {
+      if (auto expression = parse_expression_at(data, context.names)) out->named_data_ = *expression;
+    } else if (data) {
       if (auto bytes = data.bytes()) out->data_ = *bytes;
       if (out->data_.size() > 8) data.error("a CAN frame holds at most eight bytes");
     }
@@ -157,7 +159,14 @@ class Send final : public Action {
   Result<can::Frame> build(Session& session) const {
     const auto id = id_.number(session);
     if (!id) return std::unexpected(id.error());
-    auto frame = can::data_frame(CanId(static_cast<std::uint32_t>(*id)), data_);
+    auto data = data_;
+    if (!named_data_.empty()) {
+      auto value = named_data_.evaluate(session);
+      if (!value) return std::unexpected(value.error());
+      if (!value->bytes || value->bytes->size() > 8) return fail("'" + named_data_.text() + "' is not up to eight bytes", "scenario");
+      data = *value->bytes;
+    }
+    auto frame = can::data_frame(CanId(static_cast<std::uint32_t>(*id)), data);
     frame.remote = remote_;
     frame.extended = extended_ || *id > 0x7FF;
     if (dlc_) frame.dlc = static_cast<std::uint8_t>(*dlc_);
@@ -167,7 +176,7 @@ class Send final : public Action {
     return frame;
   }
 
-  Expression id_;
+  Expression id_, named_data_;
   Bytes data_;
   bool remote_ = false, extended_ = false;
   std::optional<std::uint64_t> dlc_;
@@ -380,7 +389,7 @@ class Collect final : public Action {
 };
 
 constexpr Verb table[] = {
-    {"send", "Send one frame, legal or not.", "id: CAN-ID\ndata: bytes\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
+    {"send", "Send one frame, legal or not.", "id: CAN-ID\ndata: bytes, or $name of saved ones\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
      "- send: {id: 80h, data: \"\"}", &Send::parse},
     {"frame", "Wait for a frame of the device.",
      "id: CAN-ID, or heartbeat, emcy, sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
