@@ -223,7 +223,7 @@ class AwaitFrame final : public Action {
     out.decisive = *found;
     out.data.assign(captured.frame.bytes().begin(), captured.frame.bytes().end());
     out.has_data = true;
-    if (captured.time < window->anchor + within_.least) {
+    if (within_.least.count() > 0 && captured.time < window->anchor + within_.least) {
       out.kind = Actual::Kind::mismatched;
       out.detail = frame_words(captured) + " too early, after " + relative(captured.time, *window);
       return out;

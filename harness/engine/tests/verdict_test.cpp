@@ -226,3 +226,22 @@ TEST_CASE("the next conversation line sees frames that came before it was reache
 )");
   CHECK(out.verdict_of("T-MUST") == Verdict::pass);
 }
+
+// Seen on a real socket: a TPDO that left the device between two requests of the step before was called "too early".
+TEST_CASE("a frame that comes while the step before is still asking is in time") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x23 && self.writes.empty()) self.send(can::data_frame(CanId(0x6A0), {1}));
+    return false;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - set_cob_id: {object: 1014h:00, to: 6B0h}
+      - frame: {id: 6A0h, within: 1 s}
+        checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+}
