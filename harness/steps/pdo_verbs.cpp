@@ -214,7 +214,7 @@ class SetPdo final : public Action {
     auto actual = read(session, object);
     if (!actual) return actual;
     const bool same = actual->kind == Actual::Kind::confirmed && load_le(actual->data) == wanted;
-    if (same || (wanted == 0 && is_absent(*actual))) {
+    if (same || (wanted == 0 && object.sub != SubIndex(2) && is_absent(*actual))) {
       actual->kind = Actual::Kind::confirmed;
       actual->detail = "confirmed";
       return actual;
