@@ -128,6 +128,8 @@ Result<Query::Holding> parse_holding(const std::vector<std::string_view>& words)
 }  // namespace
 
 Result<Query> Query::parse(std::string_view text) {
+  // Every 'not' recurses: a bound on the text is a bound on the stack.
+  if (text.size() > 1000) return fail("a query of " + std::to_string(text.size()) + " characters", {}, "write at most 1000");
   auto words = words_of(text);
   Query out;
   if (words.empty()) return fail("an empty query");
