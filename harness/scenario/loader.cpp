@@ -143,6 +143,16 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   if (const auto steps = fields.required("steps")) out.steps = parse_steps(steps, context);
   if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
 
+  if (out.risk == Risk::read_only) {
+    const steps::Step* change = steps::first_change(out.steps);
+    if (change == nullptr) change = steps::first_change(out.cleanup);
+    if (change != nullptr) {
+      context.diagnostics.error(change->position, change->length, "a read-only scenario may only upload from the device, and wait",
+                                "add risk: config to the scenario, or nvm or motion");
+    } else if (out.when && out.when->may_write()) {
+      item.error("the condition of a read-only scenario may write: '" + out.when->text() + "'", "add risk: config");
+    }
+  }
   std::set<std::string> requirements;
   collect_checks(out.steps, requirements);
   // Steps with mistakes are left out, and their checks with them.

@@ -37,6 +37,18 @@ class Talk final : public Action {
     return std::ranges::any_of(lines_, [](const Line& line) { return line.kind == Line::Kind::send; });
   }
 
+  /// Requests of uploads (initiate, segment, block) and aborts on the device's own request channel, and nothing else.
+  bool reads_only() const override {
+    return std::ranges::all_of(lines_, [](const Line& line) {
+      if (line.kind != Line::Kind::send) return true;
+      if (line.id != 0x600 || !line.add_node || line.remote || line.extended || line.bytes.empty()) return false;
+      const auto& first = line.bytes.front();
+      if (first.kind != BytePattern::Kind::exact || first.mask != 0xFF) return false;
+      const auto command = first.value & 0xE0U;
+      return command == 0x40 || command == 0x60 || command == 0x80 || command == 0xA0;
+    });
+  }
+
   Result<bool> begins(Session& session) const override {
     const auto& line = lines_.front();
     const auto object = resolve(session);
@@ -70,6 +82,7 @@ class Talk final : public Action {
         return mismatch(session, line, **found, "a frame where silence is due");
       }
       if (!*found) {
+        if (line.can_id(session.node()) == canopen::connection_set(session.node()).sdo_response) session.sdo_answer_may_be_late();
         out.kind = Actual::Kind::silence;
         out.detail = "no frame on " + to_string(line.can_id(session.node())) + " within " +
                      to_string(time_of(session, line)) + ", due: " + line.text;

@@ -17,6 +17,7 @@ class Require final : public Action {
     out->condition_ = *condition;
     return out;
   }
+  bool reads_only() const override { return !condition_.may_write(); }
   std::string words(Session&) const override { return "require " + condition_.text(); }
   Result<Actual> run(Session& session) const override {
     auto holds = condition_.evaluate(session);

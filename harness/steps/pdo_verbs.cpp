@@ -312,6 +312,7 @@ class PdoMapping final : public Action {
     }
     return pdo ? std::move(out) : nullptr;
   }
+  bool reads_only() const override { return true; }
   std::string words(Session& session) const override {
     return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);
   }

@@ -64,6 +64,7 @@ class Upload final : public Action {
     const auto object = object_.resolve(session);
     return "upload " + (object ? to_string(*object) : object_.text());
   }
+  bool reads_only() const override { return true; }
   const ObjectReference* object() const override { return &object_; }
 
   Result<Actual> run(Session& session) const override {

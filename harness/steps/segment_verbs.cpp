@@ -37,6 +37,7 @@ class Segments final : public Action {
     return "upload " + (object ? to_string(*object) : object_.text()) + " by segments" +
            (pause_ ? " with pauses of " + pause_->text() : "");
   }
+  bool reads_only() const override { return true; }
   const ObjectReference* object() const override { return &object_; }
 
   Result<Actual> run(Session& session) const override {
@@ -113,7 +114,7 @@ class Segments final : public Action {
     if (!*found) {
       out.kind = Actual::Kind::silence;
       out.detail = "no answer within " + to_string(session.profile().sdo_timeout);
-      session.sdo_channel_dirty();
+      session.sdo_answer_may_be_late();
       return std::optional<Bytes>();
     }
     session.consume(**found);

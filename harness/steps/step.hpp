@@ -32,6 +32,8 @@ class Action {
   [[nodiscard]] virtual Result<bool> begins(Session& /*session*/) const { return false; }
   /// Whether it sends something to the device (and so begins a new window for the steps that wait).
   [[nodiscard]] virtual bool acts() const { return true; }
+  /// Whether it cannot change anything: waits, and SDO uploads from the device under test. The tier `read-only` rests on it.
+  [[nodiscard]] virtual bool reads_only() const { return !acts(); }
   /// The entry it is about, for `current` and for printing values.
   [[nodiscard]] virtual const ObjectReference* object() const { return nullptr; }
 };
@@ -98,6 +100,9 @@ struct Verb {
 
 /// Reads a list of steps. All mistakes go to the diagnostics; unusable steps are left out.
 [[nodiscard]] std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context);
+
+/// The first step (walks, branches and conditions included) that may change or command something; nullptr when none.
+[[nodiscard]] const Step* first_change(const std::vector<Step>& list);
 
 /// Ids at `checks`; "$name" stands for a word of the instance's row.
 [[nodiscard]] std::vector<std::string> parse_checks(const yaml::Field& field, const ParseContext& context);

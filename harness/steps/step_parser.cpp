@@ -213,6 +213,22 @@ std::vector<std::string> parse_checks(const yaml::Field& field, const ParseConte
 
 std::span<const std::string_view> common_step_keys() { return common_keys; }
 
+const Step* first_change(const std::vector<Step>& list) {
+  for (const auto& step : list) {
+    if (step.action != nullptr && !step.action->reads_only()) return &step;
+    for (const auto* condition : {&step.when, &step.unless}) {
+      if (*condition && (*condition)->may_write()) return &step;
+    }
+    if (step.walk) {
+      if (const auto* inner = first_change(step.walk->steps)) return inner;
+    }
+    for (const auto& branch : step.branches) {
+      if (const auto* inner = first_change(branch.steps)) return inner;
+    }
+  }
+  return nullptr;
+}
+
 std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context) {
   std::vector<Step> out;
   if (list.node()->is_sequence() && list.node()->items().empty()) list.error("a list of steps without a step");
