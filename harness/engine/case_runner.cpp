@@ -47,7 +47,8 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   offenders_.clear();
   walk_value_.clear();
   stopped_because_.clear();
-  session_.begin_case();
+  entered_steps_ = false;
+  session_.begin_case(planned.scenario->risk);
   for (const auto& [name, text] : planned.names) session_.set(name, bind(text, session_, catalogue_));
   const auto& scenario = *planned.scenario;
   for (const auto& given : scenario.given) {
@@ -74,14 +75,19 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
       return {};
     }
   }
+  entered_steps_ = true;
   auto flow = run_steps(scenario.steps);
   if (!flow) {
     conclude();
     return std::unexpected(flow.error());
   }
   conclude();
-  // Cleanup judges nothing and always runs to its end.
-  for (const auto& step : scenario.cleanup) {
+  return run_cleanup(scenario.cleanup);
+}
+
+/// Cleanup judges nothing and always runs to its end.
+Result<void> CaseRunner::run_cleanup(const Steps& list) {
+  for (const auto& step : list) {
     if (step.action == nullptr) continue;
     const auto says = [this](const std::optional<steps::Condition>& condition, bool wanted) {
       if (!condition) return true;

@@ -21,6 +21,10 @@ class CaseRunner {
 
   /// Steps and cleanup; fills judgements, verdict and reason of `out`. Error: the environment failed; what was judged stays.
   [[nodiscard]] Result<void> run(const PlannedCase& planned, result::CaseResult& out);
+  /// Whether the last case came as far as its steps, so that there is something to clean up.
+  [[nodiscard]] bool entered_steps() const { return entered_steps_; }
+  /// The cleanup of a case that was stopped; faults end it.
+  void clean_up(const scenario::Scenario& scenario) { (void)run_cleanup(scenario.cleanup); }
 
  private:
   enum class Flow : std::uint8_t { go_on, stop };
@@ -31,6 +35,8 @@ class CaseRunner {
     std::size_t judged = 0;
   };
   using Steps = std::vector<steps::Step>;
+
+  [[nodiscard]] Result<void> run_cleanup(const Steps& list);
 
   /// The first entry of a `given` that the device has; nullopt when there is none.
   [[nodiscard]] Result<std::optional<Multiplexer>> look_for(const std::string& text);
@@ -58,6 +64,7 @@ class CaseRunner {
   std::string walk_value_;   ///< not empty: inside an `over`
   std::map<std::pair<const steps::Step*, std::string>, Offenders> offenders_;
   std::string stopped_because_;
+  bool entered_steps_ = false;
   std::map<Multiplexer, std::optional<std::uint64_t>> held_;  ///< bytes of entries without a fixed length, as asked
 };
 

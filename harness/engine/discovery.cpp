@@ -58,7 +58,7 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
     const auto& frame = session.capture().frames()[**heard].frame;
     if (frame.is_data(error_control) && frame.size() == 1 && frame.data[0] == 0x04 && may_command) {
       // Stopped: no SDO there, and legally so.
-      if (auto sent = session.nmt(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
+      if (auto sent = session.command(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
       if (auto waited = session.wait_until(session.now() + session.profile().nmt_time); !waited) {
         return std::unexpected(waited.error());
       }
@@ -69,7 +69,7 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
   }
   if (!out.alive && may_command) {
     const auto from = session.capture().size();
-    if (auto sent = session.nmt(canopen::NmtCommand::reset_node); !sent) return std::unexpected(sent.error());
+    if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent) return std::unexpected(sent.error());
     auto heard = session.recorder().find(from, from_node, session.now() + std::min(session.profile().boot_time, boot_limit));
     if (!heard) return std::unexpected(heard.error());
     if (*heard) {

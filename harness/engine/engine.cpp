@@ -16,6 +16,18 @@ namespace {
 using result::CaseResult;
 using result::Verdict;
 
+/// While values are put back the bus must be usable, whatever the user wants meanwhile. A second signal still ends the program.
+class StopHeld {
+ public:
+  explicit StopHeld(Recorder& recorder) : recorder_(recorder) { recorder_.ignore_stop(true); }
+  ~StopHeld() { recorder_.ignore_stop(false); }
+  StopHeld(const StopHeld&) = delete;
+  StopHeld& operator=(const StopHeld&) = delete;
+
+ private:
+  Recorder& recorder_;
+};
+
 /// Everything one run needs; one function per phase.
 class Run {
  public:
@@ -139,6 +151,7 @@ class Run {
     out.first_frame = recorder_.capture().size();
     const auto health = recorder_.transport().health();
     auto ran = runner_.run(planned, out);
+    const bool entered = runner_.entered_steps();
     out.end_frame = recorder_.capture().size();
     out.end = recorder_.now();
     if (ran) ran = after_case(out, planned.scenario->risk >= scenario::Risk::config);
@@ -146,7 +159,7 @@ class Run {
       // The environment failed in the middle: nothing of this case counts as passed or failed.
       out.verdict = Verdict::error;
       out.reason = ran.error().what == stopped ? "stopped by the user before the case ended" : ran.error().text();
-      restore_after_fault();
+      restore_after_fault(entered ? &planned : nullptr);
       return ran;
     }
     out.finished = true;
@@ -168,6 +181,7 @@ class Run {
 
   /// Pre-operational, SDO channel idle, and freshly reset where the scenario asks for it.
   Result<void> baseline(const scenario::Scenario& scenario) {
+    if (auto idle = session_.channel().make_idle(); !idle) return idle;
     if (!may(scenario::Risk::config)) return {};
     if (scenario.fresh != scenario::Fresh::none) {
       if (auto done = reset(scenario.fresh == scenario::Fresh::node ? canopen::NmtCommand::reset_node
@@ -181,7 +195,7 @@ class Run {
 
   Result<void> enter_pre_operational() {
     if (!session_.take_state_changed()) return {};
-    auto sent = session_.nmt(canopen::NmtCommand::pre_operational);
+    auto sent = session_.command(canopen::NmtCommand::pre_operational);
     if (!sent) return sent;
     (void)session_.take_state_changed();
     return session_.wait_until(session_.now() + profile_.nmt_time);
@@ -190,7 +204,7 @@ class Run {
   /// False: no boot-up message came.
   Result<bool> reset(canopen::NmtCommand command) {
     const auto from = recorder_.capture().size();
-    auto sent = session_.nmt(command);
+    auto sent = session_.command(command);
     if (!sent) return std::unexpected(sent.error());
     const auto id = 0x700U + profile_.node.value();
     auto booted = recorder_.find(
@@ -215,6 +229,7 @@ class Run {
         if (!mute_) {
           fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer, not even after a reset", {}, {}};
         }
+        note_not_put_back("the SDO server does not answer");
         return {};
       }
       if (*there == Life::gone) {
@@ -224,6 +239,8 @@ class Run {
     }
     auto changes = session_.take_journal();
     if (changes.empty()) return {};
+    // A stop request waits until everything is back: half a restore is the worst of all.
+    const StopHeld held(recorder_);
     if (auto ready = enter_pre_operational(); !ready) return ready;
     auto report = restore(session_, changes);
     if (!report) return std::unexpected(report.error());
@@ -250,7 +267,7 @@ class Run {
       if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
       if (!may_command || attempt > 0) continue;
       // Perhaps it was left in Stopped, or the SDO server hangs: Pre-operational first, then a reset.
-      if (auto sent = session_.nmt(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
+      if (auto sent = session_.command(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
       if (auto waited = session_.wait_until(session_.now() + profile_.nmt_time); !waited) return std::unexpected(waited.error());
       answer = session_.peek({Index(0x1000), SubIndex(0)});
       if (!answer) return std::unexpected(answer.error());
@@ -310,27 +327,38 @@ class Run {
   }
 
   /// The bus broke or the user stopped: values are put back if that is still possible.
-  void restore_after_fault() {
+  void restore_after_fault(const PlannedCase* planned) {
     recorder_.stop_producing("");
     const bool by_user = recorder_.fault() && recorder_.fault()->what == stopped;
-    auto changes = session_.take_journal();
     if (!by_user) {
-      for (const auto& change : changes) {
-        out_.notes.push_back("not put back, the bus is gone: " + to_string(change.object) + " was " + hex_bytes(change.before));
-      }
+      note_not_put_back("the bus or the device is gone");
       return;
     }
     recorder_.clear_fault();
-    recorder_.ignore_stop(true);
-    if (!changes.empty()) {
-      session_.sdo_channel_dirty();
-      auto report = restore(session_, std::move(changes));
-      if (report) {
-        for (const auto& left : report->left) out_.notes.push_back("could not be put back: " + left);
-      }
+    const StopHeld held(recorder_);
+    // An open transfer is ended, also where nothing was changed.
+    session_.sdo_channel_dirty();
+    if (auto idle = session_.channel().make_idle(); !idle) {
+      out_.notes.push_back("the SDO channel may not be idle: " + idle.error().text());
     }
+    // What is stored in the device only the scenario can put back.
+    if (planned != nullptr) runner_.clean_up(*planned->scenario);
+    // First the state: in Stopped no SDO would be answered.
     leave_pre_operational_behind();
-    recorder_.ignore_stop(false);
+    auto changes = session_.take_journal();
+    if (changes.empty()) return;
+    auto report = restore(session_, changes);
+    if (!report) {
+      out_.notes.push_back("values may not have been put back: " + report.error().text());
+      return;
+    }
+    for (const auto& left : report->left) out_.notes.push_back("could not be put back: " + left);
+  }
+
+  void note_not_put_back(const std::string& why) {
+    for (const auto& change : session_.take_journal()) {
+      out_.notes.push_back("not put back, " + why + ": " + to_string(change.object) + " was " + hex_bytes(change.before));
+    }
   }
 
   /// The state a device is left in; that it could not be commanded is said, not judged.
@@ -344,7 +372,10 @@ class Run {
   /// The device is left as it was found; what is not is said.
   void finish() {
     if (out_.aborted) return;
-    leave_pre_operational_behind();
+    {
+      const StopHeld held(recorder_);
+      leave_pre_operational_behind();
+    }
     auto now = snapshot(session_);
     if (!now) return;
     for (const auto& [object, before] : snapshot_) {

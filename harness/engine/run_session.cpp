@@ -10,6 +10,20 @@
 namespace conform::engine {
 namespace {
 constexpr Multiplexer emcy_entry{Index(0x1014), SubIndex(0)};
+
+/// Whether an SDO request may change something: downloads, expedited, segmented or by block. Commands that nothing defines
+/// change nothing in a server that heeds the standard, nor do frames too short to hold a request.
+bool is_sdo_write(const can::Frame& frame) {
+  if (frame.size() == 0) return false;
+  const auto specifier = frame.data[0] >> 5U;
+  return specifier == 0 || specifier == 1 || specifier == 6;
+}
+
+/// NMT commands to all nodes or to another one. Node-IDs beyond 127 are nobody's.
+bool commands_others(const can::Frame& frame, NodeId node) {
+  return !frame.extended && !frame.remote && !frame.error && frame.id == 0 && frame.size() >= 2 && frame.data[1] <= 127 &&
+         frame.data[1] != node.value();
+}
 }
 
 RunSession::RunSession(Recorder& recorder, const device::Profile& profile, device::Dictionary dictionary)
@@ -107,7 +121,11 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   if (found != nullptr && !found->access_open) return found->writable();
   const auto probed = writable_.find(object);
   if (probed != writable_.end()) return probed->second;
-  // The standard leaves rw or const open here: writing back what is there tells, and changes nothing.
+  // The standard leaves rw or const open here: writing back what is there tells, and changes nothing. A command is not tried.
+  if (found != nullptr && found->command) return found->writable();
+  if (auto allowed = needs(scenario::Risk::config, "try whether " + to_string(object) + " is writable"); !allowed) {
+    return std::unexpected(allowed.error());
+  }
   auto value = peek(object);
   if (!value) return std::unexpected(value.error());
   if (value->kind != steps::SdoAnswer::Kind::confirmed) return false;
@@ -161,7 +179,10 @@ Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Du
 
 Result<void> RunSession::will_change(Multiplexer object) {
   const auto* found = entry(object);
-  if (found == nullptr || !found->readable()) return {};
+  if (found != nullptr && !found->readable()) return {};
+  // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is all commands.
+  const bool program = object.index.value() >= 0x1F50 && object.index.value() <= 0x1F5F;
+  if (found == nullptr && (program || channel_.is_open())) return {};
   // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
   if (channel_.is_open() && before_write_.contains(object)) return {};
   auto before = peek(object);
@@ -172,15 +193,16 @@ Result<void> RunSession::will_change(Multiplexer object) {
   }
   before_write_[object] = before->data;
   // A write to a command has an effect, not a value: writing the old value back would be another command.
-  if (found->command) return {};
+  if (found != nullptr && found->command) return {};
   // Nor can a value be put back that only the device itself sets, like an error field.
-  if (found->may_change && !found->writable()) return {};
+  if (found != nullptr && found->may_change && !found->writable()) return {};
   if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) journal_.push_back({object, before->data});
   return {};
 }
 
 Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                               std::optional<Duration> timeout) {
+  if (auto allowed = needs(scenario::Risk::config, "write to the device"); !allowed) return std::unexpected(allowed.error());
   if (auto noted = will_change(object); !noted) return std::unexpected(noted.error());
   const auto copy = data;
   auto answer = channel_.download(object, std::move(data), mode, timeout);
@@ -204,7 +226,18 @@ std::optional<Bytes> RunSession::before_last_write(Multiplexer object) const {
   return found == before_write_.end() ? std::nullopt : std::optional(found->second);
 }
 
-Result<void> RunSession::nmt(canopen::NmtCommand command) {
+Result<void> RunSession::needs(scenario::Risk risk, std::string_view what) const {
+  if (risk_ >= risk) return {};
+  return fail("a scenario of risk '" + std::string(to_string(risk_)) + "' must not " + std::string(what), "scenario",
+              "give the scenario 'risk: " + std::string(to_string(risk)) + "'");
+}
+
+Result<void> RunSession::nmt(canopen::NmtCommand what) {
+  if (auto allowed = needs(scenario::Risk::config, "send NMT commands"); !allowed) return allowed;
+  return command(what);
+}
+
+Result<void> RunSession::command(canopen::NmtCommand command) {
   auto sent = recorder_.send(canopen::encode(command, node()));
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
@@ -216,6 +249,18 @@ Result<void> RunSession::nmt(canopen::NmtCommand command) {
 }
 
 Result<void> RunSession::send(const can::Frame& frame) {
+  const bool reads = frame.is_data(canopen::connection_set(node()).sdo_request) && !is_sdo_write(frame);
+  if (!reads) {
+    if (auto allowed = needs(scenario::Risk::config, "send anything but uploads"); !allowed) return allowed;
+  }
+  if (commands_others(frame, node())) {
+    if (auto allowed = needs(scenario::Risk::motion, "command other nodes"); !allowed) return allowed;
+  }
+  // A conversation must not take an answer that is late for the answer to its own request.
+  if (channel_.expects_late_answers() && frame.is_data(canopen::connection_set(node()).sdo_request)) {
+    if (auto idle = channel_.make_idle(); !idle) return idle;
+    channel_.dirty(false);
+  }
   auto sent = recorder_.send(frame);
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
@@ -247,7 +292,8 @@ void RunSession::device_was_reset(bool) {
   before_write_.clear();
 }
 
-void RunSession::begin_case() {
+void RunSession::begin_case(scenario::Risk risk) {
+  risk_ = risk;
   names_.clear();
   labels_.clear();
   journal_.clear();

@@ -13,6 +13,7 @@
 #include "device/profile.hpp"
 #include "engine/recorder.hpp"
 #include "engine/sdo_channel.hpp"
+#include "scenario/scenario.hpp"
 #include "steps/session.hpp"
 
 namespace conform::engine {
@@ -61,6 +62,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<void> send(const can::Frame& frame) override;
   [[nodiscard]] Result<void> will_change(Multiplexer object) override;
   void sdo_channel_dirty() override { channel_.dirty(false); }
+  void sdo_answer_may_be_late() override { channel_.dirty(true); }
   [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match, BusTime deadline) override {
     return recorder_.find(from, match, deadline);
   }
@@ -76,8 +78,10 @@ class RunSession final : public steps::Session {
   void device_was_reset(bool application_too) override;
 
   // For the engine
-  void begin_case();                                   ///< forgets names, labels, windows; the journal is empty
+  void begin_case(scenario::Risk risk);                ///< forgets names, labels, windows; the journal is empty
   void begin_step(bool acts, const steps::ObjectReference* object);
+  /// NMT commands of the engine itself: baseline, restore, liveness.
+  [[nodiscard]] Result<void> command(canopen::NmtCommand command);
   [[nodiscard]] std::optional<steps::Value> take_name(const std::string& name);
   [[nodiscard]] Recorder& recorder() { return recorder_; }
   [[nodiscard]] SdoChannel& channel() { return channel_; }
@@ -97,6 +101,8 @@ class RunSession final : public steps::Session {
  private:
   void note_sent(std::size_t index);
   [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }
+  /// An error where the risk of the running scenario does not cover what it is about to do.
+  [[nodiscard]] Result<void> needs(scenario::Risk risk, std::string_view what) const;
   void watch_emcy(Multiplexer object, const Bytes& value);
 
   Recorder& recorder_;
@@ -116,6 +122,7 @@ class RunSession final : public steps::Session {
   bool write_refused_ = false;
   bool state_changed_ = true;
   bool silence_seen_ = false;
+  scenario::Risk risk_ = scenario::Risk::read_only;
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;
   CanId home_emcy_can_id_;  ///< after a reset

@@ -25,6 +25,9 @@ class SdoChannel {
   /// ones may follow, so the channel rests as well; after a conversation a short pause is enough.
   void dirty(bool late_answers) { state_ = late_answers || state_ == State::late_answers ? State::late_answers : State::open; }
   [[nodiscard]] bool is_open() const { return state_ == State::open; }
+  [[nodiscard]] bool expects_late_answers() const { return state_ == State::late_answers; }
+  /// Ends what is open and lets late answers pass; nothing to do on an idle channel.
+  [[nodiscard]] Result<void> make_idle();
   /// Requests of the latest transfer: index of the first, stamp of the last frame we sent.
   [[nodiscard]] std::size_t first_request() const { return first_request_; }
   [[nodiscard]] BusTime last_request() const { return last_request_; }
@@ -32,7 +35,6 @@ class SdoChannel {
  private:
   template <typename Transfer>
   [[nodiscard]] Result<steps::SdoAnswer> run(Transfer transfer, Multiplexer object, std::optional<Duration> timeout);
-  [[nodiscard]] Result<void> make_idle();
 
   Recorder& recorder_;
   NodeId node_;

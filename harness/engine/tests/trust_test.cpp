@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// What would make a verdict or the device untrustworthy: half restores, dirty channels, blame for what was not reached.
+#include <csignal>
+
+#include "bench.hpp"
+#include "engine/run_session.hpp"
+
+using namespace conform;
+using namespace conform::engine;
+using namespace conform::engine::testing;
+using namespace std::chrono_literals;
+using result::Verdict;
+
+namespace {
+
+std::size_t count_of(const can::Capture& capture, const std::function<bool(const can::CapturedFrame&)>& match) {
+  return static_cast<std::size_t>(std::ranges::count_if(capture.frames(), match));
+}
+
+bool is_abort_of_ours(const can::CapturedFrame& captured) {
+  return captured.direction == can::Direction::transmitted && captured.frame.id == 0x601 && captured.frame.data[0] == 0x80;
+}
+
+}  // namespace
+
+TEST_CASE("a stop request in the middle of restoring waits until the values are back") {
+  ScriptedDevice device;
+  std::atomic<int> stop{0};
+  bool changed = false;
+  device.before = [&](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    // The first look of the restore at the changed entry.
+    if (changed && frame.data[0] == 0x40 && frame.data[1] == 0x17) stop = SIGINT;
+    if (!self.writes.empty()) changed = true;
+    return false;
+  };
+  RunOptions options;
+  options.stop = &stop;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)", options);
+  CHECK(stop == SIGINT);
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+  CHECK(out.run.signal == SIGINT);
+}
+
+TEST_CASE("a run stopped while the device is in Stopped puts values back all the same") {
+  ScriptedDevice device;
+  std::atomic<int> stop{0};
+  device.before = [&stop](ScriptedDevice& self, const can::Frame&, BusTime) {
+    if (self.nmt.empty() || self.nmt.back() != 0x02) return false;
+    stop = SIGINT;
+    return true;
+  };
+  RunOptions options;
+  options.stop = &stop;
+  (void)play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - nmt: stop
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+        expect: silence
+)", options);
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+}
+
+TEST_CASE("a stopped case is cleaned up, because only the scenario knows what it stored") {
+  ScriptedDevice device;
+  std::atomic<int> stop{0};
+  device.entries[0x101000] = {1};
+  device.entries[0x101001] = {1, 0, 0, 0};
+  device.before = [&stop](ScriptedDevice& self, const can::Frame&, BusTime) {
+    if (!self.writes.empty()) stop = SIGTERM;
+    return false;
+  };
+  RunOptions options;
+  options.stop = &stop;
+  (void)play(device, R"(
+  - id: a
+    title: t
+    risk: nvm
+    steps:
+      - download: {object: 1010h:01, value: 6576 6173h}
+        checks: T-MUST
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+    cleanup:
+      - download: {object: 1010h:01, value: 1234 5678h}
+)", options);
+  CHECK(device.writes == std::vector<std::string>{"1010h = 73 61 76 65", "1010h = 78 56 34 12"});
+}
+
+TEST_CASE("an entry that no description names is put back as well") {
+  ScriptedDevice device;
+  device.entries[0x200000] = {7};
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 2000h:00, bytes: "09"}
+        checks: T-MUST
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+  CHECK(device.entries.at(0x200000) == std::vector<std::uint8_t>{7});
+}
+
+TEST_CASE("a case begins with an idle channel, whatever the case before it left open") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: first
+    title: t
+    steps:
+      - talk: |
+          > 600+N: 40 00 10 00 00 00 00 00
+          < 580+N: 43 00 10 00 91 01 00 00
+        checks: T-MUST
+  - id: second
+    title: t
+    steps:
+      - talk: |
+          > 600+N: 40 00 10 00 00 00 00 00
+          < 580+N: 43 00 10 00 91 01 00 00
+        checks: T-MUST
+)");
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[1].verdict == Verdict::pass);
+  CHECK(count_of(out.capture, is_abort_of_ours) >= 1);
+}
+
+TEST_CASE("a conversation does not take a late answer for its own") {
+  ScriptedDevice device;
+  bool late = false;
+  int seen = 0;
+  device.before = [&late, &seen](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x80 && late) {
+      late = false;
+      self.send(can::data_frame(CanId(0x581), {0x4B, 0x17, 0x10, 0, 0x55, 0x55, 0, 0}));
+      return true;
+    }
+    if (frame.data[1] != 0x17 || self.nmt.empty()) return false;
+    late = ++seen == 3;  // discovery and snapshot read it before
+    return late;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+      - talk: |
+          > 600+N: 40 00 10 00 00 00 00 00
+          < 580+N: 43 00 10 00 91 01 00 00
+        checks: T-OTHER
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::pass);
+}
+
+TEST_CASE("other nodes are commanded by scenarios of the highest risk only") {
+  const auto commands_others = [](const can::CapturedFrame& captured) {
+    return captured.frame.id == 0 && captured.direction == can::Direction::transmitted && captured.frame.data[1] != 1;
+  };
+  const std::string broadcast = R"(
+    steps:
+      - talk: |
+          > 000: 01 00
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)";
+  ScriptedDevice device;
+  const auto refused = play(device, "  - id: a\n    title: t\n    risk: nvm" + broadcast);
+  CHECK(refused.only().verdict == Verdict::inconclusive);
+  CHECK(count_of(refused.capture, commands_others) == 0);
+  ScriptedDevice other;
+  const auto sent = play(other, "  - id: a\n    title: t\n    risk: motion" + broadcast);
+  CHECK(sent.only().verdict == Verdict::pass);
+  CHECK(count_of(sent.capture, commands_others) == 1);
+}
+
+TEST_CASE("a session of read-only risk uploads and sends nothing else") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  const auto profile = device::default_profile(NodeId(1));
+  RunSession session(recorder, profile, device::dictionary_of(profile));
+  session.begin_case(scenario::Risk::read_only);
+  const Multiplexer entry{Index(0x1017), SubIndex(0)};
+  CHECK(session.upload(entry, std::nullopt).has_value());
+  CHECK_FALSE(session.download(entry, {1, 0}, canopen::SdoDownload::Mode::automatic, std::nullopt).has_value());
+  CHECK_FALSE(session.is_writable(entry).has_value());
+  CHECK_FALSE(session.nmt(canopen::NmtCommand::start).has_value());
+  CHECK_FALSE(session.send(can::data_frame(CanId(0x080), {})).has_value());
+  CHECK_FALSE(session.send(can::data_frame(CanId(0x601), {0x2B, 0x17, 0x10, 0, 1, 0, 0, 0})).has_value());
+  CHECK_FALSE(session.send(can::data_frame(CanId(0x601), {0xC2, 0x17, 0x10, 0, 2, 0, 0, 0})).has_value());
+  CHECK(session.send(can::data_frame(CanId(0x601), {0x40, 0x17, 0x10, 0, 0, 0, 0, 0})).has_value());
+  CHECK(device.writes.empty());
+  CHECK(device.nmt.empty());
+}
+
+TEST_CASE("a command is not written to find out whether it is writable") {
+  ScriptedDevice device;
+  device.entries[0x101000] = {1};
+  device.entries[0x101001] = {1, 0, 0, 0};
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    when: 1010h:01 is writable
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+  CHECK(device.writes.empty());
+}
