@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session without a bus: entries, names and facts are what the test puts into it.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text.hpp"
+#include "steps/session.hpp"
+
+namespace conform::steps {
+
+class FakeSession final : public Session {
+ public:
+  // What the test arranges.
+  std::map<std::string, Value, std::less<>> names;
+  std::map<Multiplexer, Bytes> entries;
+  std::set<std::string, std::less<>> features;
+  std::map<Multiplexer, Bytes> defaults;
+  std::size_t triggers = 0;
+  bool described = false, sweeps = false, factory = false, remote = false;
+  Result<Value> current_value = fail("no entry");
+  device::Profile device_profile = device::default_profile(NodeId(5));
+  device::Dictionary known;
+  can::Capture trace;
+  std::vector<can::Frame> sent;
+  BusTime time{};
+
+  // Scope
+  [[nodiscard]] const Value* find(std::string_view name) const override {
+    const auto found = names.find(name);
+    return found == names.end() ? nullptr : &found->second;
+  }
+  [[nodiscard]] NodeId node() const override { return NodeId(5); }
+  [[nodiscard]] Result<Value> current() override { return current_value; }
+  [[nodiscard]] Result<Value> read(Multiplexer object) override {
+    const auto found = entries.find(object);
+    if (found == entries.end()) return fail(to_string(object) + " cannot be read");
+    return Value::of_bytes(found->second);
+  }
+  [[nodiscard]] Result<Value> declared(Multiplexer object, Declared what) override {
+    const auto found = defaults.find(object);
+    if (what != Declared::default_value || found == defaults.end()) return fail("nothing is known of " + to_string(object));
+    return Value::of_bytes(found->second);
+  }
+
+  // Facts
+  [[nodiscard]] Result<bool> is_present(Multiplexer object, bool whole_object) override {
+    if (!whole_object) return entries.contains(object);
+    for (const auto& [mux, data] : entries) {
+      if (mux.index == object.index) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] bool is_claimed(Multiplexer object, bool) const override { return known.has(object.index); }
+  [[nodiscard]] Result<bool> is_readable(Multiplexer object) override { return entries.contains(object); }
+  [[nodiscard]] Result<bool> is_writable(Multiplexer object) override {
+    const auto* entry = known.find(object);
+    return entry != nullptr && entry->writable();
+  }
+  [[nodiscard]] std::string access_of(Multiplexer object) const override {
+    const auto* entry = known.find(object);
+    return entry == nullptr ? std::string() : std::string(device::to_string(entry->access));
+  }
+  [[nodiscard]] bool may_change(Multiplexer object) const override {
+    const auto* entry = known.find(object);
+    return entry != nullptr && entry->may_change;
+  }
+  [[nodiscard]] bool claims(std::string_view feature) const override { return features.contains(feature); }
+  [[nodiscard]] std::size_t error_triggers() const override { return triggers; }
+  [[nodiscard]] bool factory_defaults() const override { return factory; }
+  [[nodiscard]] bool can_send_remote_frames() const override { return remote; }
+  [[nodiscard]] bool is_described() const override { return described; }
+  [[nodiscard]] bool tries_all_objects() const override { return sweeps; }
+
+  // Session
+  [[nodiscard]] const device::Profile& profile() const override { return device_profile; }
+  [[nodiscard]] const device::Dictionary& dictionary() const override { return known; }
+  [[nodiscard]] const can::Capture& capture() const override { return trace; }
+  [[nodiscard]] BusTime now() const override { return time; }
+  [[nodiscard]] Result<SdoAnswer> upload(Multiplexer, std::optional<Duration>) override { return fail("no bus"); }
+  [[nodiscard]] Result<SdoAnswer> download(Multiplexer, Bytes, canopen::SdoDownload::Mode, std::optional<Duration>) override {
+    return fail("no bus");
+  }
+  [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer) const override { return std::nullopt; }
+  [[nodiscard]] Result<void> nmt(canopen::NmtCommand) override { return fail("no bus"); }
+  [[nodiscard]] Result<void> send(const can::Frame& frame) override {
+    sent.push_back(frame);
+    return {};
+  }
+  [[nodiscard]] Result<void> will_change(Multiplexer) override { return {}; }
+  void sdo_channel_dirty() override {}
+  void sdo_answer_may_be_late() override {}
+  [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match, BusTime deadline) override {
+    for (auto i = from; i < trace.size(); ++i) {
+      if (trace.frames()[i].time <= deadline && match(trace.frames()[i])) return std::optional(i);
+    }
+    return std::optional<std::size_t>();
+  }
+  [[nodiscard]] Result<void> wait_until(BusTime until) override {
+    time = until;
+    return {};
+  }
+  [[nodiscard]] Window window() const override { return {used_, {}}; }
+  [[nodiscard]] Result<Window> window_after(std::string_view label) const override {
+    return fail("no label '" + std::string(label) + "'");
+  }
+  void consume(std::size_t index) override { used_ = std::min(index + 1, trace.size()); }
+  [[nodiscard]] CanId emcy_can_id() const override { return CanId(0x85); }
+  void label(std::string_view, std::size_t) override {}
+  void set(std::string name, Value value) override { names.insert_or_assign(std::move(name), std::move(value)); }
+  void produce(Production) override {}
+  void stop_producing(std::string_view) override {}
+  void device_was_reset(bool) override {}
+
+ private:
+  std::size_t used_ = 0;
+};
+
+}  // namespace conform::steps
