@@ -71,6 +71,8 @@ class Session : public Facts {
   [[nodiscard]] virtual Result<void> will_change(Multiplexer object) = 0;
   /// The SDO channel was left in an unknown state (a conversation, a time-out): make it idle before the next use.
   virtual void sdo_channel_dirty() = 0;
+  /// An answer that was due did not come: it may come yet, and must not be taken for the answer to the next request.
+  virtual void sdo_answer_may_be_late() = 0;
 
   /// Index of the first captured frame at or after `from` that matches and is stamped not after `deadline`. Looks at what is
   /// recorded, then receives. nullopt: the deadline passed on the bus.
