@@ -19,6 +19,7 @@ using steps::Step;
 constexpr std::size_t evidence_before = 6;
 constexpr std::size_t evidence_after = 2;
 constexpr std::size_t offenders_named = 8;
+constexpr std::uint64_t most_values = 65536;
 
 /// Binds what for_each gave: objects as such, ids and other words as words, everything else as late expressions.
 steps::Value bind(const std::string& text, RunSession& session, const scenario::Catalogue& catalogue) {
@@ -48,12 +49,18 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   walk_value_.clear();
   stopped_because_.clear();
   entered_steps_ = false;
+  outermost_ = nullptr;
   session_.begin_case(planned.scenario->risk);
   for (const auto& [name, text] : planned.names) session_.set(name, bind(text, session_, catalogue_));
   const auto& scenario = *planned.scenario;
   for (const auto& given : scenario.given) {
     auto entry = look_for(given.query);
-    if (!entry) return std::unexpected(entry.error());
+    if (!entry) {
+      if (session_.recorder().fault()) return std::unexpected(entry.error());
+      stopped_because_ = "whether the device has " + given.query + " could not be decided: " + entry.error().what;
+      conclude();
+      return {};
+    }
     if (!*entry) {
       out.verdict = Verdict::not_applicable;
       out.reason = "the device has no " + given.query;
@@ -65,8 +72,8 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
     auto holds = scenario.when->evaluate(session_);
     if (!holds) {
       if (session_.recorder().fault()) return std::unexpected(holds.error());
-      out.verdict = Verdict::inconclusive;
-      out.reason = "the condition '" + scenario.when->text() + "' could not be decided: " + holds.error().what;
+      stopped_because_ = "the condition '" + scenario.when->text() + "' could not be decided: " + holds.error().what;
+      conclude();
       return {};
     }
     if (!*holds) {
@@ -76,6 +83,7 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
     }
   }
   entered_steps_ = true;
+  list_ = &scenario.steps;
   auto flow = run_steps(scenario.steps);
   if (!flow) {
     conclude();
@@ -132,6 +140,7 @@ Result<std::optional<Multiplexer>> CaseRunner::look_for(const std::string& text)
 
 Result<CaseRunner::Flow> CaseRunner::run_steps(const Steps& list) {
   for (const auto& step : list) {
+    if (&list == list_) outermost_ = &step;
     auto flow = run_step(step);
     if (!flow || *flow == Flow::stop) return flow;
   }
@@ -167,8 +176,15 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     const auto low = range.low.number(session_);
     const auto high = range.high.number(session_);
     if (!low || !high) return cannot_go_on(step, low ? high.error() : low.error());
-    // An empty range is legal (1..$count with a count of 0); a huge one is the author's slip.
-    for (auto value = *low; value <= *high && values.size() < 65536; ++value) values.push_back(steps::Value::of_number(value));
+    // An empty range is legal (1..$count - 1 with a count of 0); a huge one is the author's slip, and a part of it no proof.
+    if (static_cast<std::int64_t>(*high) < static_cast<std::int64_t>(*low)) continue;
+    if (*high - *low >= most_values || values.size() + (*high - *low) >= most_values) {
+      return cannot_go_on(step, {"more than " + std::to_string(most_values) + " values to walk over", "scenario", {}});
+    }
+    for (auto value = *low;; ++value) {
+      values.push_back(steps::Value::of_number(value));
+      if (value == *high) break;
+    }
   }
   for (const auto& set : walk.sets) {
     if (set != "restricted CAN-IDs") {
@@ -182,8 +198,9 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     }
   }
   const bool outermost = walk_value_.empty();
+  const auto outer = walk_value_.empty() ? std::string() : walk_value_ + ", ";
   for (const auto& value : values) {
-    walk_value_ = value.number ? hex(*value.number, *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2)) : value.text();
+    walk_value_ = outer + (value.number ? hex(*value.number, *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2)) : value.text());
     session_.set(walk.name, value);
     auto flow = run_steps(walk.steps);
     if (!flow || *flow == Flow::stop) {
@@ -191,7 +208,11 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
       return flow;
     }
   }
-  if (outermost) finish_walk();
+  if (outermost) {
+    finish_walk();
+  } else {
+    walk_value_ = outer.substr(0, outer.size() - 2);
+  }
   return Flow::go_on;
 }
 
@@ -240,14 +261,14 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
   std::ranges::sort(checks);
   const auto repeated = std::ranges::unique(checks);
   checks.erase(repeated.begin(), repeated.end());
-  if (checks.empty()) return judge(step, actual);
   Actual seen = actual;
   if (seen.kind == Actual::Kind::matched) {
     seen.kind = Actual::Kind::mismatched;
     seen.detail = "what came next is none of the ways listed";
   }
+  if (checks.empty()) return set_up_failed(step, seen);
   for (const auto& requirement : checks) {
-    record(step, requirement, {Verdict::fail, "not one of the ways the standard leaves open"}, seen);
+    record(step, requirement, {capped(requirement), "not one of the ways the standard leaves open"}, seen);
   }
   return Flow::stop;
 }
@@ -264,16 +285,26 @@ std::vector<std::string> CaseRunner::checks_of(const Step& step) const {
   return out;
 }
 
+CaseRunner::Flow CaseRunner::set_up_failed(const Step& step, const Actual& actual) {
+  auto finding = make_finding(step, "", {Verdict::inconclusive, "a set-up step failed, so what follows could not be judged"}, actual);
+  stopped_because_ = "set-up failed: " + finding.step + ": " + finding.actual;
+  out_->setup_findings.push_back(std::move(finding));
+  return Flow::stop;
+}
+
+Verdict CaseRunner::capped(const std::string& requirement) const {
+  const auto* known = catalogue_.find(requirement);
+  const bool binding = strict_ || known == nullptr || (known->level != "recommended" && known->level != "optional");
+  return binding ? Verdict::fail : Verdict::warn;
+}
+
 Result<CaseRunner::Flow> CaseRunner::judge(const Step& step, const Actual& actual) {
   const auto checks = checks_of(step);
   if (checks.empty()) {
     auto grade = steps::grade(step.expectation, actual, "mandatory", strict_, session_);
     if (!grade) return cannot_go_on(step, grade.error());
     if (grade->verdict == Verdict::pass || grade->verdict == Verdict::warn) return Flow::go_on;
-    auto finding = make_finding(step, "", {Verdict::inconclusive, "a set-up step failed, so what follows could not be judged"}, actual);
-    stopped_because_ = "set-up failed: " + finding.step + ": " + finding.actual;
-    out_->setup_findings.push_back(std::move(finding));
-    return Flow::stop;
+    return set_up_failed(step, actual);
   }
   for (const auto& requirement : checks) {
     const auto* known = catalogue_.find(requirement);
@@ -310,21 +341,47 @@ void CaseRunner::record(const Step& step, const std::string& requirement, const 
   ++target.expectations;
   target.verdict = worst(target.verdict, grade.verdict);
   const bool in_walk = !walk_value_.empty();
-  if (in_walk) ++offenders_[{&step, requirement}].judged;
+  if (in_walk) ++offenders(step, requirement).judged;
   if (grade.verdict == Verdict::pass || grade.verdict == Verdict::not_applicable) return;
   if (in_walk) {
-    auto& offenders = offenders_[{&step, requirement}];
-    offenders.values.push_back(walk_value_ + ": " + actual.words());
-    if (offenders.values.size() > 1) return;
-    offenders.finding = target.findings.size();
+    auto& all = offenders(step, requirement);
+    all.values.push_back(walk_value_ + ": " + actual.words());
+    if (all.values.size() > 1) {
+      // One finding for all, with the evidence of the first of the worst.
+      auto& told = target.findings[all.finding];
+      if (told.verdict < grade.verdict) told = make_finding(step, requirement, grade, actual);
+      return;
+    }
+    all.finding = target.findings.size();
   }
   target.findings.push_back(make_finding(step, requirement, grade, actual));
 }
 
+CaseRunner::Offenders& CaseRunner::offenders(const Step& step, const std::string& requirement) {
+  const auto found = std::ranges::find_if(
+      offenders_, [&](const Offenders& each) { return each.step == &step && each.requirement == requirement; });
+  if (found != offenders_.end()) return *found;
+  Offenders fresh;
+  fresh.step = &step;
+  fresh.requirement = requirement;
+  return offenders_.emplace_back(std::move(fresh));
+}
+
+void CaseRunner::collect_open(const Steps& list, int from_line, std::vector<std::string>& out) const {
+  for (const auto& step : list) {
+    if (step.position.line >= from_line) {
+      const auto checks = checks_of(step);
+      out.insert(out.end(), checks.begin(), checks.end());
+    }
+    if (step.walk) collect_open(step.walk->steps, from_line, out);
+    for (const auto& branch : step.branches) collect_open(branch.steps, from_line, out);
+  }
+}
+
 void CaseRunner::finish_walk() {
-  for (auto& [key, offenders] : offenders_) {
+  for (const auto& offenders : offenders_) {
     if (offenders.values.empty()) continue;
-    auto& finding = judgement(key.second).findings[offenders.finding];
+    auto& finding = judgement(offenders.requirement).findings[offenders.finding];
     std::string text = std::to_string(offenders.values.size()) + " of " + std::to_string(offenders.judged) + " values: ";
     for (std::size_t i = 0; i < std::min(offenders.values.size(), offenders_named); ++i) {
       text += (i == 0 ? "" : "; ") + offenders.values[i];
@@ -394,6 +451,15 @@ void CaseRunner::conclude() {
     for (const auto& requirement : out_->requirements) {
       auto& target = judgement(requirement);
       if (target.expectations == 0) target.verdict = Verdict::inconclusive;
+    }
+    // Nor has passed what was judged in part only.
+    if (outermost_ != nullptr) {
+      std::vector<std::string> open;
+      collect_open(*list_, outermost_->position.line, open);
+      for (const auto& requirement : open) {
+        auto& target = judgement(requirement);
+        target.verdict = worst(target.verdict, Verdict::inconclusive);
+      }
     }
   }
   auto verdict = Verdict::not_applicable;

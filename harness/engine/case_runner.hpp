@@ -30,6 +30,8 @@ class CaseRunner {
   enum class Flow : std::uint8_t { go_on, stop };
   /// Findings of one expectation over the values of an `over`, to be told as one.
   struct Offenders {
+    const steps::Step* step = nullptr;
+    std::string requirement;
     std::size_t finding = 0;
     std::vector<std::string> values;
     std::size_t judged = 0;
@@ -44,6 +46,7 @@ class CaseRunner {
   [[nodiscard]] Result<Flow> run_step(const steps::Step& step);
   [[nodiscard]] Result<Flow> run_walk(const steps::Step& step);
   [[nodiscard]] Result<Flow> run_branches(const steps::Step& step, const steps::Actual& actual);
+  [[nodiscard]] Flow set_up_failed(const steps::Step& step, const steps::Actual& actual);
   [[nodiscard]] Result<Flow> judge(const steps::Step& step, const steps::Actual& actual);
   /// A name without a value, an entry that cannot be read: the scenario cannot go on, the device is not blamed.
   [[nodiscard]] Result<Flow> cannot_go_on(const steps::Step& step, const Error& error);
@@ -53,6 +56,11 @@ class CaseRunner {
                                              const steps::Actual& actual);
   [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t begin, std::optional<std::size_t> decisive) const;
   [[nodiscard]] result::Judgement& judgement(const std::string& requirement);
+  [[nodiscard]] Offenders& offenders(const steps::Step& step, const std::string& requirement);
+  /// Ids that steps at or behind a place in the file would still have decided.
+  void collect_open(const Steps& list, int from_line, std::vector<std::string>& out) const;
+  /// A failure of a rule that only recommends is a warning, as everywhere.
+  [[nodiscard]] result::Verdict capped(const std::string& requirement) const;
   void finish_walk();
   void conclude();
 
@@ -62,9 +70,11 @@ class CaseRunner {
   result::CaseResult* out_ = nullptr;
   std::size_t step_begin_ = 0;
   std::string walk_value_;   ///< not empty: inside an `over`
-  std::map<std::pair<const steps::Step*, std::string>, Offenders> offenders_;
+  std::vector<Offenders> offenders_;   ///< in the order of the first judgement: addresses must not decide any order
   std::string stopped_because_;
   bool entered_steps_ = false;
+  const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs
+  const Steps* list_ = nullptr;             ///< that list
   std::map<Multiplexer, std::optional<std::uint64_t>> held_;  ///< bytes of entries without a fixed length, as asked
 };
 

@@ -435,6 +435,12 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
     }
     return false;
   };
+  // "Anything but": with no pass expected, success must not take in what is ruled out.
+  if (expectation.pass.empty()) {
+    auto ruled_out = in(expectation.fail);
+    if (!ruled_out) return std::unexpected(ruled_out.error());
+    if (*ruled_out) return Grade{Verdict::fail, "an outcome that is ruled out"};
+  }
   static const std::vector<Outcome> success{Outcome{}};
   const auto& pass = expectation.pass.empty() ? success : expectation.pass;
   auto hit = in(pass);

@@ -224,3 +224,109 @@ TEST_CASE("a command is not written to find out whether it is writable") {
   CHECK(out.only().verdict == Verdict::pass);
   CHECK(device.writes.empty());
 }
+
+TEST_CASE("alternatives of a set-up step of which none came stop the case") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        either:
+          - if: abort any
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(out.only().verdict == Verdict::inconclusive);
+  CHECK(out.only().setup_findings.size() == 1);
+}
+
+TEST_CASE("alternatives of a rule that only recommends warn when none came") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-SHOULD
+        either:
+          - if: abort any
+)");
+  CHECK(out.verdict_of("T-SHOULD") == Verdict::warn);
+}
+
+TEST_CASE("what is ruled out fails when nothing else is said") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+        fail: {value: 0000 0191h}
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+}
+
+TEST_CASE("a requirement judged in part only has not passed when the case stops") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: [T-MUST, T-SHOULD]
+      - upload: {object: 2345h:00}
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::inconclusive);
+  CHECK(out.verdict_of("T-SHOULD") == Verdict::pass);
+}
+
+TEST_CASE("a range too long to walk over is not walked in part") {
+  ScriptedDevice device;
+  const auto walk = [](const std::string& range) {
+    return R"(
+  - id: a
+    title: t
+    steps:
+      - let: {none: 0}
+      - over: {value: [)" + range + R"(]}
+        steps:
+          - upload: {object: 1000h:00}
+            checks: T-MUST
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+)";
+  };
+  CHECK(play(device, walk("0..FFFF FFFFh")).only().verdict == Verdict::inconclusive);
+  ScriptedDevice other;
+  const auto empty = play(other, walk("1..$none - 1"));
+  CHECK(empty.only().verdict == Verdict::pass);
+  CHECK(empty.only().judgements.size() == 1);
+}
+
+TEST_CASE("the one finding of a walk shows the worst of its values") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] != 0x2B) return false;
+    self.abort(frame, frame.data[4] == 1 ? 0x08000000 : 0x06010002);
+    return true;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - over: {time: [1, 2]}
+        steps:
+          - download: {object: 1017h:00, value: $time}
+            checks: T-MUST
+            expect: abort 0609 0030h
+            warn: abort 0800 0000h
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  REQUIRE(out.only().judgements.front().findings.size() == 1);
+  CHECK(out.only().judgements.front().findings.front().verdict == Verdict::fail);
+}
