@@ -23,7 +23,7 @@ FAMILIES = [
     ("ro-write-accepted", "OD-ACC-01", "cia301/dictionary*"),
     ("missing-object-wrong-abort", "OD-GEN-04", "cia301/dictionary*"),
     ("1010-wrong-signature-accepted", "OD-1010-08", "cia301/storage*"),
-    ("1003-oldest-first", "OD-1003-12", "cia301/dictionary/1003*"),
+    ("1003-oldest-first", "OD-1003-12", "cia301/emergency/history*"),
     ("1014-lock-missing", "OD-1014-06", "cia301/cob-id*"),
 ]
 
