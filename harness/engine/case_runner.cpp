@@ -416,6 +416,7 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   out.actual_bytes.assign(actual.data.begin(), actual.data.end());
   out.reason = grade.reason;
   out.evidence = evidence(step_begin_, actual.decisive);
+  out.frames_seen = session_.capture().size();
   return out;
 }
 

@@ -17,6 +17,9 @@ struct Liveness {
   std::string heard;  ///< "SDO answer", "heartbeat: stopped", "nothing"
 };
 
+/// Whether a frame can only come from the device: SDO response, error control, EMCY where the standard puts it.
+[[nodiscard]] bool is_from_node(const RunSession& session, const can::CapturedFrame& captured);
+
 /// Listens and asks (1000h:00), for three SDO time-outs at most. `may_command`: a stopped node may be told to enter
 /// Pre-operational, and a silent one is reset: its boot-up message shows that it is there and only its SDO server is not.
 [[nodiscard]] Result<Liveness> probe(RunSession& session, bool may_command);

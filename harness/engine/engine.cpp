@@ -157,7 +157,7 @@ class Run {
     if (ran) ran = after_case(out, planned.scenario->risk >= scenario::Risk::config);
     if (!ran) {
       // The environment failed in the middle: nothing of this case counts as passed or failed.
-      out.verdict = Verdict::error;
+      withdraw(out, vanished_ ? last_heard() : 0);
       out.reason = ran.error().what == stopped ? "stopped by the user before the case ended" : ran.error().text();
       restore_after_fault(entered ? &planned : nullptr);
       return ran;
@@ -227,13 +227,13 @@ class Run {
       if (*there == Life::boots) {
         // It is there and violates the rule under test by its silence; what would come next has nothing to ask.
         if (!mute_) {
-          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer, not even after a reset", {}, {}};
+          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer" + (may_command ? ", not even after a reset" : ""), {}, {}};
         }
         note_not_put_back("the SDO server does not answer");
         return {};
       }
       if (*there == Life::gone) {
-        recall_silence(out);
+        vanished_ = true;
         return fail("the device vanished during " + out.name(), {}, "no SDO answer, and no boot-up message after a reset");
       }
     }
@@ -261,6 +261,7 @@ class Run {
   Result<Life> still_alive(bool may_command) {
     session_.clear_silence_seen();
     bool boots = false;
+    const auto from = recorder_.capture().size();
     for (int attempt = 0; attempt < 2; ++attempt) {
       auto answer = session_.peek({Index(0x1000), SubIndex(0)});
       if (!answer) return std::unexpected(answer.error());
@@ -277,14 +278,30 @@ class Run {
       boots = *booted;
       out_.notes.push_back("the device had to be reset because it did not answer any more");
     }
-    return boots ? Life::boots : Life::gone;
+    // A heartbeat or any other frame meanwhile shows that only its SDO server is gone.
+    return boots || last_heard() > from ? Life::boots : Life::gone;
   }
 
-  /// A device that is gone has not violated the rule under test: what rests on silence is no verdict.
-  static void recall_silence(CaseResult& out) {
+  /// Index behind the last frame of the device, 0 when none came.
+  [[nodiscard]] std::size_t last_heard() const {
+    const auto& frames = recorder_.capture().frames();
+    for (auto i = frames.size(); i > 0; --i) {
+      if (is_from_node(session_, frames[i - 1])) return i;
+    }
+    return 0;
+  }
+
+  /// The case did not come to its end: nothing of it has passed, and a device that is gone has not violated a rule by its
+  /// silence. Only what was found while the device was still heard afterwards remains.
+  static void withdraw(CaseResult& out, std::size_t last_heard) {
+    out.verdict = Verdict::error;
     for (auto& judgement : out.judgements) {
-      if (judgement.verdict == Verdict::fail || judgement.verdict == Verdict::warn) judgement.verdict = Verdict::error;
-      for (auto& finding : judgement.findings) finding.verdict = Verdict::error;
+      judgement.verdict = Verdict::error;
+      for (auto& finding : judgement.findings) {
+        if (finding.frames_seen >= last_heard) finding.verdict = Verdict::error;
+        judgement.verdict = worst(judgement.verdict, finding.verdict);
+      }
+      out.verdict = worst(out.verdict, judgement.verdict);
     }
   }
 
@@ -396,6 +413,7 @@ class Run {
   RunSession session_;
   CaseRunner runner_;
   bool alive_ = false;
+  bool vanished_ = false;
   bool mute_ = false;                  ///< alive, but without a single SDO answer
   std::optional<Error> fell_silent_;   ///< during the run
   std::vector<PlannedCase> plan_;

@@ -94,9 +94,10 @@ Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
   auto answer = peek(object);
   if (!answer) return std::unexpected(answer.error());
   using Kind = steps::SdoAnswer::Kind;
-  const bool present = answer->kind == Kind::confirmed ||
-                       (answer->kind == Kind::aborted && answer->code != canopen::abort::no_object &&
-                        answer->code != canopen::abort::no_sub_index);
+  // Silence is neither: to take it for absence would excuse the device from every rule about the entry.
+  if (answer->kind == Kind::silence) return fail("no answer when " + to_string(object) + " was looked for", "scenario");
+  const bool present = answer->kind != Kind::aborted || (answer->code != canopen::abort::no_object &&
+                                                         answer->code != canopen::abort::no_sub_index);
   present_[object] = present;
   return present;
 }
@@ -128,9 +129,12 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   }
   auto value = peek(object);
   if (!value) return std::unexpected(value.error());
+  const auto silent = [object] { return fail("no answer when " + to_string(object) + " was tried", "scenario"); };
+  if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
   if (value->kind != steps::SdoAnswer::Kind::confirmed) return false;
   auto answer = channel_.download(object, value->data, canopen::SdoDownload::Mode::automatic, std::nullopt);
   if (!answer) return std::unexpected(answer.error());
+  if (answer->kind == steps::SdoAnswer::Kind::silence) return silent();
   const bool refused = answer->kind == steps::SdoAnswer::Kind::aborted && answer->code == canopen::abort::read_only;
   writable_[object] = !refused;
   if (refused) {

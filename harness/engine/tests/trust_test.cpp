@@ -330,3 +330,84 @@ TEST_CASE("the one finding of a walk shows the worst of its values") {
   REQUIRE(out.only().judgements.front().findings.size() == 1);
   CHECK(out.only().judgements.front().findings.front().verdict == Verdict::fail);
 }
+
+TEST_CASE("a failure seen before the device vanished stays, what its silence seems to show does not") {
+  ScriptedDevice device;
+  int reads = 0;
+  device.before = [&reads](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 2) self.dead = true;
+    return self.dead;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: [T-MUST, T-SHOULD]
+        expect: {value: 1}
+      - upload: {object: 1018h:01}
+        checks: T-OTHER
+      - upload: {object: 1001h:00}
+        checks: T-OTHER
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::error);
+  CHECK(out.only().verdict == Verdict::fail);
+  CHECK(result::exit_code(out.run) == 1);
+}
+
+TEST_CASE("a device whose heartbeats go on has not vanished when its SDO server dies") {
+  ScriptedDevice device;
+  bool hung = false;
+  int reads = 0;
+  device.before = [&](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 2) hung = true;
+    if (hung) self.send(can::data_frame(CanId(0x701), {0x7F}));
+    return hung;
+  };
+  RunOptions options;
+  options.plan.allowed = scenario::Risk::read_only;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1001h:00}
+        checks: T-MUST
+)", options);
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(out.run.aborted.has_value());
+  CHECK(result::exit_code(out.run) == 1);
+}
+
+TEST_CASE("silence about an entry is not absence, and excuses from nothing") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice&, const can::Frame& frame, BusTime) { return frame.data[1] == 0x45 && frame.data[2] == 0x23; };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    when: object 2345h is present
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(out.only().verdict == Verdict::inconclusive);
+  CHECK(out.verdict_of("T-MUST") == Verdict::inconclusive);
+}
+
+TEST_CASE("a device that falls silent during discovery ends the run at once") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[1] == 0x08 && frame.data[2] == 0x10) self.dead = true;
+    return self.dead;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(out.run.aborted.has_value());
+  CHECK(out.run.elapsed < 10s);
+  CHECK(result::exit_code(out.run) == 3);
+}
