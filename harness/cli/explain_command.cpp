@@ -63,7 +63,7 @@ std::string explain_verb(const steps::Verb& verb) {
 constexpr steps::Verb over = {
     "over", "Walk over values inside one step and tell the offenders in one finding.",
     "NAME: a list of values and ranges, restricted CAN-IDs, or a query (entries with ...)\nsteps: beside it, what is done with each value",
-    "- over: {id: restricted CAN-IDs}\n  steps:\n    - download: {object: 1014h:00, value: 8000 0000h | $id}\n      checks: COB-RES-04\n"
+    "- over: {id: restricted CAN-IDs}\n  steps:\n    - download: {object: 1014h:00, value: 8000 0000h | $id}\n      checks: CAN-RID-01\n"
     "      expect: abort 0609 0030h", nullptr};
 
 /// docs/verbs.md: generated, so that the page cannot disagree with the program.

@@ -14,6 +14,7 @@ class Talk final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<Talk>();
+    out->object_ = context.branch_object;
     if (value.node()->is_mapping()) {
       auto fields = value.fields("talk");
       if (const auto object = fields.optional("object")) {

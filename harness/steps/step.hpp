@@ -79,6 +79,8 @@ struct ParseContext {
   std::vector<std::string> default_checks;
   /// What is wrong with a query; queries are the scenario room's, steps only carry them.
   std::function<Result<void>(std::string_view)> check_query;
+  /// In a branch of `either`: the entry of the step it belongs to, for {m} in the branch's conversation.
+  std::optional<ObjectReference> branch_object = std::nullopt;
   void know(std::string name) { names.push_back(std::move(name)); }
 };
 

@@ -56,7 +56,7 @@ std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) 
   return walk;
 }
 
-std::vector<Branch> parse_branches(const yaml::Field& field, ParseContext& context) {
+std::vector<Branch> parse_branches(const yaml::Field& field, const ObjectReference* object, ParseContext& context) {
   std::vector<Branch> out;
   const auto known_before = context.names;
   if (field.node()->is_sequence() && field.node()->items().empty()) field.error("'either' without a branch");
@@ -68,7 +68,9 @@ std::vector<Branch> parse_branches(const yaml::Field& field, ParseContext& conte
     if (fields.has("talk")) {
       // A conversation as alternative: its first line tells whether this is the way the device went.
       fields.known({"checks", "expect", "warn", "fail", "note"});
+      if (object != nullptr) context.branch_object = *object;
       auto talk = find_verb("talk")->parse(fields.optional("talk"), context);
+      context.branch_object.reset();
       if (talk != nullptr) {
         Step step;
         step.verb = "talk";
@@ -177,7 +179,7 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
   }
   if (const auto either = fields.optional("either")) {
     if (step.expectation.given) either.error("'either' and 'expect' in one step", "the branches are the expectation");
-    step.branches = parse_branches(either, context);
+    step.branches = parse_branches(either, step.action == nullptr ? nullptr : step.action->object(), context);
     for (auto& branch : step.branches) {
       // A conversation as alternative decides what the step decides, unless it says otherwise.
       if (!branch.on.empty() || branch.steps.empty()) continue;

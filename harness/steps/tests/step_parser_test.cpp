@@ -95,6 +95,18 @@ TEST_CASE("A conversation as alternative decides what its step decides, unless i
   CHECK(out.steps[0].branches[1].steps[0].expectation.checks == std::vector<std::string>{"RULE-02"});
 }
 
+TEST_CASE("A conversation as alternative is about the entry of its step") {
+  const std::string step = "- talk: {object: 1008h:00, frames: \"> 600+N: 40 {m} ..\"}\n  either:\n    - talk: \"< 580+N: 41 {m} ..\"\n";
+  const auto out = parse(step);
+  CHECK(out.said.empty());
+  REQUIRE(out.steps.size() == 1);
+  REQUIRE(out.steps[0].branches.size() == 1);
+  REQUIRE(out.steps[0].branches[0].steps[0].action->object() != nullptr);
+  CHECK(out.steps[0].branches[0].steps[0].action->object()->text() == "1008h:00");
+  // Steps of a branch stand for themselves.
+  CHECK(parse(step + "      steps:\n        - talk: \"> 600+N: 40 {m} ..\"\n").said.starts_with("5:30 {m} needs the object"));
+}
+
 TEST_CASE("A walk takes values, ranges and named sets") {
   const auto out = parse(
       "- over: {id: [1, 2 + 3, 10..20, restricted CAN-IDs, entries with readable]}\n"
