@@ -64,7 +64,7 @@ bool RealtimeStamps::measure() {
   if (change > -noise_ns && change < noise_ns) return false;
   old_offset_ns_ = offset_ns_;
   offset_ns_ = measured;
-  stepped_ = true;
+  ++steps_;
   return true;
 }
 

@@ -33,7 +33,8 @@ class RealtimeStamps {
     return time >= first && time <= last ? std::optional(time) : std::nullopt;
   }
   /// Whether the clock was set since construction.
-  [[nodiscard]] bool stepped() const { return stepped_; }
+  [[nodiscard]] bool stepped() const { return steps_ > 0; }
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
  private:
   void arm();
@@ -43,7 +44,7 @@ class RealtimeStamps {
   std::int64_t offset_ns_ = 0;  // CLOCK_REALTIME - CLOCK_MONOTONIC
   std::int64_t old_offset_ns_ = 0;
   std::int64_t epoch_ns_ = 0;
-  bool stepped_ = false;
+  std::uint64_t steps_ = 0;
   Descriptor watch_;
 };
 

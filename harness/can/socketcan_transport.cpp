@@ -348,8 +348,11 @@ Result<void> SocketCanTransport::take(std::size_t index, std::optional<BusTime>&
   }
   const Frame frame = from_kernel(raw);
   if (frame.error) note_error_frame(frame);
-  if (!own && options_.receive_own)
-    health_.worst_lateness = std::max<Duration>(health_.worst_lateness, read_clock() - last_stamp_);
+  if (!own && options_.receive_own) {
+    const Duration lateness = read_clock() - last_stamp_;
+    health_.worst_lateness = std::max(health_.worst_lateness, lateness);
+    if (lateness > host_is_late) ++health_.late_frames;
+  }
   events_.push_back({frame, last_stamp_, own ? Direction::transmitted : Direction::received});
   return {};
 }
@@ -359,6 +362,7 @@ void SocketCanTransport::note_error_frame(const Frame& frame) {
   if ((frame.id & CAN_ERR_BUSOFF) != 0) {
     bus_off_now_ = true;
     health_.bus_off = true;
+    ++health_.bus_offs;
   }
   if ((frame.id & CAN_ERR_RESTARTED) != 0) bus_off_now_ = false;
   if ((frame.id & CAN_ERR_CRTL) != 0 && (frame.data[1] & CAN_ERR_CRTL_RX_OVERFLOW) != 0)
@@ -406,6 +410,7 @@ BusHealth SocketCanTransport::health() {
   health_.frames_dropped = dropped + controller_overflows_;
   clock_.check_clock();
   health_.clock_stepped = clock_.stepped();
+  health_.clock_steps = clock_.steps();
   return health_;
 }
 

@@ -13,6 +13,7 @@
 //  5. Every loop has a budget.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -40,7 +41,14 @@ struct BusHealth {
   bool bus_off = false;
   bool clock_stepped = false;  ///< the stamps' clock was set while we ran
   Duration worst_lateness{};   ///< longest time a received frame waited for us, own measurement
+  // Counters, so that two snapshots tell what happened between them.
+  std::uint64_t bus_offs = 0;     ///< times the controller went bus-off
+  std::uint64_t clock_steps = 0;  ///< times the stamps' clock was set
+  std::uint64_t late_frames = 0;  ///< received frames that waited for us longer than host_is_late
 };
+
+/// A host that looks at a frame, or wakes up, later than this may have done to the device what it then blames the device for.
+inline constexpr Duration host_is_late = std::chrono::milliseconds(100);
 
 /// Facts about the bus that reports print.
 struct TransportInfo {

@@ -150,10 +150,12 @@ class Run {
     out.begin = recorder_.now();
     out.first_frame = recorder_.capture().size();
     const auto health = recorder_.transport().health();
+    (void)recorder_.take_lateness();
     auto ran = runner_.run(planned, out);
     const bool entered = runner_.entered_steps();
     out.end_frame = recorder_.capture().size();
     out.end = recorder_.now();
+    const auto lateness = recorder_.take_lateness();
     if (ran) ran = after_case(out, planned.scenario->risk >= scenario::Risk::config);
     if (!ran) {
       // The environment failed in the middle: nothing of this case counts as passed or failed.
@@ -163,7 +165,7 @@ class Run {
       return ran;
     }
     out.finished = true;
-    distrust_if_unhealthy(out, health);
+    distrust_if_unhealthy(out, health, lateness);
     accept_known_deviations(out);
     if (out.first_frame < out.end_frame) recorder_.capture().comment(out.first_frame, out.name());
     for (const auto& judgement : out.judgements) {
@@ -306,23 +308,35 @@ class Run {
   }
 
   /// Lost frames, bus-off or a stepped clock: what rests on the absence of a frame cannot be trusted.
-  void distrust_if_unhealthy(CaseResult& out, const can::BusHealth& before) {
+  void distrust_if_unhealthy(CaseResult& out, const can::BusHealth& before, const Recorder::Lateness& lateness) {
     const auto after = recorder_.transport().health();
     std::string why;
+    bool passes_too = true;
     if (after.frames_dropped > before.frames_dropped) {
       why = "the host lost " + std::to_string(after.frames_dropped - before.frames_dropped) + " frames during the case";
-    } else if (after.bus_off && !before.bus_off) {
+    } else if (after.bus_offs > before.bus_offs || (after.bus_off && !before.bus_off)) {
       why = "bus-off during the case";
-    } else if (after.clock_stepped && !before.clock_stepped) {
+    } else if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped)) {
       why = "the host's clock was set during the case";
+    } else if (lateness.producing > Duration(0)) {
+      why = "the host sent a cyclic frame " + to_string(lateness.producing) + " late";
+    } else if (lateness.waking > can::host_is_late || after.late_frames > before.late_frames) {
+      // What was seen in time was seen; but the device may have waited for us in vain.
+      passes_too = false;
+      why = "the host was late by more than " + to_string(can::host_is_late) + " during the case";
     }
     if (why.empty() || out.verdict == Verdict::not_applicable) return;
+    const auto distrust = [passes_too](Verdict& verdict) {
+      const bool good = verdict == Verdict::pass || verdict == Verdict::not_applicable;
+      if (passes_too || !good) verdict = Verdict::inconclusive;
+    };
+    const auto before_it = out.verdict;
+    distrust(out.verdict);
     for (auto& judgement : out.judgements) {
-      judgement.verdict = Verdict::inconclusive;
+      distrust(judgement.verdict);
       for (auto& finding : judgement.findings) finding.verdict = Verdict::inconclusive;
     }
-    out.verdict = Verdict::inconclusive;
-    out.reason = why;
+    if (out.verdict != before_it) out.reason = why;
   }
 
   void accept_known_deviations(CaseResult& out) {
@@ -346,8 +360,8 @@ class Run {
   /// The bus broke or the user stopped: values are put back if that is still possible.
   void restore_after_fault(const PlannedCase* planned) {
     recorder_.stop_producing("");
-    const bool by_user = recorder_.fault() && recorder_.fault()->what == stopped;
-    if (!by_user) {
+    const bool usable = recorder_.fault() && (recorder_.fault()->what == stopped || recorder_.fault()->what == flooded);
+    if (!usable) {
       note_not_put_back("the bus or the device is gone");
       return;
     }

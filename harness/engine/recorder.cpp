@@ -23,9 +23,13 @@ std::unexpected<Error> Recorder::broken(Error error) {
 
 Result<bool> Recorder::pump(BusTime deadline) {
   if (stop_requested()) return broken({stopped, {}, {}});
+  if (capture_.size() >= most_frames_ && !ignore_stop_) {
+    return broken({flooded, transport_.info().name, "does a node flood the bus? A run records " + std::to_string(most_frames_) + " frames"});
+  }
   auto until = deadline;
   for (const auto& running : running_) until = std::min(until, running.due);
   if (waits_in_slices_) until = std::min(until, recent_ + stop_latency);
+  const bool is_ahead = until > recent_;
   auto event = transport_.receive(until);
   if (!event) return broken(event.error());
   if (*event) {
@@ -33,6 +37,7 @@ Result<bool> Recorder::pump(BusTime deadline) {
     recent_ = std::max(recent_, (**event).time);
     return true;
   }
+  if (is_ahead) lateness_.waking = std::max<Duration>(lateness_.waking, now() - until);
   auto produced = produce_due();
   if (!produced) return std::unexpected(produced.error());
   return now() < deadline;
@@ -40,7 +45,11 @@ Result<bool> Recorder::pump(BusTime deadline) {
 
 Result<void> Recorder::produce_due() {
   for (auto& running : running_) {
-    if (running.due > now()) continue;
+    const auto current = now();
+    if (running.due > current) continue;
+    // The first one begins the train; only what follows has a time at which it is due.
+    const Duration late = current - running.due;
+    if (running.sent > 0 && late > running.production.every / 2) lateness_.producing = std::max(lateness_.producing, late);
     auto sent = transport_.send(running.production.frame);
     if (!sent) return broken(sent.error());
     ++running.sent;
@@ -88,11 +97,12 @@ Result<std::optional<std::size_t>> Recorder::find(std::size_t from, const steps:
 }
 
 Result<void> Recorder::wait_until(BusTime until) {
-  while (now() < until) {
+  // Until the bus says that it is over: frames of the wait that were not looked at yet belong to the wait.
+  while (true) {
     auto more = pump(until);
     if (!more) return std::unexpected(more.error());
+    if (!*more) return {};
   }
-  return {};
 }
 
 void Recorder::produce(steps::Production production) {

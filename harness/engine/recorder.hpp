@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -18,8 +19,12 @@ namespace conform::engine {
 class Recorder {
  public:
   /// `stop` becomes non-zero (a signal number) when the user wants the run to end.
-  Recorder(can::Transport& transport, const std::atomic<int>* stop)
-      : transport_(transport), stop_(stop), waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {}
+  /// `most_frames` bounds the capture: a node that floods the bus must not eat the host's memory.
+  Recorder(can::Transport& transport, const std::atomic<int>* stop, std::size_t most_frames = 8'000'000)
+      : transport_(transport),
+        stop_(stop),
+        most_frames_(most_frames),
+        waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {}
 
   [[nodiscard]] BusTime now() const { return recent_ = transport_.now(); }
   [[nodiscard]] const can::Capture& capture() const { return capture_; }
@@ -34,6 +39,13 @@ class Recorder {
 
   void produce(steps::Production production);
   void stop_producing(std::string_view label);  ///< empty: everything
+
+  /// How late the host was since the last call.
+  struct Lateness {
+    Duration waking{};     ///< behind the end of a wait
+    Duration producing{};  ///< behind the time at which a produced frame was due, where that is more than half its period
+  };
+  [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
 
   /// While restoring after a stop request the bus must still be usable.
   void ignore_stop(bool ignore) { ignore_stop_ = ignore; }
@@ -55,6 +67,7 @@ class Recorder {
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;
+  std::size_t most_frames_;
   bool waits_in_slices_;  // virtual time needs no slices: only a real wait can be too long for the user
   // It was at least this late when we last knew. Reading the clock costs as much as sending a frame on some machines.
   mutable BusTime recent_{};
@@ -62,9 +75,12 @@ class Recorder {
   std::optional<Error> fault_;
   can::Capture capture_;
   std::vector<Running> running_;
+  Lateness lateness_;
 };
 
 /// The Error::what of an ended wait, so that callers can tell it from a broken bus.
 inline constexpr const char* stopped = "stopped by the user";
+/// The Error::what of a flooded bus; it can still be used to put values back.
+inline constexpr const char* flooded = "too many frames were recorded";
 
 }  // namespace conform::engine

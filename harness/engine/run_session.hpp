@@ -41,6 +41,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool may_change(Multiplexer object) const override;
   [[nodiscard]] bool claims(std::string_view feature) const override;
   [[nodiscard]] std::size_t error_triggers() const override;
+  [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
   [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults; }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
   [[nodiscard]] Result<steps::Value> declared(Multiplexer object, steps::Declared what) override;

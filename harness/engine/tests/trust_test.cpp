@@ -21,6 +21,55 @@ bool is_abort_of_ours(const can::CapturedFrame& captured) {
   return captured.direction == can::Direction::transmitted && captured.frame.id == 0x601 && captured.frame.data[0] == 0x80;
 }
 
+/// A transport whose host is in trouble from the given request on.
+class UnwellTransport final : public can::Transport {
+ public:
+  using Trouble = std::function<void(can::BusHealth&)>;
+  UnwellTransport(can::Transport& inner, std::uint8_t command, Trouble trouble)
+      : inner_(inner), command_(command), trouble_(std::move(trouble)) {}
+  BusTime now() const override { return inner_.now(); }
+  Result<void> send(const can::Frame& frame) override {
+    if (frame.id == 0x601 && frame.data[0] == command_) trouble_(health_);
+    return inner_.send(frame);
+  }
+  Result<std::optional<can::BusEvent>> receive(BusTime deadline) override { return inner_.receive(deadline); }
+  can::BusHealth health() override { return health_; }
+  can::TransportInfo info() const override { return inner_.info(); }
+ private:
+  can::Transport& inner_;
+  std::uint8_t command_;
+  Trouble trouble_;
+  can::BusHealth health_;
+};
+
+/// Two rules, one held and one broken, on a host in trouble.
+Outcome play_unwell(const UnwellTransport::Trouble& trouble) {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  UnwellTransport transport(bus.transport(), 0x2B, trouble);
+  const auto suite = suite_of(R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+        expect: {value: 1}
+  - id: b
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+)");
+  Outcome out;
+  out.run = run(transport, device::default_profile(NodeId(1)), suite, catalogue(), {}, out.capture);
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("a stop request in the middle of restoring waits until the values are back") {
@@ -410,4 +459,44 @@ TEST_CASE("a device that falls silent during discovery ends the run at once") {
   CHECK(out.run.aborted.has_value());
   CHECK(out.run.elapsed < 10s);
   CHECK(result::exit_code(out.run) == 3);
+}
+
+TEST_CASE("every bus-off and every step of the clock is noticed, not only the first") {
+  const auto first = [](const Outcome& out) { return out.run.cases[0].verdict; };
+  const auto second = [](const Outcome& out) { return out.run.cases[1].verdict; };
+  const auto off = play_unwell([](can::BusHealth& health) {
+    health.bus_off = true;
+    ++health.bus_offs;
+  });
+  CHECK(first(off) == Verdict::inconclusive);
+  CHECK(second(off) == Verdict::inconclusive);
+  const auto stepped = play_unwell([](can::BusHealth& health) {
+    health.clock_stepped = true;
+    ++health.clock_steps;
+  });
+  CHECK(first(stepped) == Verdict::inconclusive);
+  CHECK(second(stepped) == Verdict::inconclusive);
+}
+
+TEST_CASE("a host that was late blames nobody, and what it saw in time stays") {
+  const auto out = play_unwell([](can::BusHealth& health) { ++health.late_frames; });
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::inconclusive);
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[1].verdict == Verdict::pass);
+}
+
+TEST_CASE("a flooded bus ends the run before the memory does, and values are put back") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr, 10);
+  for (int i = 0; i < 5; ++i) CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
+  const auto waited = recorder.wait_until(recorder.now() + 10ms);
+  REQUIRE(waited.has_value() == (recorder.capture().size() < 10));
+  const auto sent = recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0}));
+  REQUIRE_FALSE(sent.has_value());
+  CHECK(recorder.fault()->what == flooded);
+  recorder.ignore_stop(true);
+  CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
 }
