@@ -50,6 +50,7 @@ struct StoreFaults {
   bool sub3_without_effect = false;
   bool groups_mixed = false;  ///< every sub-index means all parameters
   bool failure_confirmed = false;
+  bool failure_aborted_as_refusal = false;  ///< 0800 0020h in place of the hardware error
   bool effective_at_once = false;  ///< 1011h: defaults are valid before the reset
 };
 

@@ -60,6 +60,8 @@ ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
     load.command = true;
     load.check = [this, sub](ByteView signature) { return restore(sub, signature); };
   }
+  Entry& failing = od.add_variable(0x2F20, integer_entry("Storage fault", DataType::unsigned8, Access::rw, 0));
+  failing.storable = false;
 }
 
 Image ParameterStore::image_of(Group group) const {
@@ -73,6 +75,16 @@ Image ParameterStore::image_of(Group group) const {
   return image;
 }
 
+Entry* ParameterStore::storage_fault() const { return device_->dictionary.entry(0x2F20, 0); }
+
+Accepted ParameterStore::keep(Images images, const StoreFaults& fault) {
+  const Entry* armed = storage_fault();
+  const bool failed =
+      (armed != nullptr && conform::load_le(armed->value) != 0) || !storage_->replace(std::move(images));
+  if (!failed || fault.failure_confirmed) return {};
+  return refuse(fault.failure_aborted_as_refusal ? abort_code::cannot_store : abort_code::hardware_error);
+}
+
 Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
   const StoreFaults& fault = device_->behaviour.store;
   const bool good = matches("save", signature, fault);
@@ -81,8 +93,7 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
   if (!fault.without_effect) {
     Images images = storage_->images();
     for (const Group group : groups_of(sub, fault)) images[group] = image_of(group);
-    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed)
-      return refuse(abort_code::hardware_error);
+    if (auto kept = keep(std::move(images), fault); !kept) return kept;
   }
   if (!good && !fault.signature_unchecked) return refuse(abort_code::cannot_store);
   return {};
@@ -97,8 +108,7 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
     // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
     Images images = storage_->images();
     for (const Group group : groups_of(sub, fault)) images.erase(group);
-    if (!storage_->replace(std::move(images)) && !fault.failure_confirmed)
-      return refuse(abort_code::hardware_error);
+    if (auto kept = keep(std::move(images), fault); !kept) return kept;
     if (fault.effective_at_once) {
       for (const Group group : groups_of(sub, fault)) load(group);
     }
@@ -120,6 +130,7 @@ void ParameterStore::load_power_on_values(bool whole_node) {
   for (const Group group : all_groups) {
     if (!keeps(group, whole_node)) load(group);
   }
+  if (Entry* armed = storage_fault(); armed != nullptr && whole_node) armed->value = armed->default_value;
 }
 
 void ParameterStore::load(Group group) {

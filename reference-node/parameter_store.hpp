@@ -19,6 +19,9 @@ class ParameterStore {
   void load_power_on_values(bool whole_node);
 
  private:
+  /// Makes `images` the content of the memory. Fails while the storage fault (2F20h) is armed.
+  [[nodiscard]] Accepted keep(Images images, const StoreFaults& fault);
+  [[nodiscard]] Entry* storage_fault() const;
   [[nodiscard]] Accepted save(std::uint8_t sub, ByteView signature);
   [[nodiscard]] Accepted restore(std::uint8_t sub, ByteView signature);
   [[nodiscard]] std::vector<Group> groups_to_save(std::uint8_t sub) const;

@@ -71,6 +71,10 @@ DefectTable storage_defects() {
        "A failure to store is confirmed",
        {"OD-1010-14"},
        behave(&B::store, &S::failure_confirmed)},
+      {"1010-failed-save-wrong-abort",
+       "A failure to store is aborted with 0800 0020h",
+       {"OD-1010-14"},
+       behave(&B::store, &S::failure_aborted_as_refusal)},
       {"1011-load-rejected",
        "The signature \"load\" is refused with 0800 0020h",
        {"OD-1011-07", "STO-1011-03"},
@@ -125,6 +129,14 @@ DefectTable storage_defects() {
        "Every sub-index of 1011h restores all parameters",
        {"OD-1011-12", "OD-1011-13", "STO-1011-05", "STO-1011-06"},
        behave(&B::restore, &S::groups_mixed)},
+      {"1011-failed-load-confirmed",
+       "A failure to restore is confirmed",
+       {"OD-1011-15"},
+       behave(&B::restore, &S::failure_confirmed)},
+      {"1011-failed-load-wrong-abort",
+       "A failure to restore is aborted with 0800 0020h",
+       {"OD-1011-15"},
+       behave(&B::restore, &S::failure_aborted_as_refusal)},
   };
 }
 

@@ -144,3 +144,35 @@ TEST_CASE("A damaged storage file is refused with its line") {
     CHECK(storage.error().where.starts_with(file.name + ":"));
   }
 }
+
+TEST_CASE("While the storage fault is armed storing and restoring fail and change nothing") {
+  Bench bench;
+  bench.wait(100ms);
+  change_all(bench);
+  CHECK(bench.sdo("2F 20 2F 00 01 00 00 00") == "60 20 2F 00 00 00 00 00");
+  for (const char* sub : {"01", "02", "03"}) {
+    CHECK(bench.sdo("23 10 10 " + std::string(sub) + " 73 61 76 65") == "80 10 10 " + std::string(sub) + " 00 00 06 06");
+    CHECK(bench.sdo("23 11 10 " + std::string(sub) + " 6C 6F 61 64") == "80 11 10 " + std::string(sub) + " 00 00 06 06");
+  }
+  // A wrong signature is refused as such before the memory is touched.
+  CHECK(bench.sdo("23 10 10 01 00 00 00 00") == "80 10 10 01 20 00 00 08");
+  CHECK(bench.sdo("2F 20 2F 00 00 00 00 00") == "60 20 2F 00 00 00 00 00");
+  CHECK(bench.sdo("23 10 10 01 73 61 76 65") == "60 10 10 01 00 00 00 00");
+  const std::string stored = values(bench);
+  bench.sdo("2F 20 2F 00 01 00 00 00");
+  CHECK(bench.sdo("23 11 10 01 6C 6F 61 64") == "80 11 10 01 00 00 06 06");
+  reset_node(bench);
+  CHECK(values(bench) == stored);
+}
+
+TEST_CASE("The storage fault outlives reset communication, and neither reset node nor the memory") {
+  Bench bench;
+  bench.wait(100ms);
+  CHECK(bench.sdo("40 20 2F 00 00 00 00 00") == "4F 20 2F 00 00 00 00 00");
+  bench.sdo("2F 20 2F 00 02 00 00 00");
+  bench.send("000: 82 05");
+  bench.wait(100ms);
+  CHECK(bench.sdo("40 20 2F 00 00 00 00 00") == "4F 20 2F 00 02 00 00 00");
+  reset_node(bench);
+  CHECK(bench.sdo("40 20 2F 00 00 00 00 00") == "4F 20 2F 00 00 00 00 00");
+}

@@ -79,6 +79,7 @@ const std::vector<std::string> conversations = {
     "sdo 2B 17 10 00 D0 07 00 00\nsdo 2F 06 62 01 00 00 00 00\nsdo 23 10 10 03 73 61 76 65\n000: 81 05\nwait 100\nread 1017 00\n"
     "read 6206 01\nsdo 23 11 10 03 6C 6F 61 64\n000: 81 05\nwait 100\nread 6206 01\n",
     "sdo 2F 06 62 01 00 00 00 00\nsdo 23 10 10 01 73 61 76 65\nsdo 23 11 10 02 6C 6F 61 64\n000: 81 05\nwait 100\nread 6206 01\n",
+    "sdo 2F 20 2F 00 01 00 00 00\nsdo 23 10 10 01 73 61 76 65\nsdo 23 11 10 01 6C 6F 61 64\n",
     // Errors and history.
     "sdo 2F 03 10 00 01 00 00 00\nsdo 2B 00 2F 01 10 42 00 00\nread 1001 00\nread 1003 00\nread 1003 01\nsdo 2F 03 10 00 01 00 00 00\n"
     "read 1003 00\nsdo 2B 00 2F 01 10 23 00 00\nread 1003 01\nread 1003 02\nsdo 2B 00 2F 02 10 42 00 00\nsdo 2B 00 2F 02 10 23 00 00\n"
