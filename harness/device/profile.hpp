@@ -31,7 +31,7 @@ struct Feature {
 [[nodiscard]] std::span<const Feature> features();
 [[nodiscard]] bool is_feature(std::string_view word);
 
-/// One write of the error trigger.
+/// One write of an error trigger or of the store fault.
 struct TriggerWrite {
   Multiplexer object;
   std::string value;  ///< literal as written in the file
@@ -45,6 +45,12 @@ struct ErrorTrigger {
   std::optional<TriggerWrite> raise;  ///< by writing an object, or
   std::optional<TriggerWrite> clear;
   std::optional<NodeId> heartbeat_node;  ///< by the heartbeat of this (otherwise unused) node that stays away
+};
+
+/// How storing (1010h) and restoring (1011h) are made to fail, for devices that can simulate it.
+struct StoreFault {
+  TriggerWrite arm;
+  TriggerWrite disarm;
 };
 
 /// Wanted content of 1018h; what is absent is not compared.
@@ -80,6 +86,7 @@ struct Profile {
   std::vector<Entry>
       objects;  ///< claimed entries in file order, all with `claimed` set; defaults without the node-ID
   std::vector<ErrorTrigger> errors;
+  std::optional<StoreFault> store_fault;
   std::vector<Multiplexer> safe_objects;  ///< entries that tests may write
   std::vector<Multiplexer> untouchable;   ///< entries no test may write
   bool factory_defaults = false;          ///< nothing is stored: values after a reset are the defaults

@@ -135,6 +135,7 @@ class Reader {
     read_claims();
     read_objects();
     read_errors();
+    read_store_fault();
     profile_.safe_objects = read_entries("safe_objects");
     profile_.untouchable = read_entries("untouchable");
     profile_.factory_defaults = fields_.optional("factory_defaults").boolean().value_or(false);
@@ -308,6 +309,16 @@ class Reader {
       if (twice) item.error(fmt::format("the error trigger '{}' is listed twice", trigger.name));
       profile_.errors.push_back(std::move(trigger));
     }
+  }
+
+  void read_store_fault() {
+    const Field given = fields_.optional("store_fault");
+    if (!given.present()) return;
+    Fields fields = given.fields("store fault");
+    auto arm = read_write(fields.required("arm"), "arm");
+    auto disarm = read_write(fields.required("disarm"), "disarm");
+    fields.finish();
+    if (arm && disarm) profile_.store_fault = StoreFault{*std::move(arm), *std::move(disarm)};
   }
 
   std::optional<TriggerWrite> read_write(const Field& field, const char* what) {

@@ -62,6 +62,7 @@ TEST_CASE("A minimal profile has the default times and the heartbeat trigger") {
   CHECK(profile.quiet_time == 300ms);
   CHECK_FALSE(profile.claims_given);
   CHECK_FALSE(profile.factory_defaults);
+  CHECK_FALSE(profile.store_fault.has_value());
   REQUIRE(profile.errors.size() == 1);
   CHECK(profile.errors[0].code == 0x8130);
   CHECK(profile.errors[0].heartbeat_node == NodeId{0x7E});
@@ -84,6 +85,7 @@ objects:
 errors:
   - {name: generic, code: 1000h, raise: {object: 2F00h:01, value: 1000h}, clear: {object: 2F00h:01, value: 0}}
   - {name: heartbeat, heartbeat: {node: 7Dh}}
+store_fault: {arm: {object: 2000h:05, value: 1}, disarm: {object: 2000h:05, value: 0}}
 safe_objects: [2000h:05, 1016h:01..02]
 untouchable: [1F50h:01]
 factory_defaults: true
@@ -120,6 +122,10 @@ known_deviations:
   CHECK_FALSE(profile.errors[0].heartbeat_node.has_value());
   CHECK(profile.errors[1].heartbeat_node == NodeId{0x7D});
   CHECK(profile.errors[1].code == 0x8130);
+  REQUIRE(profile.store_fault.has_value());
+  CHECK(profile.store_fault->arm.object == mux(0x2000, 5));
+  CHECK(profile.store_fault->arm.bytes == Bytes{1, 0});
+  CHECK(profile.store_fault->disarm.bytes == Bytes{0, 0});
   CHECK(profile.is_safe(mux(0x1016, 2)));
   CHECK_FALSE(profile.is_safe(mux(0x1016, 3)));
   CHECK(profile.is_untouchable(mux(0x1F50, 1)));
@@ -219,6 +225,16 @@ TEST_CASE("The heartbeat of an error trigger is never that of the device") {
   CHECK(contains(loaded.messages, "cannot be that of the device itself"));
 }
 
+TEST_CASE("A store fault is armed and disarmed by writes to known objects") {
+  const Loaded half = load(head + "store_fault: {arm: {object: 1017h:00, value: 1}}\n");
+  CHECK_FALSE(half.usable);
+  CHECK(contains(half.messages, "the store fault needs a key 'disarm'"));
+  const Loaded unknown =
+      load(head + "store_fault: {arm: {object: 2F20h:00, value: 1}, disarm: {object: 1017h:00, value: 0}}\n");
+  CHECK(contains(unknown.messages, "the type of 2F20h:00 is not known"));
+  CHECK_FALSE(unknown.profile.store_fault.has_value());
+}
+
 TEST_CASE("The default profile of a node can raise the heartbeat error") {
   const Profile profile = default_profile(NodeId{9});
   CHECK(profile.node == NodeId{9});
@@ -237,7 +253,7 @@ TEST_CASE("The schema for editors knows every feature and key") {
   for (const char* key :
        {"boot_time", "sdo_timeout", "store_timeout", "nmt_time", "quiet_time", "server_timeout",
         "block_timeout", "lss_timeout", "claims", "objects", "errors", "safe_objects", "untouchable",
-        "factory_defaults", "identity", "known_deviations"}) {
+        "factory_defaults", "identity", "known_deviations", "store_fault"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }
