@@ -15,7 +15,7 @@ struct Condition::Tree {
     all, any, negation,                                    // and, or, not
     present, claimed, readable, writable, access, changes, // about an entry
     has_default,
-    feature, triggers, remote, factory, described, refused, sweep,  // about device and bench
+    feature, triggers, remote, factory, described, refused, sweep, store_fault,  // about device and bench
     equal, at_least, at_most, above, below                 // two expressions
   };
   Kind kind = Kind::all;
@@ -172,6 +172,7 @@ Result<TreePtr> parse_atom(TokenReader& in) {
   };
   static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
                                        {{"the", "write", "was", "refused"}, Kind::refused},
+                                       {{"store", "fault", "is", "known"}, Kind::store_fault},
                                        {{"all", "objects", "are", "tried"}, Kind::sweep}};
   for (const auto& phrase : phrases) {
     std::size_t same = 0;
@@ -291,6 +292,7 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
   if (node.kind == Kind::described) return facts.is_described();
   if (node.kind == Kind::refused) return facts.write_was_refused();
+  if (node.kind == Kind::store_fault) return facts.store_fault_known();
   if (node.kind == Kind::sweep) return facts.tries_all_objects();
   if (node.kind == Kind::factory) return facts.factory_defaults();
   if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
@@ -366,6 +368,7 @@ std::vector<std::string_view> condition_forms() {
           "device claims sync producer",
           "error trigger is known",
           "2 error triggers are known",
+          "store fault is known",
           "factory defaults are active",
           "interface can send RTR",
           "device description is given",

@@ -27,6 +27,8 @@ class Facts : public Scope {
   [[nodiscard]] virtual bool claims(std::string_view feature) const = 0;
   /// Number of ways to raise an error that work with this device.
   [[nodiscard]] virtual std::size_t error_triggers() const = 0;
+  /// Whether the profile says how storing is made to fail.
+  [[nodiscard]] virtual bool store_fault_known() const { return false; }
   /// Whether nothing is stored in the device, so that the values after a reset are the defaults.
   [[nodiscard]] virtual bool factory_defaults() const { return false; }
   [[nodiscard]] virtual bool can_send_remote_frames() const = 0;

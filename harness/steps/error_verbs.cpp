@@ -123,6 +123,28 @@ class RaiseError final : public Action {
   std::string save_;
 };
 
+/// Makes storing and restoring (1010h, 1011h) fail, or work again, by the writes of the profile.
+class SwitchStoreFault final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    const auto armed = value.one_of<bool>({{"arm", true}, {"disarm", false}});
+    if (!armed) return nullptr;
+    auto out = std::make_unique<SwitchStoreFault>();
+    out->arm_ = *armed;
+    return out;
+  }
+  std::string words(Session&) const override { return arm_ ? "make storing fail" : "let storing work again"; }
+  Result<Actual> run(Session& session) const override {
+    const auto& fault = session.profile().store_fault;
+    if (!fault) return fail("no way to make storing fail is known", "scenario", "when: store fault is known");
+    const auto& change = arm_ ? fault->arm : fault->disarm;
+    return write(session, change.object, change.bytes);
+  }
+
+ private:
+  bool arm_ = false;
+};
+
 class AwaitEmcy final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
@@ -281,6 +303,8 @@ constexpr Verb table[] = {
     {"raise_error", "Raise an error by a trigger of the device profile (default: a heartbeat that stays away).",
      "trigger: number, from 1\nsave: name that the EMCY error code gets", "- raise_error: {trigger: 1, save: code}", &RaiseError::parse},
     {"clear_error", "Remove the cause of an error.", "trigger: number, from 1", "- clear_error: 1", &RaiseError::parse_clear},
+    {"store_fault", "Make storing and restoring (1010h, 1011h) fail by store_fault of the device profile, or work again.",
+     "one of: arm, disarm", "- store_fault: arm", &SwitchStoreFault::parse},
     {"emcy", "Wait for an EMCY.",
      "code: error code, any when absent\nwithin: time (default 1 s, plus the delay of the trigger)\nafter: label to count from\n"
      "save_code, save_register: names that code and error register get\nmeasured: register",

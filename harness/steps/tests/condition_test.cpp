@@ -68,7 +68,7 @@ TEST_CASE("Conditions about device and bench are phrases") {
   auto session = device();
   for (const char* text : {"device claims sync producer", "error trigger is known", "an error trigger is known", "2 error triggers are known",
                            "not device claims emcy", "not interface can send RTR", "not factory defaults are active",
-                           "not device description is given", "not all objects are tried"}) {
+                           "not device description is given", "not all objects are tried", "not store fault is known"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -76,6 +76,8 @@ TEST_CASE("Conditions about device and bench are phrases") {
   session.remote = session.factory = session.described = session.sweeps = true;
   CHECK(answer("interface can send RTR and factory defaults are active", session) == "yes");
   CHECK(answer("device description is given and all objects are tried", session) == "yes");
+  session.device_profile.store_fault.emplace();
+  CHECK(answer("store fault is known", session) == "yes");
 }
 
 TEST_CASE("'and' binds before 'or', and parentheses before both") {

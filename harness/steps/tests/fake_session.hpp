@@ -71,6 +71,7 @@ class FakeSession final : public Session {
   }
   [[nodiscard]] bool claims(std::string_view feature) const override { return features.contains(feature); }
   [[nodiscard]] std::size_t error_triggers() const override { return triggers; }
+  [[nodiscard]] bool store_fault_known() const override { return device_profile.store_fault.has_value(); }
   [[nodiscard]] bool factory_defaults() const override { return factory; }
   [[nodiscard]] bool can_send_remote_frames() const override { return remote; }
   [[nodiscard]] bool is_described() const override { return described; }
