@@ -304,7 +304,7 @@ constexpr Verb table[] = {
      "trigger: number, from 1\nsave: name that the EMCY error code gets", "- raise_error: {trigger: 1, save: code}", &RaiseError::parse},
     {"clear_error", "Remove the cause of an error.", "trigger: number, from 1", "- clear_error: 1", &RaiseError::parse_clear},
     {"store_fault", "Make storing and restoring (1010h, 1011h) fail by store_fault of the device profile, or work again.",
-     "one of: arm, disarm", "- store_fault: arm", &SwitchStoreFault::parse},
+     "(word): arm, disarm", "- store_fault: arm", &SwitchStoreFault::parse},
     {"emcy", "Wait for an EMCY.",
      "code: error code, any when absent\nwithin: time (default 1 s, plus the delay of the trigger)\nafter: label to count from\n"
      "save_code, save_register: names that code and error register get\nmeasured: register",
