@@ -7,10 +7,12 @@
 #include <chrono>
 #include <csignal>
 #include <ctime>
+#include <optional>
 
 #include "base/files.hpp"
 #include "base/text.hpp"
 #include "can/candump_log.hpp"
+#include "can/interface_lock.hpp"
 #include "can/pcapng.hpp"
 #include "can/socketcan_interface.hpp"
 #include "can/socketcan_transport.hpp"
@@ -38,6 +40,10 @@ void catch_signals() {
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
+  // A closed terminal must not leave the device changed; nohup has its way.
+  struct sigaction hangup {};
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
   // A closed pipe (| head) must not cost the reports.
   std::signal(SIGPIPE, SIG_IGN);
 }
@@ -165,12 +171,16 @@ int run_command(const RunCommand& options) {
     }
   }
 
+  std::optional<can::InterfaceLock> lock;
   std::unique_ptr<can::SocketCanTransport> transport;
   if (!options.simulate && !options.dry_run) {
     if (profile->interface.empty()) return report_error({"no interface is named", {}, "--interface can0, or interface: in the device profile"}, exit_usage);
     auto opened = can::SocketCanTransport::open(profile->interface);
     if (!opened) return report_error(opened.error(), exit_environment);
     transport = std::move(*opened);
+    auto taken = can::InterfaceLock::take(profile->interface);
+    if (!taken) return report_error(taken.error(), exit_environment);
+    lock.emplace(std::move(*taken));
   }
   // A real machine may hang on a real interface: without --allow nothing is written to it.
   const bool is_virtual = options.simulate || (transport != nullptr && transport->info().is_virtual);
