@@ -142,6 +142,12 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   const auto errors_before = context.diagnostics.error_count();
   if (const auto steps = fields.required("steps")) out.steps = parse_steps(steps, context);
   if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
+  for (const auto& step : out.cleanup) {
+    if (step.action == nullptr || !step.branches.empty()) {
+      context.diagnostics.error(step.position, step.length, "'over' and 'either' have no place in a cleanup",
+                                "write the steps one after the other; 'when' may choose among them");
+    }
+  }
 
   if (out.risk == Risk::read_only) {
     const steps::Step* change = steps::first_change(out.steps);
