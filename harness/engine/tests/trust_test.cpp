@@ -500,3 +500,33 @@ TEST_CASE("a flooded bus ends the run before the memory does, and values are put
   recorder.ignore_stop(true);
   CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
 }
+
+TEST_CASE("a cyclic frame that the host sends late is told, the first one is not") {
+  /// Wakes up late: what a starved host does.
+  class LateTransport final : public can::Transport {
+   public:
+    explicit LateTransport(can::Transport& inner) : inner_(inner) {}
+    BusTime now() const override { return inner_.now(); }
+    Result<void> send(const can::Frame& frame) override { return inner_.send(frame); }
+    Result<std::optional<can::BusEvent>> receive(BusTime deadline) override { return inner_.receive(deadline + late); }
+    can::BusHealth health() override { return inner_.health(); }
+    can::TransportInfo info() const override { return inner_.info(); }
+    Duration late{};
+
+   private:
+    can::Transport& inner_;
+  };
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  LateTransport transport(bus.transport());
+  Recorder recorder(transport, nullptr);
+  recorder.produce({"heartbeat", can::data_frame(CanId(0x77E), {5}), 50ms, std::nullopt});
+  REQUIRE(recorder.wait_until(recorder.now() + 500ms).has_value());
+  CHECK(recorder.take_lateness().producing == Duration(0));
+  transport.late = 40ms;
+  REQUIRE(recorder.wait_until(recorder.now() + 500ms).has_value());
+  const auto lateness = recorder.take_lateness();
+  CHECK(lateness.producing == Duration(40ms));
+  CHECK(lateness.waking == Duration(40ms));
+}
