@@ -21,7 +21,7 @@ CORPUS = ROOT / "harness/scenario/tests/corpus"
 BEYOND_THE_SCHEMA = {
     "ambiguous-numbers", "bad-condition", "bad-conversation", "bad-expression", "bad-for-each-values", "bad-over-query", "bad-query",
     "duplicate-scenario", "label-without-as", "no-checks", "read-only-writes", "unknown-name", "unknown-requirement",
-    "unknown-requirement-in-row",
+    "unknown-requirement-in-row", "walk-in-cleanup",
 }
 # Not for a reader that builds a tree: YAML itself is broken, or hides what it means.
 NOT_YAML = {"alias", "merge-key", "duplicate-key", "syntax", "tab"}
