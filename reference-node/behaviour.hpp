@@ -51,7 +51,7 @@ struct StoreFaults {
   bool groups_mixed = false;  ///< every sub-index means all parameters
   bool failure_confirmed = false;
   bool failure_aborted_as_refusal = false;  ///< 0800 0020h in place of the hardware error
-  bool effective_at_once = false;  ///< 1011h: defaults are valid before the reset
+  bool effective_at_once = false;           ///< 1011h: defaults are valid before the reset
 };
 
 struct Behaviour {

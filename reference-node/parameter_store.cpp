@@ -60,7 +60,8 @@ ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
     load.command = true;
     load.check = [this, sub](ByteView signature) { return restore(sub, signature); };
   }
-  Entry& failing = od.add_variable(0x2F20, integer_entry("Storage fault", DataType::unsigned8, Access::rw, 0));
+  Entry& failing =
+      od.add_variable(0x2F20, integer_entry("Storage fault", DataType::unsigned8, Access::rw, 0));
   failing.storable = false;
 }
 

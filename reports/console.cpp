@@ -25,7 +25,7 @@ using result::Verdict;
 struct Column {
   Verdict verdict;
   std::string_view label;
-  std::size_t Counts::*count;
+  std::size_t Counts::* count;
 };
 constexpr std::array<Column, 6> verdict_columns{{{Verdict::pass, "pass", &Counts::pass},
                                                  {Verdict::warn, "warn", &Counts::warn},
@@ -158,7 +158,8 @@ void write_card_list(Page& page, const RunResult& run, const std::vector<Located
     if (i != 0) page.line();
     page.text(finding_card(run, *all[i].owner, *all[i].finding, page.style()));
   }
-  if (most < all.size()) page.line(fmt::format("\n... and {} more, in full in the report files", all.size() - most));
+  if (most < all.size())
+    page.line(fmt::format("\n... and {} more, in full in the report files", all.size() - most));
 }
 
 /// Findings of one verdict as cards; a case without findings tells its reason instead.
@@ -167,8 +168,9 @@ void write_cards(Page& page, const RunResult& run, Verdict verdict, std::string_
   std::vector<const CaseResult*> bare;
   for (const CaseResult& one : run.cases) {
     const auto findings = findings_of(one);
-    std::ranges::copy_if(findings, std::back_inserter(all),
-                         [&](const LocatedFinding& located) { return located.verdict == verdict && !located.setup; });
+    std::ranges::copy_if(findings, std::back_inserter(all), [&](const LocatedFinding& located) {
+      return located.verdict == verdict && !located.setup;
+    });
     if (one.verdict == verdict && findings.empty()) bare.push_back(&one);
   }
   if (all.empty() && bare.empty()) return;
@@ -189,7 +191,8 @@ void write_unjudged_cases(Page& page, const RunResult& run) {
       for (std::size_t i = 0; i < std::min(group.cases.size(), named); ++i) {
         page.item(log_safe(group.cases[i]->name()), "    ");
       }
-      if (group.cases.size() > named) page.item(fmt::format("and {} more", group.cases.size() - named), "    ");
+      if (group.cases.size() > named)
+        page.item(fmt::format("and {} more", group.cases.size() - named), "    ");
     }
   }
 }
@@ -206,7 +209,8 @@ void write_unjudged(Page& page, const RunResult& run) {
   const std::size_t unjudged = counts.error + counts.inconclusive;
   if (unjudged == 0 && all.empty()) return;
   page.heading(unjudged == 0 ? "Steps that could not be done"
-                             : fmt::format("Not judged ({}): this says nothing about the device yet", counted(unjudged, "case")));
+                             : fmt::format("Not judged ({}): this says nothing about the device yet",
+                                           counted(unjudged, "case")));
   write_unjudged_cases(page, run);
   if (unjudged != 0 && !all.empty()) page.line();
   write_card_list(page, run, all);
@@ -220,20 +224,24 @@ void write_not_applicable(Page& page, const RunResult& run) {
   for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
     page.item(fmt::format("{}: {}", counted(groups[i].cases.size(), "case"), prose(groups[i].reason)));
   }
-  if (groups.size() > most) page.item(fmt::format("and {} more reasons, listed in the report files", groups.size() - most));
+  if (groups.size() > most)
+    page.item(fmt::format("and {} more reasons, listed in the report files", groups.size() - most));
 }
 
 /// What the exit code says, for a person who does not know the table.
 std::string exit_text(const RunResult& run, int code) {
   const Counts counts = run.counts();
   switch (code) {
-    case 0: return counts.warn == 0 ? "everything that was judged conforms"
-                                    : "everything that was judged conforms, with warnings";
+    case 0:
+      return counts.warn == 0 ? "everything that was judged conforms"
+                              : "everything that was judged conforms, with warnings";
     case 1: return "the device violates at least one requirement";
-    case 2: return run.cases.empty() ? "nothing was selected, so nothing was judged"
-                                     : "nothing selected applies to this device, so nothing was judged";
-    case 3: return run.aborted ? "the run stopped early; no requirement is known to be violated"
-                               : "no requirement is known to be violated, but not everything could be judged";
+    case 2:
+      return run.cases.empty() ? "nothing was selected, so nothing was judged"
+                               : "nothing selected applies to this device, so nothing was judged";
+    case 3:
+      return run.aborted ? "the run stopped early; no requirement is known to be violated"
+                         : "no requirement is known to be violated, but not everything could be judged";
     case 130: return "interrupted (SIGINT)";
     case 143: return "terminated (SIGTERM)";
     default: return fmt::format("ended by signal {}", run.signal);
@@ -246,11 +254,13 @@ void write_totals(Page& page, const RunResult& run) {
   page.heading("Result");
   page.painted_row("cases", fmt::format("{}: {}", run.cases.size(), counts_text(run.counts(), style)), label);
   const AreaTally total = sum(tally_by_area(run));
-  page.painted_row("requirements",
-                   fmt::format("{}: {}", total.counts.total() + total.not_judged, counts_text(total.counts, style)),
-                   label);
+  page.painted_row(
+      "requirements",
+      fmt::format("{}: {}", total.counts.total() + total.not_judged, counts_text(total.counts, style)),
+      label);
   page.row("bus time", brief_duration(run.elapsed), label);
-  for (std::size_t i = 0; i < run.notes.size(); ++i) page.row(i == 0 ? "notes" : "", prose(run.notes[i]), label);
+  for (std::size_t i = 0; i < run.notes.size(); ++i)
+    page.row(i == 0 ? "notes" : "", prose(run.notes[i]), label);
   if (run.aborted) page.row("stopped", prose(*run.aborted), label);
   const int code = result::exit_code(run);
   const Ink ink = code == 0 ? Ink::good : code == 1 ? Ink::bad : Ink::unsure;
@@ -264,11 +274,13 @@ std::string case_line(const CaseResult& one, const Style& style) {
   line += "  " + log_safe(one.name());
   const std::string requirements = requirement_list(one);
   if (!requirements.empty()) line += "  " + paint(requirements, Ink::dim, style);
-  if (one.verdict != Verdict::not_applicable && !is_not_run(one)) line += "  " + brief_duration(one.end - one.begin);
+  if (one.verdict != Verdict::not_applicable && !is_not_run(one))
+    line += "  " + brief_duration(one.end - one.begin);
   if (one.verdict == Verdict::pass) return line;
   constexpr std::size_t reason_width = 160;
   const std::string why = clip(headline(one), reason_width);
-  return why.empty() ? line : line + "  " + paint(why, one.verdict == Verdict::fail ? Ink::bad : Ink::plain, style);
+  return why.empty() ? line
+                     : line + "  " + paint(why, one.verdict == Verdict::fail ? Ink::bad : Ink::plain, style);
 }
 
 std::string summary(const RunResult& run, const Style& style) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One finding as a card: written for somebody who knows the device and the standard, and has never seen this tool.
+// One finding as a card: written for somebody who knows the device and the standard, and has never seen this
+// tool.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ using result::RequirementInfo;
 using result::Verdict;
 
 constexpr std::size_t label_width = 13;
-// A device may send a string of a megabyte. Three lines of title and ten of a value are enough to recognise it.
+// A device may send a string of a megabyte. Three lines of title and ten of a value are enough to recognise
+// it.
 constexpr std::size_t title_lines = 3;
 constexpr std::size_t value_lines = 10;
 constexpr std::size_t frames_before = 10;
@@ -36,7 +38,8 @@ class Card {
     bool first = true;
     const std::size_t room = width_ - label.size() - 2;
     for (const std::string& line : wrap(clip(text, title_lines * room), room)) {
-      const std::string front = first ? paint(label + ":", ink_of(verdict), style_) : std::string(label.size() + 1, ' ');
+      const std::string front =
+          first ? paint(label + ":", ink_of(verdict), style_) : std::string(label.size() + 1, ' ');
       out_ += front + " " + paint(line, Ink::strong, style_) + "\n";
       first = false;
     }
@@ -89,7 +92,8 @@ class Card {
   std::string out_;
 };
 
-void draw_requirement(Card& card, const result::RunResult& run, const CaseResult& one, const Finding& finding) {
+void draw_requirement(Card& card, const result::RunResult& run, const CaseResult& one,
+                      const Finding& finding) {
   if (finding.requirement.empty()) {
     card.row("rule", "none: this step only prepares the case");
   } else {
@@ -116,7 +120,8 @@ void draw_grades(Card& card, const Finding& finding, Verdict verdict) {
   }
   card.row("came", log_safe(finding.actual), ink_of(verdict));
   if (!finding.actual_bytes.empty()) {
-    card.fixed(finding.actual.empty() ? "came" : "", byte_rows(finding.actual_bytes, card.width() < 92 ? 8 : 16));
+    card.fixed(finding.actual.empty() ? "came" : "",
+               byte_rows(finding.actual_bytes, card.width() < 92 ? 8 : 16));
   }
   card.row("why", prose(finding.reason));
 }
@@ -141,9 +146,9 @@ void draw_frames(Card& card, const CaseResult& one, const Finding& finding) {
   left_out(first, "before");
   for (const EvidenceFrame& frame : shown) {
     const bool sent = frame.direction == can::Direction::transmitted;
-    const std::string front = fmt::format("{} {} {}  {}", pad_left(milliseconds(frame.time - one.begin), time_width),
-                                          sent ? '>' : '<', pad_right(can_id_text(frame.frame), id_width),
-                                          payload_text(frame.frame));
+    const std::string front = fmt::format(
+        "{} {} {}  {}", pad_left(milliseconds(frame.time - one.begin), time_width), sent ? '>' : '<',
+        pad_right(can_id_text(frame.frame), id_width), payload_text(frame.frame));
     const std::size_t front_width = columns(front) - columns(payload_text(frame.frame)) + data_width;
     // The meaning goes beside the bytes where there is room for it, below them otherwise.
     const bool beside = front_width + 32 <= card.width() && !frame.meaning.empty();

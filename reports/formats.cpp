@@ -12,8 +12,12 @@ namespace conform::reports {
 namespace {
 
 std::string write_junit(const result::RunResult& run, const can::Capture& /*capture*/) { return junit(run); }
-std::string write_markdown(const result::RunResult& run, const can::Capture& /*capture*/) { return markdown(run); }
-std::string write_text(const result::RunResult& run, const can::Capture& /*capture*/) { return summary(run, Style{}); }
+std::string write_markdown(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return markdown(run);
+}
+std::string write_text(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return summary(run, Style{});
+}
 
 // A table and not self-registration: the linker drops registrars from static libraries.
 constexpr std::array<Format, 3> table{{

@@ -28,14 +28,16 @@ using result::RequirementInfo;
 using result::RunResult;
 using result::Verdict;
 
-// Azure cuts names at 512 characters, lists are unreadable long before; a message is one line of an annotation.
+// Azure cuts names at 512 characters, lists are unreadable long before; a message is one line of an
+// annotation.
 constexpr std::size_t name_limit = 200;
 constexpr std::size_t message_limit = 250;
 // libxml2 refuses text nodes of 10 MB and Jenkins keeps 100 000 characters: nobody misses what is cut here.
 constexpr std::size_t text_limit = std::size_t{64} * 1024;
 constexpr std::string_view fallback_suite = "canopen-conform";
 
-// Every string enters the document through these two: pugixml writes control characters and broken UTF-8 as they are.
+// Every string enters the document through these two: pugixml writes control characters and broken UTF-8 as
+// they are.
 void set(pugi::xml_node node, const char* name, std::string_view value) {
   node.append_attribute(name).set_value(printable(value).c_str());
 }
@@ -43,12 +45,13 @@ void set_text(pugi::xml_node node, std::string_view text) {
   node.text().set(clip_bytes(printable(text, true), text_limit).c_str());
 }
 
-/// "cia301/dictionary/1003-error-history" as class name. Jenkins splits at the last dot and GitLab shows it as the
-/// suite, so a dot only ever stands for a level of the path.
+/// "cia301/dictionary/1003-error-history" as class name. Jenkins splits at the last dot and GitLab shows it
+/// as the suite, so a dot only ever stands for a level of the path.
 std::string dotted(std::string_view path) {
   std::string out;
   for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     if (c != '/') {
       out += plain ? c : '_';
     } else if (!out.empty() && out.back() != '.') {
@@ -119,7 +122,8 @@ void write_frames(Sheet& sheet, const RunResult& run, std::span<const EvidenceFr
   const std::string interface = interface_name(run);
   for (const EvidenceFrame& one : evidence) {
     const bool sent = one.direction == can::Direction::transmitted;
-    std::string text = fmt::format("{} {} {}", one.decisive ? "=>" : "  ", candump_line(one, interface), sent ? ">" : "<");
+    std::string text =
+        fmt::format("{} {} {}", one.decisive ? "=>" : "  ", candump_line(one, interface), sent ? ">" : "<");
     if (!one.meaning.empty()) text += fmt::format(" {}", log_safe(one.meaning));
     sheet.line(text);
   }
@@ -149,8 +153,10 @@ void write_finding(Sheet& sheet, const RunResult& run, const LocatedFinding& loc
   write_frames(sheet, run, evidence_window(finding.evidence, 60, 20));
 }
 
-/// The first line is the message again (GitLab shows no attribute), the last one the position in the scenario.
-std::string details(const RunResult& run, const JUnitOptions& options, const CaseResult& one, std::string_view message) {
+/// The first line is the message again (GitLab shows no attribute), the last one the position in the
+/// scenario.
+std::string details(const RunResult& run, const JUnitOptions& options, const CaseResult& one,
+                    std::string_view message) {
   Sheet sheet;
   sheet.line(message);
   sheet.line();
@@ -165,7 +171,8 @@ std::string details(const RunResult& run, const JUnitOptions& options, const Cas
   const auto worst = std::ranges::max_element(all, {}, &LocatedFinding::verdict);
   const bool known = worst != all.end() && !worst->finding->position.file.empty();
   const std::string position = position_text(known ? worst->finding->position : one.position);
-  std::string text = clip_bytes(sheet.take(), text_limit - position.size() - options.source_prefix.size() - 256);
+  std::string text =
+      clip_bytes(sheet.take(), text_limit - position.size() - options.source_prefix.size() - 256);
   if (!position.empty()) text += fmt::format("\n{}{}", printable(options.source_prefix), position);
   return text;
 }
@@ -188,7 +195,8 @@ std::string error_type(const CaseResult& one) {
   return one.verdict == Verdict::inconclusive ? "inconclusive" : "environment";
 }
 
-/// Plain lines for canplayer, cansend and Wireshark: the frames of all findings once, in the order of the bus.
+/// Plain lines for canplayer, cansend and Wireshark: the frames of all findings once, in the order of the
+/// bus.
 std::string evidence_log(const RunResult& run, const CaseResult& one) {
   std::map<std::size_t, const EvidenceFrame*> frames;
   const std::vector<LocatedFinding> all = findings_of(one);
@@ -213,16 +221,16 @@ std::string message_of(const RunResult& run, const CaseResult& one) {
   return clip_bytes(text, message_limit);
 }
 
-void write_outcome(pugi::xml_node parent, const char* element, std::string_view type, std::string_view message,
-                   std::string_view text) {
+void write_outcome(pugi::xml_node parent, const char* element, std::string_view type,
+                   std::string_view message, std::string_view text) {
   pugi::xml_node node = parent.append_child(element);
   if (!type.empty()) set(node, "type", type);
   set(node, "message", message);
   set_text(node, text);
 }
 
-void write_case(pugi::xml_node parent, const RunResult& run, const JUnitOptions& options, const CaseResult& one,
-                std::string_view class_name, std::set<std::string>& taken) {
+void write_case(pugi::xml_node parent, const RunResult& run, const JUnitOptions& options,
+                const CaseResult& one, std::string_view class_name, std::set<std::string>& taken) {
   pugi::xml_node node = parent.append_child("testcase");
   set(node, "classname", class_name);
   set(node, "name", case_name(one, taken));
@@ -232,7 +240,8 @@ void write_case(pugi::xml_node parent, const RunResult& run, const JUnitOptions&
     case Verdict::pass: return;
     case Verdict::warn: {
       const std::string text = details(run, options, one, message);
-      set_text(node.append_child("system-out"), fmt::format("warning: {}\n\n{}", text, evidence_log(run, one)));
+      set_text(node.append_child("system-out"),
+               fmt::format("warning: {}\n\n{}", text, evidence_log(run, one)));
       return;
     }
     case Verdict::not_applicable: write_outcome(node, "skipped", "", message, message); return;
@@ -256,12 +265,14 @@ void write_properties(pugi::xml_node parent, const RunResult& run) {
     set(property, "value", value);
   };
   const auto add_own = [&](std::string_view name, std::string_view value) {
-    if (std::ranges::find(run.properties, name, &result::Property::name) == run.properties.end()) add(name, value);
+    if (std::ranges::find(run.properties, name, &result::Property::name) == run.properties.end())
+      add(name, value);
   };
   add_own("run.tool", run.tool);
   add_own("dut.name", run.device);
   for (const result::Property& property : run.properties) add(property.name, property.value);
-  for (std::size_t i = 0; i < run.notes.size(); ++i) add(fmt::format("run.note.{}", i + 1), prose(run.notes[i]));
+  for (std::size_t i = 0; i < run.notes.size(); ++i)
+    add(fmt::format("run.note.{}", i + 1), prose(run.notes[i]));
   if (run.aborted) add("run.aborted", prose(*run.aborted));
 }
 
@@ -286,8 +297,8 @@ Numbers numbers_of(std::span<const CaseResult* const> cases) {
   return numbers;
 }
 
-pugi::xml_node begin_suite(pugi::xml_node root, const RunResult& run, std::string_view name, const Numbers& numbers,
-                           Duration time, Duration since_start) {
+pugi::xml_node begin_suite(pugi::xml_node root, const RunResult& run, std::string_view name,
+                           const Numbers& numbers, Duration time, Duration since_start) {
   pugi::xml_node node = root.append_child("testsuite");
   set(node, "name", name);
   write_numbers(node, numbers);
@@ -320,8 +331,8 @@ void write_empty_run(pugi::xml_node root, const RunResult& run) {
   set(only, "classname", fallback_suite);
   set(only, "name", "run");
   set(only, "time", seconds(run.elapsed));
-  const std::string message =
-      clip_bytes(run.aborted ? prose(*run.aborted) : "nothing was selected: no case was planned", message_limit);
+  const std::string message = clip_bytes(
+      run.aborted ? prose(*run.aborted) : "nothing was selected: no case was planned", message_limit);
   write_outcome(only, "error", run.aborted ? "environment" : "not-run", message, message);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JUnit XML in the strict shape that Jenkins (junit and xUnit plugins), GitLab, Azure and the GitHub actions read.
+// JUnit XML in the strict shape that Jenkins (junit and xUnit plugins), GitLab, Azure and the GitHub actions
+// read.
 #pragma once
 
 #include <string>
@@ -9,15 +10,16 @@
 namespace conform::reports {
 
 struct JUnitOptions {
-  /// In front of every class name ("drive-a.cia301.sdo"): keeps the reports of several devices of one pipeline apart.
+  /// In front of every class name ("drive-a.cia301.sdo"): keeps the reports of several devices of one
+  /// pipeline apart.
   std::string class_prefix;
   /// In front of every scenario file ("suites/"): CI systems want paths from the root of the repository.
   std::string source_prefix;
 };
 
-/// One <testsuite> per suite file, one <testcase> per case; described by reports/junit.xsd. Verdicts become: fail
-/// <failure>; error, inconclusive and not run <error>; not applicable <skipped>; a warning passes and says so in
-/// <system-out>. A run without cases becomes one <error>, so that an empty report is never green.
+/// One <testsuite> per suite file, one <testcase> per case; described by reports/junit.xsd. Verdicts become:
+/// fail <failure>; error, inconclusive and not run <error>; not applicable <skipped>; a warning passes and
+/// says so in <system-out>. A run without cases becomes one <error>, so that an empty report is never green.
 [[nodiscard]] std::string junit(const result::RunResult& run, const JUnitOptions& options = {});
 
 }  // namespace conform::reports

@@ -22,7 +22,8 @@ using result::Counts;
 using result::RunResult;
 using result::Verdict;
 
-/// Text of others between our marks: nothing in it is a heading, link, mention, HTML or the end of a table cell.
+/// Text of others between our marks: nothing in it is a heading, link, mention, HTML or the end of a table
+/// cell.
 std::string escaped(std::string_view text, std::size_t width = 400) {
   constexpr std::string_view marks = "\\`*_{}[]>#!|~$";
   std::string out;
@@ -93,11 +94,15 @@ std::string counts_text(const Counts& counts) {
 std::string areas_text(const RunResult& run) {
   const std::vector<AreaTally> rows = tally_by_area(run);
   if (rows.empty()) return {};
-  std::string text = "\n| Requirements | pass | warn | fail | inconclusive | error | n/a |\n|---|--:|--:|--:|--:|--:|--:|\n";
-  const auto cell = [](std::size_t number) { return number == 0 ? std::string() : fmt::format("{}", number); };
+  std::string text =
+      "\n| Requirements | pass | warn | fail | inconclusive | error | n/a |\n|---|--:|--:|--:|--:|--:|--:|\n";
+  const auto cell = [](std::size_t number) {
+    return number == 0 ? std::string() : fmt::format("{}", number);
+  };
   const auto add = [&](std::string_view name, const Counts& counts) {
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, cell(counts.pass), cell(counts.warn),
-                        cell(counts.fail), cell(counts.inconclusive), cell(counts.error), cell(counts.not_applicable));
+                        cell(counts.fail), cell(counts.inconclusive), cell(counts.error),
+                        cell(counts.not_applicable));
   };
   for (const AreaTally& row : rows) add(escaped(row.area, 100), row.counts);
   add("**total**", sum(rows).counts);
@@ -108,8 +113,9 @@ std::string areas_text(const RunResult& run) {
 std::string finding_text(const RunResult& run, const LocatedFinding& located) {
   const result::Finding& finding = *located.finding;
   const result::RequirementInfo* info = run.requirement(finding.requirement);
-  std::string text = fmt::format("\n**{}**: {}\n", finding.requirement.empty() ? "set-up" : escaped(finding.requirement),
-                                 escaped(headline(finding)));
+  std::string text =
+      fmt::format("\n**{}**: {}\n", finding.requirement.empty() ? "set-up" : escaped(finding.requirement),
+                  escaped(headline(finding)));
   if (info != nullptr) text += fmt::format("{} ({})\n", escaped(info->statement), escaped(info->clause));
   text += fmt::format("Case {}\n\n<details><summary>evidence</summary>\n\n", code(located.owner->name()));
   text += block(finding_card(run, *located.owner, finding, Style{}));
@@ -158,7 +164,8 @@ std::vector<std::string> unjudged_text(const RunResult& run) {
   for (const Verdict verdict : {Verdict::error, Verdict::inconclusive}) {
     for (const CaseResult& one : run.cases) {
       if (one.verdict != verdict) continue;
-      items.push_back(fmt::format("\n- {}: {}, {}", code(one.name()), verdict_words(verdict), escaped(headline(one))));
+      items.push_back(
+          fmt::format("\n- {}: {}, {}", code(one.name()), verdict_words(verdict), escaped(headline(one))));
     }
   }
   if (!items.empty()) items.back() += "\n";
@@ -179,10 +186,11 @@ std::string facts_text(const RunResult& run) {
 std::string markdown(const RunResult& run, const MarkdownOptions& options) {
   const int exit_code = result::exit_code(run);
   Document document(options.size_limit);
-  document.add(fmt::format("## {}: {}\n\n", escaped(run.device.empty() ? "CANopen conformance" : run.device, 100),
+  document.add(fmt::format("## {}: {}\n\n",
+                           escaped(run.device.empty() ? "CANopen conformance" : run.device, 100),
                            banner(exit_code)));
-  document.add(fmt::format("{}, {}: {}. Exit code {}.\n", escaped(run.tool), counted(run.cases.size(), "case"),
-                           counts_text(run.counts()), exit_code));
+  document.add(fmt::format("{}, {}: {}. Exit code {}.\n", escaped(run.tool),
+                           counted(run.cases.size(), "case"), counts_text(run.counts()), exit_code));
   if (run.aborted) document.add(fmt::format("\nStopped early: {}\n", escaped(*run.aborted)));
   document.add(areas_text(run));
   document.add(facts_text(run));

@@ -83,7 +83,8 @@ std::string candump_frame(const can::Frame& frame) {
 
 std::string candump_line(const EvidenceFrame& one, std::string_view interface_name) {
   const std::int64_t us = std::max<std::int64_t>(one.time.time_since_epoch().count() / 1000, 0);
-  return fmt::format("({:010}.{:06}) {} {}", us / 1'000'000, us % 1'000'000, interface_name, candump_frame(one.frame));
+  return fmt::format("({:010}.{:06}) {} {}", us / 1'000'000, us % 1'000'000, interface_name,
+                     candump_frame(one.frame));
 }
 
 std::string interface_name(const result::RunResult& run) {
@@ -94,7 +95,8 @@ std::string interface_name(const result::RunResult& run) {
 }
 
 std::string payload_text(const can::Frame& frame) {
-  if (frame.error) return fmt::format("error frame {} {}", hex(frame.id & 0x1FFFFFFFU, 8), hex_bytes(frame.bytes()));
+  if (frame.error)
+    return fmt::format("error frame {} {}", hex(frame.id & 0x1FFFFFFFU, 8), hex_bytes(frame.bytes()));
   if (frame.remote) return fmt::format("remote, {} byte{} asked for", frame.dlc, frame.dlc == 1 ? "" : "s");
   if (frame.dlc > 8) return fmt::format("{} (DLC {})", hex_bytes(frame.bytes()), frame.dlc);
   return frame.dlc == 0 ? "(no data)" : hex_bytes(frame.bytes());
@@ -124,8 +126,10 @@ std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size) {
   for (std::size_t at = 0; at < std::min(bytes.size(), most); at += row_size) {
     const ByteView part = bytes.subspan(at, std::min(row_size, bytes.size() - at));
     std::string characters;
-    for (const std::uint8_t byte : part) characters += byte >= 0x20 && byte < 0x7F ? static_cast<char>(byte) : '.';
-    rows.push_back(fmt::format("{:04X}h  {}  |{}|", at, pad_right(hex_bytes(part), row_size * 3 - 1), log_safe(characters)));
+    for (const std::uint8_t byte : part)
+      characters += byte >= 0x20 && byte < 0x7F ? static_cast<char>(byte) : '.';
+    rows.push_back(fmt::format("{:04X}h  {}  |{}|", at, pad_right(hex_bytes(part), row_size * 3 - 1),
+                               log_safe(characters)));
   }
   if (bytes.size() > most) rows.push_back(fmt::format("... {} bytes more", bytes.size() - most));
   return rows;

@@ -12,8 +12,8 @@
 
 namespace conform::reports {
 
-/// A finding with the case it belongs to and the verdict that counts: the cap of a requirement's level may have made
-/// the judgement milder than the finding.
+/// A finding with the case it belongs to and the verdict that counts: the cap of a requirement's level may
+/// have made the judgement milder than the finding.
 struct LocatedFinding {
   const result::CaseResult* owner = nullptr;
   const result::Finding* finding = nullptr;
@@ -50,9 +50,10 @@ struct LocatedFinding {
 [[nodiscard]] std::string can_id_text(const can::Frame& frame);
 
 /// The part of the evidence worth printing: frames around the decisive one (the last one if none is).
-[[nodiscard]] std::span<const result::EvidenceFrame> evidence_window(std::span<const result::EvidenceFrame> evidence,
-                                                                     std::size_t before, std::size_t after);
-/// Rows of `row_size` bytes with offset and characters; one plain row up to eight bytes. At most 256 bytes are shown.
+[[nodiscard]] std::span<const result::EvidenceFrame> evidence_window(
+    std::span<const result::EvidenceFrame> evidence, std::size_t before, std::size_t after);
+/// Rows of `row_size` bytes with offset and characters; one plain row up to eight bytes. At most 256 bytes
+/// are shown.
 [[nodiscard]] std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size = 16);
 
 }  // namespace conform::reports

@@ -22,8 +22,8 @@ std::optional<Verdict> verdict_in(const CaseResult& one, const std::string& requ
     verdict = verdict ? worst(*verdict, judgement.verdict) : judgement.verdict;
   }
   if (verdict) return verdict;
-  // Not judged although the case could have: a case that did not get to its judgements speaks for all of them, one
-  // that did took another branch.
+  // Not judged although the case could have: a case that did not get to its judgements speaks for all of
+  // them, one that did took another branch.
   const bool no_word = one.verdict == Verdict::not_applicable || one.verdict == Verdict::inconclusive ||
                        one.verdict == Verdict::error;
   return no_word ? std::optional(one.verdict) : std::nullopt;
@@ -70,7 +70,7 @@ std::vector<AreaTally> tally_by_area(const RunResult& run) {
   std::vector<AreaTally> rows;
   for (const RequirementVerdict& one : requirement_verdicts(run)) {
     const result::RequirementInfo* info = run.requirement(one.id);
-    const std::string area = info == nullptr         ? "(not in the catalogue)"
+    const std::string area = info == nullptr      ? "(not in the catalogue)"
                              : info->area.empty() ? "(no area)"
                                                   : info->area;
     auto row = std::ranges::find(rows, area, &AreaTally::area);

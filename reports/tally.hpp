@@ -14,7 +14,8 @@ namespace conform::reports {
 /// A requirement over all cases of the run that can judge it.
 struct RequirementVerdict {
   std::string id;
-  std::optional<result::Verdict> verdict;  ///< the worst; none if only branches that were not taken would judge it
+  std::optional<result::Verdict>
+      verdict;  ///< the worst; none if only branches that were not taken would judge it
 };
 
 /// Every requirement the cases mention, in the order of RunResult::requirements, strays behind them.

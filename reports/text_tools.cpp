@@ -42,7 +42,8 @@ std::int64_t microseconds(Duration duration) {
 }  // namespace
 
 std::size_t columns(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return !continues_character(c); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return !continues_character(c); }));
 }
 
 std::string pad_right(std::string_view text, std::size_t width) {
@@ -123,7 +124,8 @@ std::string brief_duration(Duration duration) {
   const std::int64_t us = std::max<std::int64_t>(microseconds(duration), 0);
   if (us < 9'950) return fmt::format("{}.{} ms", (us + 50) / 1000, (us + 50) / 100 % 10);
   if (us < 999'500) return fmt::format("{} ms", (us + 500) / 1000);
-  if (us < 59'995'000) return fmt::format("{}.{:02} s", (us + 5'000) / 1'000'000, (us + 5'000) / 10'000 % 100);
+  if (us < 59'995'000)
+    return fmt::format("{}.{:02} s", (us + 5'000) / 1'000'000, (us + 5'000) / 10'000 % 100);
   const std::int64_t s = (us + 500'000) / 1'000'000;
   if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
@@ -147,8 +149,8 @@ std::string utc_timestamp(std::int64_t utc_ns) {
   const year_month_day date{day};
   const hh_mm_ss clock{at - day};
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(date.year()),
-                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()), clock.hours().count(),
-                     clock.minutes().count(), clock.seconds().count());
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
+                     clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

@@ -28,7 +28,8 @@ namespace conform::reports {
 
 /// Text of a catalogue or scenario as one line: blanks and line breaks collapse, the rest is made printable.
 [[nodiscard]] std::string prose(std::string_view text);
-/// Anything a device or a file said, for a log: printable, and without the marks that make CI systems obey a line
+/// Anything a device or a file said, for a log: printable, and without the marks that make CI systems obey a
+/// line
 /// ("::error::", "##[...]", "##vso[...]").
 [[nodiscard]] std::string log_safe(std::string_view text);
 

@@ -79,10 +79,14 @@ std::string in_unit(std::uint64_t value, std::uint64_t unit) {
 
 }  // namespace
 
-std::string hex(std::uint64_t value, int digits) { return fmt::format("{:0{}X}h", value, std::max(digits, 1)); }
+std::string hex(std::uint64_t value, int digits) {
+  return fmt::format("{:0{}X}h", value, std::max(digits, 1));
+}
 std::string to_string(Index index) { return hex(index.value(), 4); }
 std::string to_string(SubIndex sub) { return hex(sub.value(), 2); }
-std::string to_string(Multiplexer mux) { return fmt::format("{:04X}h:{:02X}", mux.index.value(), mux.sub.value()); }
+std::string to_string(Multiplexer mux) {
+  return fmt::format("{:04X}h:{:02X}", mux.index.value(), mux.sub.value());
+}
 std::string to_string(AbortCode code) {
   return fmt::format("{:04X} {:04X}h", code.value() >> 16U, code.value() & 0xFFFFU);
 }
@@ -227,7 +231,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t substitution = last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, substitution});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, row);
@@ -242,7 +247,9 @@ struct Decoded {
 };
 
 Decoded decode_utf8(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+  };
   const std::uint32_t lead = byte(0);
   if (lead < 0x80) return {lead, 1};
   const std::size_t size = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
@@ -271,8 +278,8 @@ std::string_view did_you_mean(std::string_view word, std::span<const std::string
   std::string_view best;
   std::size_t best_distance = std::numeric_limits<std::size_t>::max();
   for (const std::string_view candidate : candidates) {
-    // A third of the longer word may be wrong, at least one character; beyond that a guess only confuses. Distances
-    // that the lengths alone rule out are not computed: the word may be anything the user typed.
+    // A third of the longer word may be wrong, at least one character; beyond that a guess only confuses.
+    // Distances that the lengths alone rule out are not computed: the word may be anything the user typed.
     const std::size_t longer = std::max(word.size(), candidate.size());
     const std::size_t allowed = std::max<std::size_t>(longer, 3) / 3;
     if (longer - std::min(word.size(), candidate.size()) > allowed) continue;
@@ -295,7 +302,8 @@ std::string printable(std::string_view text, bool keep_lines) {
     if (kept_blank || (decoded.size != 0 && !is_harmful(decoded.code_point))) {
       out += text.substr(0, size);
     } else {
-      for (const char c : text.substr(0, size)) out += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
+      for (const char c : text.substr(0, size))
+        out += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
     }
     text.remove_prefix(size);
   }

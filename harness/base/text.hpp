@@ -30,8 +30,8 @@ namespace conform {
 /// "250 us", "100 ms", "1.5 s": the largest unit that needs at most three decimals.
 [[nodiscard]] std::string to_string(Duration duration);
 
-/// Unsigned number in one of our forms: "17", "1Fh", "0x1F", "0609 0030h". A leading zero without h or 0x, signs,
-/// underscores and anything else are refused (nullopt): YAML readers disagree on them.
+/// Unsigned number in one of our forms: "17", "1Fh", "0x1F", "0609 0030h". A leading zero without h or 0x,
+/// signs, underscores and anything else are refused (nullopt): YAML readers disagree on them.
 [[nodiscard]] std::optional<std::uint64_t> parse_number(std::string_view text);
 /// "1003h:00", "1003h" (sub-index 00h), "0x1003:0x00"; the sub-index is hexadecimal with or without h.
 [[nodiscard]] std::optional<Multiplexer> parse_multiplexer(std::string_view text);
@@ -46,10 +46,11 @@ namespace conform {
 [[nodiscard]] std::string lower(std::string_view text);
 
 /// The candidate nearest to `word`, if near enough to be meant; empty otherwise.
-[[nodiscard]] std::string_view did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
+[[nodiscard]] std::string_view did_you_mean(std::string_view word,
+                                            std::span<const std::string_view> candidates);
 
-/// Any bytes as printable ASCII/UTF-8 that is safe on a terminal and in XML: invalid UTF-8, C0/C1 control bytes and
-/// bidirectional marks appear as \xNN. Newlines and tabs are escaped as well unless `keep_lines`.
+/// Any bytes as printable ASCII/UTF-8 that is safe on a terminal and in XML: invalid UTF-8, C0/C1 control
+/// bytes and bidirectional marks appear as \xNN. Newlines and tabs are escaped as well unless `keep_lines`.
 [[nodiscard]] std::string printable(std::string_view text, bool keep_lines = false);
 
 }  // namespace conform

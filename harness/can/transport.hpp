@@ -47,7 +47,8 @@ struct BusHealth {
   std::uint64_t late_frames = 0;  ///< received frames that waited for us longer than host_is_late
 };
 
-/// A host that looks at a frame, or wakes up, later than this may have done to the device what it then blames the device for.
+/// A host that looks at a frame, or wakes up, later than this may have done to the device what it then blames
+/// the device for.
 inline constexpr Duration host_is_late = std::chrono::milliseconds(100);
 
 /// Facts about the bus that reports print.

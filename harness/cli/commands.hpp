@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands: options in, exit code out. They are the only code that prints, besides the reference node's main.
+// The sub-commands: options in, exit code out. They are the only code that prints, besides the reference
+// node's main.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +20,23 @@ struct RunCommand {
   std::string suites;
   std::string interface;
   bool simulate = false;
-  std::vector<std::string> defects;   ///< of the simulated reference node
+  std::vector<std::string> defects;  ///< of the simulated reference node
   std::optional<std::uint32_t> node;
-  std::string device;                 ///< profile file
-  std::string allow;                  ///< risk tier; empty: by interface
+  std::string device;  ///< profile file
+  std::string allow;   ///< risk tier; empty: by interface
   std::uint64_t seed = 1;
   bool strict = false;
   bool all_objects = false;
   bool slow = false;
   bool dry_run = false;
   bool quiet = false;
-  std::string color = "auto";         ///< auto, always, never
+  std::string color = "auto";  ///< auto, always, never
   std::string junit, capture, candump, markdown;
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
 struct LintCommand {
-  std::vector<std::string> files;     ///< empty: all of the suites
+  std::vector<std::string> files;  ///< empty: all of the suites
   std::string suites;
   std::string color = "auto";
 };
@@ -51,7 +52,7 @@ struct ListCommand {
 
 struct ExplainCommand {
   std::string topic;
-  bool markdown = false;              ///< of verbs: the page docs/verbs.md
+  bool markdown = false;  ///< of verbs: the page docs/verbs.md
   std::string suites;
 };
 [[nodiscard]] int explain_command(const ExplainCommand& options);
@@ -61,7 +62,7 @@ struct SelftestCommand {
   std::uint64_t seed = 1;
   bool verbose = false;
   std::vector<std::string> defects;
-  std::string markdown;               ///< file for docs/proof.md
+  std::string markdown;  ///< file for docs/proof.md
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);
 

@@ -31,7 +31,8 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   out += paragraph("risk", requirement.risk);
   out += paragraph("same as", join(requirement.same_as, ", "));
   out += paragraph("CCT", join(requirement.cct, ", "));
-  out += paragraph("proof", requirement.proof.empty() ? "" : requirement.proof + ": " + requirement.proof_reason);
+  out += paragraph("proof",
+                   requirement.proof.empty() ? "" : requirement.proof + ": " + requirement.proof_reason);
   out += paragraph("note", requirement.note);
   out += paragraph("source", "suites/" + requirement.file + ":" + std::to_string(requirement.line));
   std::string scenarios;
@@ -45,7 +46,8 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   std::string defects;
   for (const auto& defect : refnode::defects()) {
     for (const auto id : defect.violates) {
-      if (suites.catalogue.canonical(id) == requirement.id) defects += fmt::format("    {}: {}\n", defect.id, defect.summary);
+      if (suites.catalogue.canonical(id) == requirement.id)
+        defects += fmt::format("    {}: {}\n", defect.id, defect.summary);
     }
   }
   if (!defects.empty()) out += "\n  Defects of the reference node that violate it\n" + defects;
@@ -64,7 +66,8 @@ constexpr steps::Verb over = {
     "over", "Walk over values inside one step and tell the offenders in one finding.",
     "NAME: a list of values and ranges, restricted CAN-IDs, or a query (entries with ...)\nsteps: beside it, what is done with each value",
     "- over: {id: restricted CAN-IDs}\n  steps:\n    - download: {object: 1014h:00, value: 8000 0000h | $id}\n      checks: CAN-RID-01\n"
-    "      expect: abort 0609 0030h", nullptr};
+    "      expect: abort 0609 0030h",
+    nullptr};
 
 /// docs/verbs.md: generated, so that the page cannot disagree with the program.
 std::string verbs_page() {
@@ -93,7 +96,8 @@ std::string verbs_page() {
   out += "\n## Beside the verb\n";
   std::vector<std::string> keys;
   for (const auto key : steps::common_step_keys()) keys.push_back("`" + std::string(key) + "`");
-  out += "A step may also have " + join(keys, ", ") + ".\n\n## Outcomes\n`ok`, `abort 0609 0030h`, `abort any`, `silence`, `unchanged`, " +
+  out += "A step may also have " + join(keys, ", ") +
+         ".\n\n## Outcomes\n`ok`, `abort 0609 0030h`, `abort any`, `silence`, `unchanged`, " +
          "or a mapping of\n";
   keys.clear();
   for (const auto key : steps::outcome_keys()) keys.push_back("`" + std::string(key) + "`");
@@ -160,8 +164,10 @@ int explain_command(const ExplainCommand& options) {
   for (const auto& verb : steps::verbs()) known.push_back(verb.name);
   for (const auto& defect : refnode::defects()) known.push_back(defect.id);
   const auto near = did_you_mean(options.topic, known);
-  return report_error({"nothing is known about '" + options.topic + "'", {},
-                       near.empty() ? "a requirement id, a verb, a defect, 'verbs' or 'conditions'" : "did you mean '" + std::string(near) + "'?"},
+  return report_error({"nothing is known about '" + options.topic + "'",
+                       {},
+                       near.empty() ? "a requirement id, a verb, a defect, 'verbs' or 'conditions'"
+                                    : "did you mean '" + std::string(near) + "'?"},
                       exit_usage);
 }
 

@@ -58,13 +58,16 @@ void compare_with_catalogue(const std::vector<scenario::Requirement>& requiremen
 }
 
 /// The kinds of file tell themselves apart by the keys only one of them has.
-void check(const yaml::Node& root, const std::string& name, const scenario::Catalogue& catalogue, yaml::Diagnostics& diagnostics) {
+void check(const yaml::Node& root, const std::string& name, const scenario::Catalogue& catalogue,
+           yaml::Diagnostics& diagnostics) {
   const auto has = [&root](std::initializer_list<std::string_view> keys) {
     return std::ranges::any_of(keys, [&root](std::string_view key) { return root.find(key) != nullptr; });
   };
   if (has({"requirements", "area"})) {
-    compare_with_catalogue(scenario::load_requirements(root, diagnostics, name), name, catalogue, diagnostics);
-  } else if (!has({"scenarios"}) && has({"node", "claims", "objects", "errors", "identity", "boot_time", "interface", "name"})) {
+    compare_with_catalogue(scenario::load_requirements(root, diagnostics, name), name, catalogue,
+                           diagnostics);
+  } else if (!has({"scenarios"}) &&
+             has({"node", "claims", "objects", "errors", "identity", "boot_time", "interface", "name"})) {
     (void)device::load_profile(root, diagnostics);
   } else {
     (void)scenario::load_scenarios(root, diagnostics, name, catalogue);
@@ -92,7 +95,8 @@ int lint_command(const LintCommand& options) {
     auto document = yaml::load_file(file);
     if (!document) return report_error(document.error(), exit_usage);
     ++totals.files;
-    if (document->root) check(*document->root, name_in_suites(file, *root), *catalogue, document->diagnostics);
+    if (document->root)
+      check(*document->root, name_in_suites(file, *root), *catalogue, document->diagnostics);
     show(document->diagnostics, colour, totals);
   }
   print(fmt::format("{}, {}, {}\n", counted(totals.files, "file"), counted(totals.errors, "error"),

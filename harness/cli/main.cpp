@@ -10,58 +10,105 @@ namespace {
 
 int dispatch(int argc, char** argv) {
   using namespace conform::cli;
-  CLI::App app{"CANopen (CiA 301) conformance harness.\n"
-               "Exit codes: 0 conforms, 1 a requirement failed, 2 usage or nothing applicable, 3 environment or inconclusive, 130/143 signal."};
+  CLI::App app{
+      "CANopen (CiA 301) conformance harness.\n"
+      "Exit codes: 0 conforms, 1 a requirement failed, 2 usage or nothing applicable, 3 environment or inconclusive, 130/143 signal."};
   app.name("canopen-conform");
   app.get_formatter()->column_width(34);
   app.set_version_flag("--version", "canopen-conform " CONFORM_VERSION, "Print the version");
   app.require_subcommand(1);
 
   RunCommand run;
-  auto* run_sub = app.add_subcommand("run", "Run the suite against a device, or against the reference node in simulation");
-  run_sub->add_option("select", run.select, "Scenarios: ids or leading paths, * and ? allowed (default: all)")->type_name("ID");
-  run_sub->add_option("-i,--interface", run.interface, "CAN interface the device is on, for example can0")->type_name("NAME");
-  run_sub->add_flag("--simulate", run.simulate, "Run against the reference node on a simulated bus, without any device");
-  run_sub->add_option("--defect", run.defects, "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")->allow_extra_args(false)->type_name("ID");
-  run_sub->add_option("-n,--node", run.node, "Node-ID of the device, 1 to 127")->check(CLI::Range(1, 127).description(""))->type_name("NODE-ID");
-  run_sub->add_option("-d,--device", run.device, "Device profile (YAML): claims, error triggers, tolerances")->type_name("FILE");
-  run_sub->add_option("-r,--requirement", run.requirements, "Only scenarios that decide this requirement (* allowed); repeatable")->allow_extra_args(false)->type_name("ID");
-  run_sub->add_option("-x,--exclude", run.exclude, "Leave out these scenarios (* and ? allowed); repeatable")->allow_extra_args(false)->type_name("ID");
-  run_sub->add_option("--allow", run.allow, "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")->type_name("RISK");
-  run_sub->add_option("--junit", run.junit, "Write JUnit XML, valid at any time of the run")->type_name("FILE");
-  run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark")->type_name("FILE");
-  run_sub->add_option("--candump", run.candump, "Write all frames as candump log, for can-utils")->type_name("FILE");
+  auto* run_sub = app.add_subcommand(
+      "run", "Run the suite against a device, or against the reference node in simulation");
+  run_sub->add_option("select", run.select, "Scenarios: ids or leading paths, * and ? allowed (default: all)")
+      ->type_name("ID");
+  run_sub->add_option("-i,--interface", run.interface, "CAN interface the device is on, for example can0")
+      ->type_name("NAME");
+  run_sub->add_flag("--simulate", run.simulate,
+                    "Run against the reference node on a simulated bus, without any device");
+  run_sub
+      ->add_option("--defect", run.defects,
+                   "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  run_sub->add_option("-n,--node", run.node, "Node-ID of the device, 1 to 127")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  run_sub->add_option("-d,--device", run.device, "Device profile (YAML): claims, error triggers, tolerances")
+      ->type_name("FILE");
+  run_sub
+      ->add_option("-r,--requirement", run.requirements,
+                   "Only scenarios that decide this requirement (* allowed); repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  run_sub->add_option("-x,--exclude", run.exclude, "Leave out these scenarios (* and ? allowed); repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  run_sub
+      ->add_option(
+          "--allow", run.allow,
+          "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")
+      ->type_name("RISK");
+  run_sub->add_option("--junit", run.junit, "Write JUnit XML, valid at any time of the run")
+      ->type_name("FILE");
+  run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark")
+      ->type_name("FILE");
+  run_sub->add_option("--candump", run.candump, "Write all frames as candump log, for can-utils")
+      ->type_name("FILE");
   run_sub->add_option("--markdown", run.markdown, "Write a short report in Markdown")->type_name("FILE");
   run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
-  run_sub->add_flag("--strict", run.strict, "Deviations from recommended and optional rules fail, too, instead of warn");
+  run_sub->add_flag("--strict", run.strict,
+                    "Deviations from recommended and optional rules fail, too, instead of warn");
   run_sub->add_flag("--all-objects", run.all_objects, "Try every object where a scenario would try a sample");
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
-  run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")->type_name("NUMBER");
+  run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
+      ->type_name("NUMBER");
   run_sub->add_flag("-q,--quiet", run.quiet, "Print only what did not pass, and the summary");
-  run_sub->add_option("--color", run.color, "Colours: auto, always or never")->check(CLI::IsMember({"auto", "always", "never"}).description(""))->type_name("WHEN");
+  run_sub->add_option("--color", run.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
 
   LintCommand lint;
   auto* lint_sub = app.add_subcommand("lint", "Check scenario files, without a bus");
   lint_sub->add_option("files", lint.files, "Scenario files (default: the whole suites)")->type_name("FILE");
-  lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")->check(CLI::IsMember({"auto", "always", "never"}).description(""))->type_name("WHEN");
+  lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
 
   ListCommand list;
   auto* list_sub = app.add_subcommand("list", "Show scenarios with their requirements");
-  list_sub->add_option("select", list.select, "Scenarios: ids or leading paths, * and ? allowed (default: all)")->type_name("ID");
-  list_sub->add_option("-r,--requirement", list.requirements, "Only scenarios that decide this requirement")->allow_extra_args(false)->type_name("ID");
+  list_sub
+      ->add_option("select", list.select, "Scenarios: ids or leading paths, * and ? allowed (default: all)")
+      ->type_name("ID");
+  list_sub->add_option("-r,--requirement", list.requirements, "Only scenarios that decide this requirement")
+      ->allow_extra_args(false)
+      ->type_name("ID");
   list_sub->add_flag("--cct", list.cct, "Only scenarios that match a case of CiA's conformance test tool");
 
   ExplainCommand explain;
-  auto* explain_sub = app.add_subcommand("explain", "Explain a requirement, a verb or a defect; list the verbs or the conditions");
-  explain_sub->add_option("topic", explain.topic, "An id such as OD-1003-06, a verb such as download, or: verbs, conditions")->required()->type_name("TOPIC");
+  auto* explain_sub = app.add_subcommand(
+      "explain", "Explain a requirement, a verb or a defect; list the verbs or the conditions");
+  explain_sub
+      ->add_option("topic", explain.topic,
+                   "An id such as OD-1003-06, a verb such as download, or: verbs, conditions")
+      ->required()
+      ->type_name("TOPIC");
   explain_sub->add_flag("--markdown", explain.markdown, "With 'verbs': the whole reference page as Markdown");
 
   SelftestCommand selftest;
-  auto* selftest_sub = app.add_subcommand("selftest", "Prove the suite: every defect of the reference node must be caught");
+  auto* selftest_sub =
+      app.add_subcommand("selftest", "Prove the suite: every defect of the reference node must be caught");
   selftest_sub->add_flag("-v,--verbose", selftest.verbose, "Show what killed each defect");
-  selftest_sub->add_option("--defect", selftest.defects, "Only this defect; repeatable")->allow_extra_args(false)->type_name("ID");
-  selftest_sub->add_option("--seed", selftest.seed, "Seed of the simulation (default 1)")->type_name("NUMBER");
-  selftest_sub->add_option("--markdown", selftest.markdown, "Write the matrix of requirements and defects as Markdown")->type_name("FILE");
+  selftest_sub->add_option("--defect", selftest.defects, "Only this defect; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  selftest_sub->add_option("--seed", selftest.seed, "Seed of the simulation (default 1)")
+      ->type_name("NUMBER");
+  selftest_sub
+      ->add_option("--markdown", selftest.markdown,
+                   "Write the matrix of requirements and defects as Markdown")
+      ->type_name("FILE");
 
   BenchCommand bench;
   auto* bench_sub = app.add_subcommand("bench", "Round trips per second through the harness");
@@ -72,7 +119,8 @@ int dispatch(int argc, char** argv) {
 
   std::string suites;
   for (auto* sub : {run_sub, lint_sub, list_sub, explain_sub, selftest_sub}) {
-    sub->add_option("--suites", suites, "Folder of the suites (default: those that came with the program)")->type_name("FOLDER");
+    sub->add_option("--suites", suites, "Folder of the suites (default: those that came with the program)")
+        ->type_name("FOLDER");
   }
   try {
     app.parse(argc, argv);

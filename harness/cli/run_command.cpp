@@ -35,13 +35,13 @@ void on_signal(int signal) {
 }
 
 void catch_signals() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = on_signal;
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
   // A closed terminal must not leave the device changed; nohup has its way.
-  struct sigaction hangup {};
+  struct sigaction hangup{};
   ::sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
   // A closed pipe (| head) must not cost the reports.
@@ -53,14 +53,16 @@ Result<device::Profile> profile_for(const RunCommand& options, const std::string
   auto path = options.device;
   if (path.empty() && options.simulate) path = suites + "/devices/reference-node.yaml";
   if (path.empty()) {
-    if (!options.node) return fail("the node-ID of the device is missing", {}, "--node 1..127, or --device FILE");
+    if (!options.node)
+      return fail("the node-ID of the device is missing", {}, "--node 1..127, or --device FILE");
     auto profile = device::default_profile(node);
     profile.interface = options.interface;
     return profile;
   }
   auto document = device::load_profile_file(path);
   if (!document) return std::unexpected(document.error());
-  if (document->diagnostics.has_errors()) return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), path);
+  if (document->diagnostics.has_errors())
+    return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), path);
   auto profile = std::move(document->profile);
   if (options.node) profile.node = node;
   if (!options.interface.empty()) profile.interface = options.interface;
@@ -79,7 +81,9 @@ class LiveReports {
     run.started_utc_ns = started_;
     run.properties.insert(run.properties.begin(), properties_.begin(), properties_.end());
   }
-  void add_property(std::string name, std::string value) { properties_.push_back({std::move(name), std::move(value)}); }
+  void add_property(std::string name, std::string value) {
+    properties_.push_back({std::move(name), std::move(value)});
+  }
 
   /// At most four times a second: writing after every case would cost more than the cases.
   void refresh(const result::RunResult& run, bool force) {
@@ -93,7 +97,8 @@ class LiveReports {
   }
   void write_junit(const result::RunResult& run) {
     if (options_.junit.empty()) return;
-    auto written = write_file_atomically(options_.junit, reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"}));
+    auto written = write_file_atomically(
+        options_.junit, reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"}));
     if (!written && !failed_) {
       failed_ = true;
       report_error(written.error(), 0);
@@ -126,8 +131,11 @@ void print_plan(const std::vector<engine::PlannedCase>& plan, const scenario::Ca
   for (const auto& planned : plan) {
     const auto result = engine::planned_result(planned, catalogue);
     if (!planned.held_back.empty() || !planned.not_applicable.empty()) ++held_back;
-    const char* what = !planned.held_back.empty() ? "held back" : !planned.not_applicable.empty() ? "not appl." : "would run";
-    out += fmt::format("{:9}  {:9}  {}  {}\n", what, to_string(planned.scenario->risk), result.name(), join(result.requirements, ", "));
+    const char* what = !planned.held_back.empty()        ? "held back"
+                       : !planned.not_applicable.empty() ? "not appl."
+                                                         : "would run";
+    out += fmt::format("{:9}  {:9}  {}  {}\n", what, to_string(planned.scenario->risk), result.name(),
+                       join(result.requirements, ", "));
   }
   out += fmt::format("{} cases, {} would run; nothing was sent\n", plan.size(), plan.size() - held_back);
   print(out);
@@ -137,10 +145,14 @@ void print_plan(const std::vector<engine::PlannedCase>& plan, const scenario::Ca
 
 int run_command(const RunCommand& options) {
   if (options.simulate == !options.interface.empty() && (options.simulate || options.device.empty())) {
-    return report_error({"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"}, exit_usage);
+    return report_error(
+        {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
+        exit_usage);
   }
   if (!options.simulate && !options.defects.empty()) {
-    return report_error({"--defect belongs to --simulate", {}, "on a real interface: canopen-refnode --defect ID"}, exit_usage);
+    return report_error(
+        {"--defect belongs to --simulate", {}, "on a real interface: canopen-refnode --defect ID"},
+        exit_usage);
   }
   auto root = find_suites(options.suites);
   if (!root) return report_error(root.error(), exit_usage);
@@ -160,21 +172,28 @@ int run_command(const RunCommand& options) {
   for (const auto& id : options.requirements) {
     if (id.find('*') == std::string::npos && suites->catalogue.find(id) == nullptr) {
       const auto near = did_you_mean(id, suites->catalogue.ids());
-      return report_error({"unknown requirement '" + id + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?"}, exit_usage);
+      return report_error({"unknown requirement '" + id + "'",
+                           {},
+                           near.empty() ? "" : "did you mean '" + std::string(near) + "'?"},
+                          exit_usage);
     }
   }
   {
     auto everything = run_options.plan;
     everything.allowed = scenario::Risk::motion;
     if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty()) {
-      return report_error({"nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is"}, exit_usage);
+      return report_error(
+          {"nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is"},
+          exit_usage);
     }
   }
 
   std::optional<can::InterfaceLock> lock;
   std::unique_ptr<can::SocketCanTransport> transport;
   if (!options.simulate && !options.dry_run) {
-    if (profile->interface.empty()) return report_error({"no interface is named", {}, "--interface can0, or interface: in the device profile"}, exit_usage);
+    if (profile->interface.empty())
+      return report_error(
+          {"no interface is named", {}, "--interface can0, or interface: in the device profile"}, exit_usage);
     auto opened = can::SocketCanTransport::open(profile->interface);
     if (!opened) return report_error(opened.error(), exit_environment);
     transport = std::move(*opened);
@@ -187,7 +206,9 @@ int run_command(const RunCommand& options) {
   run_options.plan.allowed = is_virtual ? scenario::Risk::motion : scenario::Risk::read_only;
   if (!options.allow.empty()) {
     const auto risk = scenario::parse_risk(options.allow);
-    if (!risk) return report_error({"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"}, exit_usage);
+    if (!risk)
+      return report_error(
+          {"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"}, exit_usage);
     run_options.plan.allowed = *risk;
   }
   if (options.dry_run) {
@@ -195,7 +216,9 @@ int run_command(const RunCommand& options) {
       auto facts = can::interface_facts(profile->interface);
       if (facts && facts->is_virtual) run_options.plan.allowed = scenario::Risk::motion;
     }
-    print_plan(engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), run_options.plan), suites->catalogue);
+    print_plan(
+        engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), run_options.plan),
+        suites->catalogue);
     return 0;
   }
 
@@ -224,13 +247,15 @@ int run_command(const RunCommand& options) {
   run_options.on_planned = [&](const result::RunResult& run) { reports.refresh(run, true); };
   run_options.on_case_begin = [&](const result::RunResult& run, std::size_t index) {
     if (!live) return;
-    print("\r\x1B[K" + reports::progress(index + 1, run.cases.size(), run.cases[index].name(), run.counts(), style));
+    print("\r\x1B[K" +
+          reports::progress(index + 1, run.cases.size(), run.cases[index].name(), run.counts(), style));
     std::fflush(stdout);
   };
   run_options.on_case_end = [&](const result::RunResult& run, std::size_t index) {
     ++done;
     const auto& each = run.cases[index];
-    const bool quiet_verdict = each.verdict == result::Verdict::pass || each.verdict == result::Verdict::not_applicable;
+    const bool quiet_verdict =
+        each.verdict == result::Verdict::pass || each.verdict == result::Verdict::not_applicable;
     if (live) {
       if (!quiet_verdict) print("\r\x1B[K" + reports::case_line(each, style) + "\n");
     } else if (!options.quiet || !quiet_verdict) {
@@ -243,7 +268,8 @@ int run_command(const RunCommand& options) {
   can::Capture capture;
   std::int64_t epoch = 0;
   if (options.simulate) {
-    auto simulated = simulate(options.defects, *profile, suites->suite, suites->catalogue, run_options, options.seed);
+    auto simulated =
+        simulate(options.defects, *profile, suites->suite, suites->catalogue, run_options, options.seed);
     if (!simulated) return report_error(simulated.error(), exit_usage);
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);

@@ -19,21 +19,25 @@ using Verdicts = std::map<std::pair<std::string, std::string>, Verdict>;
 Verdicts verdicts_of(const result::RunResult& run) {
   Verdicts out;
   for (const auto& each : run.cases) {
-    for (const auto& judgement : each.judgements) out[{judgement.requirement, each.name()}] = judgement.verdict;
+    for (const auto& judgement : each.judgements)
+      out[{judgement.requirement, each.name()}] = judgement.verdict;
   }
   return out;
 }
 
 /// Only a warning or a failure is a finding about the device; inconclusive and error prove nothing.
 bool worse(Verdict before, Verdict after) {
-  return (after == Verdict::fail || after == Verdict::warn) && before < after && before != Verdict::inconclusive;
+  return (after == Verdict::fail || after == Verdict::warn) && before < after &&
+         before != Verdict::inconclusive;
 }
 
 }  // namespace
 
-Result<SimulatedRun> simulate(const std::vector<std::string>& defects, const device::Profile& profile, const scenario::Suite& suite,
-                              const scenario::Catalogue& catalogue, engine::RunOptions options, std::uint64_t seed) {
-  auto node = refnode::Node::create({.node_id = profile.node.value(), .defects = defects, .storage = {}, .turnaround = {}});
+Result<SimulatedRun> simulate(const std::vector<std::string>& defects, const device::Profile& profile,
+                              const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                              engine::RunOptions options, std::uint64_t seed) {
+  auto node = refnode::Node::create(
+      {.node_id = profile.node.value(), .defects = defects, .storage = {}, .turnaround = {}});
   if (!node) return std::unexpected(node.error());
   can::SimulatedBus::Options bus_options;
   bus_options.seed = seed;
@@ -48,7 +52,8 @@ Result<SimulatedRun> simulate(const std::vector<std::string>& defects, const dev
 
 bool KillMatrix::ok() const {
   const auto counts = conformant.counts();
-  return counts.fail + counts.warn + counts.inconclusive + counts.error == 0 && counts.pass > 0 && survivors().empty();
+  return counts.fail + counts.warn + counts.inconclusive + counts.error == 0 && counts.pass > 0 &&
+         survivors().empty();
 }
 
 std::vector<std::string> KillMatrix::survivors() const {
@@ -59,8 +64,9 @@ std::vector<std::string> KillMatrix::survivors() const {
   return out;
 }
 
-Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite, const scenario::Catalogue& catalogue,
-                               std::uint64_t seed, const std::vector<std::string>& only) {
+Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
+                               const scenario::Catalogue& catalogue, std::uint64_t seed,
+                               const std::vector<std::string>& only) {
   KillMatrix out;
   auto conformant = simulate({}, profile, suite, catalogue, {}, seed);
   if (!conformant) return std::unexpected(conformant.error());
@@ -77,7 +83,8 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
     defect.summary = row.summary;
     for (const auto id : row.violates) {
       if (const auto canonical = catalogue.canonical(id)) {
-        if (std::ranges::find(defect.violates, *canonical) == defect.violates.end()) defect.violates.push_back(*canonical);
+        if (std::ranges::find(defect.violates, *canonical) == defect.violates.end())
+          defect.violates.push_back(*canonical);
       } else {
         defect.unknown.emplace_back(id);
       }
@@ -90,7 +97,8 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
       const auto& [requirement, name] = key;
       if (std::ranges::find(defect.violates, requirement) != defect.violates.end()) {
         defect.killed_by.push_back(requirement + " " + std::string(to_string(verdict)) + " in " + name);
-        if (std::ranges::find(defect.proves, requirement) == defect.proves.end()) defect.proves.push_back(requirement);
+        if (std::ranges::find(defect.proves, requirement) == defect.proves.end())
+          defect.proves.push_back(requirement);
         proven.insert(requirement);
       } else if (std::ranges::find(defect.bystanders, requirement) == defect.bystanders.end()) {
         defect.bystanders.push_back(requirement);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The suite proves itself: every defect of the reference node must spoil the expectation of a requirement it violates.
+// The suite proves itself: every defect of the reference node must spoil the expectation of a requirement it
+// violates.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +22,27 @@ struct SimulatedRun {
   result::RunResult result;
   can::Capture capture;
 };
-[[nodiscard]] Result<SimulatedRun> simulate(const std::vector<std::string>& defects, const device::Profile& profile,
-                                            const scenario::Suite& suite, const scenario::Catalogue& catalogue,
-                                            engine::RunOptions options, std::uint64_t seed);
+[[nodiscard]] Result<SimulatedRun> simulate(const std::vector<std::string>& defects,
+                                            const device::Profile& profile, const scenario::Suite& suite,
+                                            const scenario::Catalogue& catalogue, engine::RunOptions options,
+                                            std::uint64_t seed);
 
 /// What one defect did.
 struct DefectVerdict {
   std::string id;
   std::string summary;
-  std::vector<std::string> violates;       ///< canonical ids
-  std::vector<std::string> killed_by;      ///< violated requirements whose verdict became worse, as "OD-1003-06 fail in ..."
-  std::vector<std::string> proves;         ///< the ids of killed_by
-  std::vector<std::string> bystanders;     ///< requirements it does not list whose verdict became worse
-  std::vector<std::string> unknown;        ///< ids it lists that the catalogue does not have
+  std::vector<std::string> violates;  ///< canonical ids
+  std::vector<std::string>
+      killed_by;  ///< violated requirements whose verdict became worse, as "OD-1003-06 fail in ..."
+  std::vector<std::string> proves;      ///< the ids of killed_by
+  std::vector<std::string> bystanders;  ///< requirements it does not list whose verdict became worse
+  std::vector<std::string> unknown;     ///< ids it lists that the catalogue does not have
 };
 
 struct KillMatrix {
   result::RunResult conformant;
   std::vector<DefectVerdict> defects;
-  std::vector<std::string> unproven;       ///< requirements the suite judges and no defect proves, sorted
+  std::vector<std::string> unproven;  ///< requirements the suite judges and no defect proves, sorted
   std::vector<std::string> proven;
 
   /// The conformant node passes everything without a warning, and no defect survives.

@@ -14,14 +14,18 @@ namespace fs = std::filesystem;
 
 Result<std::string> find_suites(const std::string& given) {
   std::error_code error;
-  const auto usable = [&error](const fs::path& path) { return fs::is_directory(path / "requirements", error); };
+  const auto usable = [&error](const fs::path& path) {
+    return fs::is_directory(path / "requirements", error);
+  };
   if (!given.empty()) {
     if (usable(given)) return given;
     return fail("no suites there (a folder with requirements/ in it)", given);
   }
-  if (const char* environment = std::getenv("CANOPEN_CONFORM_SUITES"); environment != nullptr && *environment != '\0') {
+  if (const char* environment = std::getenv("CANOPEN_CONFORM_SUITES");
+      environment != nullptr && *environment != '\0') {
     if (usable(environment)) return std::string(environment);
-    return fail("no suites there (a folder with requirements/ in it)", environment, "CANOPEN_CONFORM_SUITES names it");
+    return fail("no suites there (a folder with requirements/ in it)", environment,
+                "CANOPEN_CONFORM_SUITES names it");
   }
   const auto program = fs::read_symlink("/proc/self/exe", error);
   const auto installed = program.parent_path().parent_path() / "share" / "canopen-conform" / "suites";
@@ -45,7 +49,8 @@ Result<LoadedSuites> load_suites(const std::string& root, bool colour) {
   if (!suite) return std::unexpected(suite.error());
   out.suite = std::move(*suite);
   problems.insert(problems.end(), out.suite.problems.begin(), out.suite.problems.end());
-  if (out.suite.errors > 0 || !problems.empty()) return fail("the suites have mistakes:\n" + join(problems, "\n"), root);
+  if (out.suite.errors > 0 || !problems.empty())
+    return fail("the suites have mistakes:\n" + join(problems, "\n"), root);
   return out;
 }
 

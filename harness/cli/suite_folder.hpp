@@ -11,7 +11,8 @@
 
 namespace conform::cli {
 
-/// `given`, else $CANOPEN_CONFORM_SUITES, else share/canopen-conform/suites beside the program, else a folder `suites` above it.
+/// `given`, else $CANOPEN_CONFORM_SUITES, else share/canopen-conform/suites beside the program, else a folder
+/// `suites` above it.
 [[nodiscard]] Result<std::string> find_suites(const std::string& given);
 
 struct LoadedSuites {

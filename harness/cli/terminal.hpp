@@ -25,7 +25,8 @@ inline bool use_colour(const std::string& wish, int descriptor) {
 
 inline std::size_t terminal_width() {
   winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= 60) return std::min<std::size_t>(size.ws_col, 120);
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= 60)
+    return std::min<std::size_t>(size.ws_col, 120);
   return 100;
 }
 

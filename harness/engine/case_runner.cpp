@@ -21,7 +21,8 @@ constexpr std::size_t evidence_after = 2;
 constexpr std::size_t offenders_named = 8;
 constexpr std::uint64_t most_values = 65536;
 
-/// Binds what for_each gave: objects as such, ids and other words as words, everything else as late expressions.
+/// Binds what for_each gave: objects as such, ids and other words as words, everything else as late
+/// expressions.
 steps::Value bind(const std::string& text, RunSession& session, const scenario::Catalogue& catalogue) {
   if (text.find(':') != std::string::npos) {
     if (const auto object = parse_multiplexer(text)) return steps::Value::of_object(*object);
@@ -57,7 +58,8 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
     auto entry = look_for(given.query);
     if (!entry) {
       if (session_.recorder().fault()) return std::unexpected(entry.error());
-      stopped_because_ = "whether the device has " + given.query + " could not be decided: " + entry.error().what;
+      stopped_because_ =
+          "whether the device has " + given.query + " could not be decided: " + entry.error().what;
       conclude();
       return {};
     }
@@ -72,7 +74,8 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
     auto holds = scenario.when->evaluate(session_);
     if (!holds) {
       if (session_.recorder().fault()) return std::unexpected(holds.error());
-      stopped_because_ = "the condition '" + scenario.when->text() + "' could not be decided: " + holds.error().what;
+      stopped_because_ =
+          "the condition '" + scenario.when->text() + "' could not be decided: " + holds.error().what;
       conclude();
       return {};
     }
@@ -176,10 +179,12 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     const auto low = range.low.number(session_);
     const auto high = range.high.number(session_);
     if (!low || !high) return cannot_go_on(step, low ? high.error() : low.error());
-    // An empty range is legal (1..$count - 1 with a count of 0); a huge one is the author's slip, and a part of it no proof.
+    // An empty range is legal (1..$count - 1 with a count of 0); a huge one is the author's slip, and a part
+    // of it no proof.
     if (static_cast<std::int64_t>(*high) < static_cast<std::int64_t>(*low)) continue;
     if (*high - *low >= most_values || values.size() + (*high - *low) >= most_values) {
-      return cannot_go_on(step, {"more than " + std::to_string(most_values) + " values to walk over", "scenario", {}});
+      return cannot_go_on(
+          step, {"more than " + std::to_string(most_values) + " values to walk over", "scenario", {}});
     }
     for (auto value = *low;; ++value) {
       values.push_back(steps::Value::of_number(value));
@@ -190,7 +195,8 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     if (set != "restricted CAN-IDs") {
       const auto query = scenario::Query::parse(set);
       if (!query) return cannot_go_on(step, query.error());
-      for (const auto object : query->select(session_.dictionary())) values.push_back(steps::Value::of_object(object));
+      for (const auto object : query->select(session_.dictionary()))
+        values.push_back(steps::Value::of_object(object));
       continue;
     }
     for (const auto& range : canopen::restricted_ranges()) {
@@ -200,7 +206,9 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
   const bool outermost = walk_value_.empty();
   const auto outer = walk_value_.empty() ? std::string() : walk_value_ + ", ";
   for (const auto& value : values) {
-    walk_value_ = outer + (value.number ? hex(*value.number, *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2)) : value.text());
+    walk_value_ = outer + (value.number ? hex(*value.number,
+                                              *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2))
+                                        : value.text());
     session_.set(walk.name, value);
     auto flow = run_steps(walk.steps);
     if (!flow || *flow == Flow::stop) {
@@ -224,10 +232,12 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       if (!begins) return cannot_go_on(step, begins.error());
       if (!*begins) continue;
       if (branch.verdict != Verdict::pass) {
-        const Grade grade{branch.verdict, branch.verdict == Verdict::warn   ? "tolerated, but not what the standard names"
+        const Grade grade{branch.verdict, branch.verdict == Verdict::warn
+                                              ? "tolerated, but not what the standard names"
                                           : branch.verdict == Verdict::fail ? "an outcome that is ruled out"
                                                                             : "does not concern this device"};
-        for (const auto& requirement : checks_of(branch.steps.front())) record(step, requirement, grade, actual);
+        for (const auto& requirement : checks_of(branch.steps.front()))
+          record(step, requirement, grade, actual);
         if (branch.verdict == Verdict::not_applicable) {
           out_->reason = grade.reason;
           return Flow::stop;
@@ -239,9 +249,11 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       auto hit = outcome.matches(actual, session_);
       if (!hit) return cannot_go_on(step, hit.error());
       if (!*hit) continue;
-      const Grade grade{branch.verdict, branch.verdict == Verdict::warn   ? "tolerated, but not what the standard names"
-                                        : branch.verdict == Verdict::fail ? "an outcome that is ruled out"
-                                                                          : "does not concern this device: " + actual.words()};
+      const Grade grade{branch.verdict, branch.verdict == Verdict::warn
+                                            ? "tolerated, but not what the standard names"
+                                        : branch.verdict == Verdict::fail
+                                            ? "an outcome that is ruled out"
+                                            : "does not concern this device: " + actual.words()};
       for (const auto& requirement : checks_of(step)) record(step, requirement, grade, actual);
       if (branch.verdict == Verdict::not_applicable) {
         out_->reason = grade.reason;
@@ -278,7 +290,8 @@ std::vector<std::string> CaseRunner::checks_of(const Step& step) const {
   for (const auto& check : step.expectation.checks) {
     if (!check.starts_with('$')) {
       out.push_back(check);
-    } else if (const auto* value = session_.find(std::string_view(check).substr(1)); value != nullptr && value->word) {
+    } else if (const auto* value = session_.find(std::string_view(check).substr(1));
+               value != nullptr && value->word) {
       if (const auto canonical = catalogue_.canonical(*value->word)) out.push_back(*canonical);
     }
   }
@@ -286,7 +299,8 @@ std::vector<std::string> CaseRunner::checks_of(const Step& step) const {
 }
 
 CaseRunner::Flow CaseRunner::set_up_failed(const Step& step, const Actual& actual) {
-  auto finding = make_finding(step, "", {Verdict::inconclusive, "a set-up step failed, so what follows could not be judged"}, actual);
+  auto finding = make_finding(
+      step, "", {Verdict::inconclusive, "a set-up step failed, so what follows could not be judged"}, actual);
   stopped_because_ = "set-up failed: " + finding.step + ": " + finding.actual;
   out_->setup_findings.push_back(std::move(finding));
   return Flow::stop;
@@ -294,7 +308,8 @@ CaseRunner::Flow CaseRunner::set_up_failed(const Step& step, const Actual& actua
 
 Verdict CaseRunner::capped(const std::string& requirement) const {
   const auto* known = catalogue_.find(requirement);
-  const bool binding = strict_ || known == nullptr || (known->level != "recommended" && known->level != "optional");
+  const bool binding =
+      strict_ || known == nullptr || (known->level != "recommended" && known->level != "optional");
   return binding ? Verdict::fail : Verdict::warn;
 }
 
@@ -308,7 +323,8 @@ Result<CaseRunner::Flow> CaseRunner::judge(const Step& step, const Actual& actua
   }
   for (const auto& requirement : checks) {
     const auto* known = catalogue_.find(requirement);
-    auto grade = steps::grade(step.expectation, actual, known != nullptr ? known->level : "mandatory", strict_, session_);
+    auto grade = steps::grade(step.expectation, actual, known != nullptr ? known->level : "mandatory",
+                              strict_, session_);
     if (!grade) return cannot_go_on(step, grade.error());
     record(step, requirement, *grade, actual);
   }
@@ -336,7 +352,8 @@ result::Judgement& CaseRunner::judgement(const std::string& requirement) {
   return all.emplace_back(std::move(fresh));
 }
 
-void CaseRunner::record(const Step& step, const std::string& requirement, const Grade& grade, const Actual& actual) {
+void CaseRunner::record(const Step& step, const std::string& requirement, const Grade& grade,
+                        const Actual& actual) {
   auto& target = judgement(requirement);
   ++target.expectations;
   target.verdict = worst(target.verdict, grade.verdict);
@@ -358,8 +375,9 @@ void CaseRunner::record(const Step& step, const std::string& requirement, const 
 }
 
 CaseRunner::Offenders& CaseRunner::offenders(const Step& step, const std::string& requirement) {
-  const auto found = std::ranges::find_if(
-      offenders_, [&](const Offenders& each) { return each.step == &step && each.requirement == requirement; });
+  const auto found = std::ranges::find_if(offenders_, [&](const Offenders& each) {
+    return each.step == &step && each.requirement == requirement;
+  });
   if (found != offenders_.end()) return *found;
   Offenders fresh;
   fresh.step = &step;
@@ -382,7 +400,8 @@ void CaseRunner::finish_walk() {
   for (const auto& offenders : offenders_) {
     if (offenders.values.empty()) continue;
     auto& finding = judgement(offenders.requirement).findings[offenders.finding];
-    std::string text = std::to_string(offenders.values.size()) + " of " + std::to_string(offenders.judged) + " values: ";
+    std::string text =
+        std::to_string(offenders.values.size()) + " of " + std::to_string(offenders.judged) + " values: ";
     for (std::size_t i = 0; i < std::min(offenders.values.size(), offenders_named); ++i) {
       text += (i == 0 ? "" : "; ") + offenders.values[i];
     }
@@ -393,15 +412,18 @@ void CaseRunner::finish_walk() {
   walk_value_.clear();
 }
 
-result::Finding CaseRunner::make_finding(const Step& step, const std::string& requirement, const Grade& grade, const Actual& actual) {
+result::Finding CaseRunner::make_finding(const Step& step, const std::string& requirement, const Grade& grade,
+                                         const Actual& actual) {
   const auto type = type_of(step, session_);
   result::Finding out;
   out.verdict = grade.verdict;
   out.requirement = requirement;
   out.position = {out_->position.file, step.position.line, step.position.column};
-  out.step = step.action != nullptr ? step.action->words(session_) : "over " + (step.walk ? step.walk->name : step.verb);
+  out.step = step.action != nullptr ? step.action->words(session_)
+                                    : "over " + (step.walk ? step.walk->name : step.verb);
   if (step.branches.empty()) {
-    out.accepts = step.expectation.pass.empty() ? std::vector<std::string>{"success"} : step.expectation.pass_words(session_, type);
+    out.accepts = step.expectation.pass.empty() ? std::vector<std::string>{"success"}
+                                                : step.expectation.pass_words(session_, type);
     out.tolerates = step.expectation.warn_words(session_, type);
   } else {
     for (const auto& branch : step.branches) {
@@ -420,13 +442,15 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   return out;
 }
 
-std::vector<result::EvidenceFrame> CaseRunner::evidence(std::size_t begin, std::optional<std::size_t> decisive) const {
+std::vector<result::EvidenceFrame> CaseRunner::evidence(std::size_t begin,
+                                                        std::optional<std::size_t> decisive) const {
   std::vector<result::EvidenceFrame> out;
   const auto& frames = session_.capture().frames();
   if (frames.empty()) return out;
   const auto centre = decisive.value_or(frames.size() - 1);
   auto first = std::max(out_->first_frame, centre > evidence_before ? centre - evidence_before : 0);
-  if (begin >= first && begin <= centre && centre - begin < evidence_before) first = std::max(out_->first_frame, begin > 2 ? begin - 2 : 0);
+  if (begin >= first && begin <= centre && centre - begin < evidence_before)
+    first = std::max(out_->first_frame, begin > 2 ? begin - 2 : 0);
   const auto last = std::min(frames.size() - 1, centre + evidence_after);
   // The decoder must see the case from its beginning to name segments.
   canopen::Decoder decoder(session_.node());

@@ -19,7 +19,8 @@ class CaseRunner {
   CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, bool strict)
       : session_(session), catalogue_(catalogue), strict_(strict) {}
 
-  /// Steps and cleanup; fills judgements, verdict and reason of `out`. Error: the environment failed; what was judged stays.
+  /// Steps and cleanup; fills judgements, verdict and reason of `out`. Error: the environment failed; what
+  /// was judged stays.
   [[nodiscard]] Result<void> run(const PlannedCase& planned, result::CaseResult& out);
   /// Whether the last case came as far as its steps, so that there is something to clean up.
   [[nodiscard]] bool entered_steps() const { return entered_steps_; }
@@ -48,13 +49,16 @@ class CaseRunner {
   [[nodiscard]] Result<Flow> run_branches(const steps::Step& step, const steps::Actual& actual);
   [[nodiscard]] Flow set_up_failed(const steps::Step& step, const steps::Actual& actual);
   [[nodiscard]] Result<Flow> judge(const steps::Step& step, const steps::Actual& actual);
-  /// A name without a value, an entry that cannot be read: the scenario cannot go on, the device is not blamed.
+  /// A name without a value, an entry that cannot be read: the scenario cannot go on, the device is not
+  /// blamed.
   [[nodiscard]] Result<Flow> cannot_go_on(const steps::Step& step, const Error& error);
   [[nodiscard]] std::vector<std::string> checks_of(const steps::Step& step) const;
-  void record(const steps::Step& step, const std::string& requirement, const steps::Grade& grade, const steps::Actual& actual);
-  [[nodiscard]] result::Finding make_finding(const steps::Step& step, const std::string& requirement, const steps::Grade& grade,
-                                             const steps::Actual& actual);
-  [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t begin, std::optional<std::size_t> decisive) const;
+  void record(const steps::Step& step, const std::string& requirement, const steps::Grade& grade,
+              const steps::Actual& actual);
+  [[nodiscard]] result::Finding make_finding(const steps::Step& step, const std::string& requirement,
+                                             const steps::Grade& grade, const steps::Actual& actual);
+  [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t begin,
+                                                            std::optional<std::size_t> decisive) const;
   [[nodiscard]] result::Judgement& judgement(const std::string& requirement);
   [[nodiscard]] Offenders& offenders(const steps::Step& step, const std::string& requirement);
   /// Ids that steps at or behind a place in the file would still have decided.
@@ -69,13 +73,15 @@ class CaseRunner {
   bool strict_;
   result::CaseResult* out_ = nullptr;
   std::size_t step_begin_ = 0;
-  std::string walk_value_;   ///< not empty: inside an `over`
-  std::vector<Offenders> offenders_;   ///< in the order of the first judgement: addresses must not decide any order
+  std::string walk_value_;  ///< not empty: inside an `over`
+  std::vector<Offenders>
+      offenders_;  ///< in the order of the first judgement: addresses must not decide any order
   std::string stopped_because_;
   bool entered_steps_ = false;
   const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs
   const Steps* list_ = nullptr;             ///< that list
-  std::map<Multiplexer, std::optional<std::uint64_t>> held_;  ///< bytes of entries without a fixed length, as asked
+  std::map<Multiplexer, std::optional<std::uint64_t>>
+      held_;  ///< bytes of entries without a fixed length, as asked
 };
 
 }  // namespace conform::engine

@@ -23,7 +23,8 @@ bool says_absent(const steps::SdoAnswer& answer) {
          (answer.code == canopen::abort::no_object || answer.code == canopen::abort::no_sub_index);
 }
 
-/// Arrays of the standard go on beyond what the dictionary lists; sub-index 00h tells how far (1003h: a count that changes).
+/// Arrays of the standard go on beyond what the dictionary lists; sub-index 00h tells how far (1003h: a count
+/// that changes).
 void extend_array(device::Dictionary& out, Index index, std::uint8_t highest) {
   if (index == Index(0x1003) || highest > 0x7F) return;
   for (int sub = 2; sub <= highest; ++sub) {
@@ -36,7 +37,8 @@ void extend_array(device::Dictionary& out, Index index, std::uint8_t highest) {
 }  // namespace
 
 bool is_from_node(const RunSession& session, const can::CapturedFrame& captured) {
-  if (captured.direction != can::Direction::received || captured.frame.error || captured.frame.extended) return false;
+  if (captured.direction != can::Direction::received || captured.frame.error || captured.frame.extended)
+    return false;
   const auto set = canopen::connection_set(session.node());
   const CanId id(captured.frame.id);
   return id == set.sdo_response || id == set.error_control || id == set.emcy;
@@ -45,7 +47,9 @@ bool is_from_node(const RunSession& session, const can::CapturedFrame& captured)
 Result<Liveness> probe(RunSession& session, bool may_command) {
   Liveness out;
   const auto error_control = canopen::connection_set(session.node()).error_control;
-  const auto from_node = [&session](const can::CapturedFrame& captured) { return is_from_node(session, captured); };
+  const auto from_node = [&session](const can::CapturedFrame& captured) {
+    return is_from_node(session, captured);
+  };
   for (int attempt = 0; attempt < 3; ++attempt) {
     auto answer = session.peek({Index(0x1000), SubIndex(0)});
     if (!answer) return std::unexpected(answer.error());
@@ -60,7 +64,8 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
     const auto& frame = session.capture().frames()[**heard].frame;
     if (frame.is_data(error_control) && frame.size() == 1 && frame.data[0] == 0x04 && may_command) {
       // Stopped: no SDO there, and legally so.
-      if (auto sent = session.command(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
+      if (auto sent = session.command(canopen::NmtCommand::pre_operational); !sent)
+        return std::unexpected(sent.error());
       if (auto waited = session.wait_until(session.now() + session.profile().nmt_time); !waited) {
         return std::unexpected(waited.error());
       }
@@ -71,8 +76,10 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
   }
   if (!out.alive && may_command) {
     const auto from = session.capture().size();
-    if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent) return std::unexpected(sent.error());
-    auto heard = session.recorder().find(from, from_node, session.now() + std::min(session.profile().boot_time, boot_limit));
+    if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent)
+      return std::unexpected(sent.error());
+    auto heard = session.recorder().find(from, from_node,
+                                         session.now() + std::min(session.profile().boot_time, boot_limit));
     if (!heard) return std::unexpected(heard.error());
     if (*heard) {
       out.alive = true;
@@ -83,13 +90,15 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
   return out;
 }
 
-/// Looks at an entry. A device that answers nothing any more would cost a time-out for each of the entries that follow.
+/// Looks at an entry. A device that answers nothing any more would cost a time-out for each of the entries
+/// that follow.
 Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object) {
   auto answer = session.peek(object);
   if (!answer || answer->kind != Kind::silence) return answer;
   auto alive = session.peek({Index(0x1000), SubIndex(0)});
   if (!alive) return alive;
-  if (alive->kind == Kind::silence) return fail("the device fell silent when " + to_string(object) + " was looked for", {}, {});
+  if (alive->kind == Kind::silence)
+    return fail("the device fell silent when " + to_string(object) + " was looked for", {}, {});
   return answer;
 }
 
@@ -104,7 +113,8 @@ Result<void> discover(RunSession& session) {
     const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
     session.note_present(first, !says_absent(*answer));
     if (absent) {
-      for (const auto& entry : std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
+      for (const auto& entry :
+           std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
         session.note_present(entry.mux, false);
         if (entry.presence() != device::Presence::claimed) known.remove(entry.mux);
       }
@@ -113,7 +123,8 @@ Result<void> discover(RunSession& session) {
     if (answer->kind == Kind::confirmed && answer->data.size() == 1) {
       extend_array(known, index, answer->data[0]);
     }
-    for (const auto& entry : std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
+    for (const auto& entry :
+         std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
       if (entry.mux == first && known.has(first)) continue;
       auto each = look(session, entry.mux);
       if (!each) return std::unexpected(each.error());
@@ -137,10 +148,14 @@ Result<std::vector<result::Property>> device_properties(RunSession& session) {
     bool text;
   };
   static constexpr Row rows[] = {
-      {"dut.device_type", {Index(0x1000), SubIndex(0)}, false},   {"dut.vendor_id", {Index(0x1018), SubIndex(1)}, false},
-      {"dut.product_code", {Index(0x1018), SubIndex(2)}, false},  {"dut.revision", {Index(0x1018), SubIndex(3)}, false},
-      {"dut.serial", {Index(0x1018), SubIndex(4)}, false},        {"dut.name", {Index(0x1008), SubIndex(0)}, true},
-      {"dut.hardware_version", {Index(0x1009), SubIndex(0)}, true}, {"dut.software_version", {Index(0x100A), SubIndex(0)}, true},
+      {"dut.device_type", {Index(0x1000), SubIndex(0)}, false},
+      {"dut.vendor_id", {Index(0x1018), SubIndex(1)}, false},
+      {"dut.product_code", {Index(0x1018), SubIndex(2)}, false},
+      {"dut.revision", {Index(0x1018), SubIndex(3)}, false},
+      {"dut.serial", {Index(0x1018), SubIndex(4)}, false},
+      {"dut.name", {Index(0x1008), SubIndex(0)}, true},
+      {"dut.hardware_version", {Index(0x1009), SubIndex(0)}, true},
+      {"dut.software_version", {Index(0x100A), SubIndex(0)}, true},
   };
   std::vector<result::Property> out;
   out.push_back({"dut.node_id", std::to_string(session.node().value())});
@@ -151,8 +166,9 @@ Result<std::vector<result::Property>> device_properties(RunSession& session) {
     auto answer = session.peek(row.object);
     if (!answer) return std::unexpected(answer.error());
     if (answer->kind != Kind::confirmed) continue;
-    out.push_back({row.name, row.text ? std::string(answer->data.begin(), answer->data.end())
-                                      : hex(load_le(answer->data), static_cast<int>(answer->data.size()) * 2)});
+    out.push_back({row.name, row.text
+                                 ? std::string(answer->data.begin(), answer->data.end())
+                                 : hex(load_le(answer->data), static_cast<int>(answer->data.size()) * 2)});
   }
   return out;
 }

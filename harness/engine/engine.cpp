@@ -16,7 +16,8 @@ namespace {
 using result::CaseResult;
 using result::Verdict;
 
-/// While values are put back the bus must be usable, whatever the user wants meanwhile. A second signal still ends the program.
+/// While values are put back the bus must be usable, whatever the user wants meanwhile. A second signal still
+/// ends the program.
 class StopHeld {
  public:
   explicit StopHeld(Recorder& recorder) : recorder_(recorder) { recorder_.ignore_stop(true); }
@@ -31,8 +32,8 @@ class StopHeld {
 /// Everything one run needs; one function per phase.
 class Run {
  public:
-  Run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite, const scenario::Catalogue& catalogue,
-      const RunOptions& options)
+  Run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite,
+      const scenario::Catalogue& catalogue, const RunOptions& options)
       : profile_(profile),
         suite_(suite),
         catalogue_(catalogue),
@@ -52,7 +53,9 @@ class Run {
     if (!ready) {
       abort_run(ready.error());
     } else if (!alive_) {
-      abort_run({"nothing was heard of node " + std::to_string(profile_.node.value()), {}, "node-ID, bit rate, power?"});
+      abort_run({"nothing was heard of node " + std::to_string(profile_.node.value()),
+                 {},
+                 "node-ID, bit rate, power?"});
     } else {
       run_cases();
     }
@@ -137,7 +140,9 @@ class Run {
       }
     }
     if (mute_) {
-      abort_run({"the device is there, but its default SDO server does not answer", {}, "only what needs no answer was judged"});
+      abort_run({"the device is there, but its default SDO server does not answer",
+                 {},
+                 "only what needs no answer was judged"});
     }
     finish();
   }
@@ -160,7 +165,8 @@ class Run {
     if (!ran) {
       // The environment failed in the middle: nothing of this case counts as passed or failed.
       withdraw(out, vanished_ ? last_heard() : 0);
-      out.reason = ran.error().what == stopped ? "stopped by the user before the case ended" : ran.error().text();
+      out.reason =
+          ran.error().what == stopped ? "stopped by the user before the case ended" : ran.error().text();
       restore_after_fault(entered ? &planned : nullptr);
       return ran;
     }
@@ -172,8 +178,8 @@ class Run {
       for (const auto& finding : judgement.findings) {
         for (const auto& frame : finding.evidence) {
           if (frame.decisive && frame.capture_index < recorder_.capture().size()) {
-            recorder_.capture().comment(frame.capture_index,
-                                        std::string(to_string(finding.verdict)) + " " + finding.requirement + ": " + finding.actual);
+            recorder_.capture().comment(frame.capture_index, std::string(to_string(finding.verdict)) + " " +
+                                                                 finding.requirement + ": " + finding.actual);
           }
         }
       }
@@ -186,8 +192,9 @@ class Run {
     if (auto idle = session_.channel().make_idle(); !idle) return idle;
     if (!may(scenario::Risk::config)) return {};
     if (scenario.fresh != scenario::Fresh::none) {
-      if (auto done = reset(scenario.fresh == scenario::Fresh::node ? canopen::NmtCommand::reset_node
-                                                                    : canopen::NmtCommand::reset_communication);
+      if (auto done =
+              reset(scenario.fresh == scenario::Fresh::node ? canopen::NmtCommand::reset_node
+                                                            : canopen::NmtCommand::reset_communication);
           !done) {
         return std::unexpected(done.error());
       }
@@ -212,8 +219,8 @@ class Run {
     auto booted = recorder_.find(
         from,
         [id](const can::CapturedFrame& captured) {
-          return captured.direction == can::Direction::received && captured.frame.is_data(CanId(id)) && captured.frame.size() == 1 &&
-                 captured.frame.data[0] == 0;
+          return captured.direction == can::Direction::received && captured.frame.is_data(CanId(id)) &&
+                 captured.frame.size() == 1 && captured.frame.data[0] == 0;
         },
         recorder_.now() + profile_.boot_time);
     if (!booted) return std::unexpected(booted.error());
@@ -227,16 +234,21 @@ class Run {
       auto there = mute_ ? Result<Life>(Life::boots) : still_alive(may_command);
       if (!there) return std::unexpected(there.error());
       if (*there == Life::boots) {
-        // It is there and violates the rule under test by its silence; what would come next has nothing to ask.
+        // It is there and violates the rule under test by its silence; what would come next has nothing to
+        // ask.
         if (!mute_) {
-          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer" + (may_command ? ", not even after a reset" : ""), {}, {}};
+          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer" +
+                                   (may_command ? ", not even after a reset" : ""),
+                               {},
+                               {}};
         }
         note_not_put_back("the SDO server does not answer");
         return {};
       }
       if (*there == Life::gone) {
         vanished_ = true;
-        return fail("the device vanished during " + out.name(), {}, "no SDO answer, and no boot-up message after a reset");
+        return fail("the device vanished during " + out.name(), {},
+                    "no SDO answer, and no boot-up message after a reset");
       }
     }
     auto changes = session_.take_journal();
@@ -254,7 +266,8 @@ class Run {
       report = restore(session_, std::move(changes));
       if (!report) return std::unexpected(report.error());
     }
-    for (const auto& left : report->left) out_.notes.push_back(out.name() + ": could not be put back: " + left);
+    for (const auto& left : report->left)
+      out_.notes.push_back(out.name() + ": could not be put back: " + left);
     return {};
   }
 
@@ -270,8 +283,10 @@ class Run {
       if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
       if (!may_command || attempt > 0) continue;
       // Perhaps it was left in Stopped, or the SDO server hangs: Pre-operational first, then a reset.
-      if (auto sent = session_.command(canopen::NmtCommand::pre_operational); !sent) return std::unexpected(sent.error());
-      if (auto waited = session_.wait_until(session_.now() + profile_.nmt_time); !waited) return std::unexpected(waited.error());
+      if (auto sent = session_.command(canopen::NmtCommand::pre_operational); !sent)
+        return std::unexpected(sent.error());
+      if (auto waited = session_.wait_until(session_.now() + profile_.nmt_time); !waited)
+        return std::unexpected(waited.error());
       answer = session_.peek({Index(0x1000), SubIndex(0)});
       if (!answer) return std::unexpected(answer.error());
       if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
@@ -293,8 +308,8 @@ class Run {
     return 0;
   }
 
-  /// The case did not come to its end: nothing of it has passed, and a device that is gone has not violated a rule by its
-  /// silence. Only what was found while the device was still heard afterwards remains.
+  /// The case did not come to its end: nothing of it has passed, and a device that is gone has not violated a
+  /// rule by its silence. Only what was found while the device was still heard afterwards remains.
   static void withdraw(CaseResult& out, std::size_t last_heard) {
     out.verdict = Verdict::error;
     for (auto& judgement : out.judgements) {
@@ -308,12 +323,14 @@ class Run {
   }
 
   /// Lost frames, bus-off or a stepped clock: what rests on the absence of a frame cannot be trusted.
-  void distrust_if_unhealthy(CaseResult& out, const can::BusHealth& before, const Recorder::Lateness& lateness) {
+  void distrust_if_unhealthy(CaseResult& out, const can::BusHealth& before,
+                             const Recorder::Lateness& lateness) {
     const auto after = recorder_.transport().health();
     std::string why;
     bool passes_too = true;
     if (after.frames_dropped > before.frames_dropped) {
-      why = "the host lost " + std::to_string(after.frames_dropped - before.frames_dropped) + " frames during the case";
+      why = "the host lost " + std::to_string(after.frames_dropped - before.frames_dropped) +
+            " frames during the case";
     } else if (after.bus_offs > before.bus_offs || (after.bus_off && !before.bus_off)) {
       why = "bus-off during the case";
     } else if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped)) {
@@ -345,7 +362,8 @@ class Run {
       for (const auto& deviation : profile_.deviations) {
         const auto id = catalogue_.canonical(deviation.requirement).value_or(deviation.requirement);
         if (id != judgement.requirement || judgement.verdict != Verdict::fail) continue;
-        if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name())) continue;
+        if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name()))
+          continue;
         judgement.verdict = Verdict::warn;
         for (auto& finding : judgement.findings) {
           if (finding.verdict == Verdict::fail) finding.verdict = Verdict::warn;
@@ -360,7 +378,8 @@ class Run {
   /// The bus broke or the user stopped: values are put back if that is still possible.
   void restore_after_fault(const PlannedCase* planned) {
     recorder_.stop_producing("");
-    const bool usable = recorder_.fault() && (recorder_.fault()->what == stopped || recorder_.fault()->what == flooded);
+    const bool usable =
+        recorder_.fault() && (recorder_.fault()->what == stopped || recorder_.fault()->what == flooded);
     if (!usable) {
       note_not_put_back("the bus or the device is gone");
       return;
@@ -388,7 +407,8 @@ class Run {
 
   void note_not_put_back(const std::string& why) {
     for (const auto& change : session_.take_journal()) {
-      out_.notes.push_back("not put back, " + why + ": " + to_string(change.object) + " was " + hex_bytes(change.before));
+      out_.notes.push_back("not put back, " + why + ": " + to_string(change.object) + " was " +
+                           hex_bytes(change.before));
     }
   }
 
@@ -414,7 +434,8 @@ class Run {
       if (found == now->end()) {
         out_.notes.push_back(to_string(object) + " could be read before the run and cannot any more");
       } else if (found->second != before) {
-        out_.notes.push_back(to_string(object) + " was " + hex_bytes(before) + " before the run and is " + hex_bytes(found->second));
+        out_.notes.push_back(to_string(object) + " was " + hex_bytes(before) + " before the run and is " +
+                             hex_bytes(found->second));
       }
     }
   }
@@ -428,8 +449,8 @@ class Run {
   CaseRunner runner_;
   bool alive_ = false;
   bool vanished_ = false;
-  bool mute_ = false;                  ///< alive, but without a single SDO answer
-  std::optional<Error> fell_silent_;   ///< during the run
+  bool mute_ = false;                 ///< alive, but without a single SDO answer
+  std::optional<Error> fell_silent_;  ///< during the run
   std::vector<PlannedCase> plan_;
   std::map<Multiplexer, Bytes> snapshot_;
   result::RunResult out_;
@@ -438,7 +459,8 @@ class Run {
 }  // namespace
 
 result::RunResult run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite,
-                      const scenario::Catalogue& catalogue, const RunOptions& options, can::Capture& capture) {
+                      const scenario::Catalogue& catalogue, const RunOptions& options,
+                      can::Capture& capture) {
   Run run(transport, profile, suite, catalogue, options);
   auto out = run.execute();
   capture = run.take_capture();

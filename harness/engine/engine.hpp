@@ -26,8 +26,10 @@ struct RunOptions {
   std::function<void(const result::RunResult&, std::size_t)> on_case_end;
 };
 
-/// Runs the plan on an open transport. Never throws a verdict away: whatever happens, the result says what was judged.
-[[nodiscard]] result::RunResult run(can::Transport& transport, const device::Profile& profile, const scenario::Suite& suite,
-                                    const scenario::Catalogue& catalogue, const RunOptions& options, can::Capture& capture);
+/// Runs the plan on an open transport. Never throws a verdict away: whatever happens, the result says what
+/// was judged.
+[[nodiscard]] result::RunResult run(can::Transport& transport, const device::Profile& profile,
+                                    const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                                    const RunOptions& options, can::Capture& capture);
 
 }  // namespace conform::engine

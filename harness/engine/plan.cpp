@@ -35,7 +35,8 @@ std::vector<Multiplexer> sample(std::vector<Multiplexer> items, std::size_t coun
   return out;
 }
 
-std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device::Dictionary& dictionary, const PlanOptions& options) {
+std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device::Dictionary& dictionary,
+                                const PlanOptions& options) {
   std::vector<PlannedCase> out;
   const auto add = [&](std::string instance) -> PlannedCase& {
     PlannedCase planned;
@@ -51,8 +52,10 @@ std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device
     const auto query = scenario::Query::parse(scenario.for_each->query);
     auto objects = query ? query->select(dictionary) : std::vector<Multiplexer>();
     if (objects.empty()) add("").not_applicable = "the device has no " + scenario.for_each->query;
-    if (scenario.sample > 0 && !options.all_objects) objects = sample(std::move(objects), scenario.sample, options.seed);
-    for (const auto object : objects) add(to_string(object)).names[scenario.for_each->variable] = to_string(object);
+    if (scenario.sample > 0 && !options.all_objects)
+      objects = sample(std::move(objects), scenario.sample, options.seed);
+    for (const auto object : objects)
+      add(to_string(object)).names[scenario.for_each->variable] = to_string(object);
   }
   return out;
 }
@@ -67,7 +70,8 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
       for (auto& planned : expand(scenario, dictionary, options)) {
         if (!options.selection.takes(scenario, planned.instance, catalogue)) continue;
         if (scenario.risk > options.allowed) {
-          planned.held_back = "held back: risk '" + std::string(to_string(scenario.risk)) + "' is not allowed in this run (--allow " +
+          planned.held_back = "held back: risk '" + std::string(to_string(scenario.risk)) +
+                              "' is not allowed in this run (--allow " +
                               std::string(to_string(scenario.risk)) + ")";
         }
         if (scenario.slow && !options.slow && planned.held_back.empty()) {

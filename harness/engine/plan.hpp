@@ -25,16 +25,19 @@ struct PlannedCase {
 struct PlanOptions {
   scenario::Selection selection;
   scenario::Risk allowed = scenario::Risk::motion;
-  std::uint64_t seed = 1;      ///< of the sample taken from long queries
-  bool all_objects = false;    ///< no sampling
-  bool slow = true;            ///< scenarios that take long on a real bus
+  std::uint64_t seed = 1;    ///< of the sample taken from long queries
+  bool all_objects = false;  ///< no sampling
+  bool slow = true;          ///< scenarios that take long on a real bus
 };
 
-/// In the order of the suite, basic scenarios first, then read-only ones, then config, nvm and motion: what can do harm comes last.
-[[nodiscard]] std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+/// In the order of the suite, basic scenarios first, then read-only ones, then config, nvm and motion: what
+/// can do harm comes last.
+[[nodiscard]] std::vector<PlannedCase> plan(const scenario::Suite& suite,
+                                            const scenario::Catalogue& catalogue,
                                             const device::Dictionary& dictionary, const PlanOptions& options);
 
 /// The case as reports show it before it has run.
-[[nodiscard]] result::CaseResult planned_result(const PlannedCase& planned, const scenario::Catalogue& catalogue);
+[[nodiscard]] result::CaseResult planned_result(const PlannedCase& planned,
+                                                const scenario::Catalogue& catalogue);
 
 }  // namespace conform::engine

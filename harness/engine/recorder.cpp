@@ -24,7 +24,8 @@ std::unexpected<Error> Recorder::broken(Error error) {
 Result<bool> Recorder::pump(BusTime deadline) {
   if (stop_requested()) return broken({stopped, {}, {}});
   if (capture_.size() >= most_frames_ && !ignore_stop_) {
-    return broken({flooded, transport_.info().name, "does a node flood the bus? A run records " + std::to_string(most_frames_) + " frames"});
+    return broken({flooded, transport_.info().name,
+                   "does a node flood the bus? A run records " + std::to_string(most_frames_) + " frames"});
   }
   auto until = deadline;
   for (const auto& running : running_) until = std::min(until, running.due);
@@ -49,7 +50,8 @@ Result<void> Recorder::produce_due() {
     if (running.due > current) continue;
     // The first one begins the train; only what follows has a time at which it is due.
     const Duration late = current - running.due;
-    if (running.sent > 0 && late > running.production.every / 2) lateness_.producing = std::max(lateness_.producing, late);
+    if (running.sent > 0 && late > running.production.every / 2)
+      lateness_.producing = std::max(lateness_.producing, late);
     auto sent = transport_.send(running.production.frame);
     if (!sent) return broken(sent.error());
     ++running.sent;
@@ -82,7 +84,8 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   return **echo;
 }
 
-Result<std::optional<std::size_t>> Recorder::find(std::size_t from, const steps::Session::Match& match, BusTime deadline) {
+Result<std::optional<std::size_t>> Recorder::find(std::size_t from, const steps::Session::Match& match,
+                                                  BusTime deadline) {
   for (std::size_t i = from;; ++i) {
     while (i >= capture_.size()) {
       const auto size = capture_.size();
@@ -111,7 +114,9 @@ void Recorder::produce(steps::Production production) {
 }
 
 void Recorder::stop_producing(std::string_view label) {
-  std::erase_if(running_, [label](const Running& running) { return label.empty() || running.production.label == label; });
+  std::erase_if(running_, [label](const Running& running) {
+    return label.empty() || running.production.label == label;
+  });
 }
 
 }  // namespace conform::engine

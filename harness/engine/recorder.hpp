@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's hold on the bus: every event goes into the capture, due productions are sent, and a stop request ends waits.
+// The engine's hold on the bus: every event goes into the capture, due productions are sent, and a stop
+// request ends waits.
 #pragma once
 
 #include <atomic>
@@ -33,8 +34,10 @@ class Recorder {
 
   /// Sends and waits for the echo. Its capture index: the frame was on the bus at its stamp.
   [[nodiscard]] Result<std::size_t> send(const can::Frame& frame);
-  /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as that takes.
-  [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match, BusTime deadline);
+  /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as
+  /// that takes.
+  [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match,
+                                                        BusTime deadline);
   [[nodiscard]] Result<void> wait_until(BusTime until);
 
   void produce(steps::Production production);
@@ -43,16 +46,20 @@ class Recorder {
   /// How late the host was since the last call.
   struct Lateness {
     Duration waking{};     ///< behind the end of a wait
-    Duration producing{};  ///< behind the time at which a produced frame was due, where that is more than half its period
+    Duration producing{};  ///< behind the time at which a produced frame was due, where that is more than
+                           ///< half its period
   };
   [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
 
   /// While restoring after a stop request the bus must still be usable.
   void ignore_stop(bool ignore) { ignore_stop_ = ignore; }
-  /// The fault of the environment that ended the last wait or send, if any: tells it from mistakes of a scenario.
+  /// The fault of the environment that ended the last wait or send, if any: tells it from mistakes of a
+  /// scenario.
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
   void clear_fault() { fault_.reset(); }
-  [[nodiscard]] bool stop_requested() const { return stop_ != nullptr && stop_->load() != 0 && !ignore_stop_; }
+  [[nodiscard]] bool stop_requested() const {
+    return stop_ != nullptr && stop_->load() != 0 && !ignore_stop_;
+  }
 
  private:
   struct Running {
@@ -69,7 +76,8 @@ class Recorder {
   const std::atomic<int>* stop_;
   std::size_t most_frames_;
   bool waits_in_slices_;  // virtual time needs no slices: only a real wait can be too long for the user
-  // It was at least this late when we last knew. Reading the clock costs as much as sending a frame on some machines.
+  // It was at least this late when we last knew. Reading the clock costs as much as sending a frame on some
+  // machines.
   mutable BusTime recent_{};
   bool ignore_stop_ = false;
   std::optional<Error> fault_;

@@ -31,11 +31,13 @@ class Restorer {
   }
 
   /// Off, change, on: CiA 301 locks bits 0-29 while the service is active.
-  Result<bool> write_cob_id(Multiplexer object, canopen::CobIdKind kind, const Bytes& now, const Bytes& before) {
+  Result<bool> write_cob_id(Multiplexer object, canopen::CobIdKind kind, const Bytes& now,
+                            const Bytes& before) {
     const CobId current(static_cast<std::uint32_t>(load_le(now)));
     const CobId target(static_cast<std::uint32_t>(load_le(before)));
     Result<bool> last = true;
-    for (const auto value : {canopen::deactivated(kind, current), canopen::deactivated(kind, target), target}) {
+    for (const auto value :
+         {canopen::deactivated(kind, current), canopen::deactivated(kind, target), target}) {
       last = write(object, to_le(value.value(), 4));
       if (!last) return last;
     }
@@ -56,7 +58,8 @@ std::optional<Index> pdo_of(Index index) {
   return std::nullopt;
 }
 
-/// A PDO is put back as a whole: destroyed, its mapping and parameters written, its COB-ID last (7.5.2.36, 7.5.2.38).
+/// A PDO is put back as a whole: destroyed, its mapping and parameters written, its COB-ID last
+/// (7.5.2.36, 7.5.2.38).
 Result<void> restore_pdo(Restorer& device, Index communication, const std::vector<Change>& changes) {
   const Multiplexer cob_id{communication, SubIndex(1)};
   const auto kind = canopen::cob_id_kind(cob_id);
@@ -71,8 +74,8 @@ Result<void> restore_pdo(Restorer& device, Index communication, const std::vecto
   if (auto done = device.write(cob_id, to_le(off.value(), 4)); !done) return std::unexpected(done.error());
   const Index mapping(static_cast<std::uint16_t>(communication.value() + 0x200));
   const Multiplexer count{mapping, SubIndex(0)};
-  const bool mapping_changed =
-      std::ranges::any_of(changes, [mapping](const Change& change) { return change.object.index == mapping; });
+  const bool mapping_changed = std::ranges::any_of(
+      changes, [mapping](const Change& change) { return change.object.index == mapping; });
   std::optional<Bytes> count_before;
   if (mapping_changed) {
     auto count_now = device.read(count);
@@ -147,7 +150,8 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
     auto now = device.read(change.object);
     if (!now) return std::unexpected(now.error());
     if (*now == change.before) continue;
-    out.left.push_back(to_string(change.object) + " is " + (*now ? hex_bytes(**now) : std::string("not readable")) + ", was " +
+    out.left.push_back(to_string(change.object) + " is " +
+                       (*now ? hex_bytes(**now) : std::string("not readable")) + ", was " +
                        hex_bytes(change.before));
   }
   return out;

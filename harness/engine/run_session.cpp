@@ -11,8 +11,9 @@ namespace conform::engine {
 namespace {
 constexpr Multiplexer emcy_entry{Index(0x1014), SubIndex(0)};
 
-/// Whether an SDO request may change something: downloads, expedited, segmented or by block. Commands that nothing defines
-/// change nothing in a server that heeds the standard, nor do frames too short to hold a request.
+/// Whether an SDO request may change something: downloads, expedited, segmented or by block. Commands that
+/// nothing defines change nothing in a server that heeds the standard, nor do frames too short to hold a
+/// request.
 bool is_sdo_write(const can::Frame& frame) {
   if (frame.size() == 0) return false;
   const auto specifier = frame.data[0] >> 5U;
@@ -21,10 +22,10 @@ bool is_sdo_write(const can::Frame& frame) {
 
 /// NMT commands to all nodes or to another one. Node-IDs beyond 127 are nobody's.
 bool commands_others(const can::Frame& frame, NodeId node) {
-  return !frame.extended && !frame.remote && !frame.error && frame.id == 0 && frame.size() >= 2 && frame.data[1] <= 127 &&
-         frame.data[1] != node.value();
+  return !frame.extended && !frame.remote && !frame.error && frame.id == 0 && frame.size() >= 2 &&
+         frame.data[1] <= 127 && frame.data[1] != node.value();
 }
-}
+}  // namespace
 
 RunSession::RunSession(Recorder& recorder, const device::Profile& profile, device::Dictionary dictionary)
     : recorder_(recorder),
@@ -50,13 +51,17 @@ Result<steps::Value> RunSession::current() {
   return read(*object);
 }
 
-Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) { return channel_.upload(object, std::nullopt); }
+Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
+  return channel_.upload(object, std::nullopt);
+}
 
 Result<steps::Value> RunSession::read(Multiplexer object) {
   auto answer = peek(object);
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind == steps::SdoAnswer::Kind::confirmed) return steps::Value::of_bytes(answer->data);
-  const auto why = answer->kind == steps::SdoAnswer::Kind::aborted ? "abort " + canopen::describe(answer->code) : answer->detail;
+  const auto why = answer->kind == steps::SdoAnswer::Kind::aborted
+                       ? "abort " + canopen::describe(answer->code)
+                       : answer->detail;
   return fail("the value of " + to_string(object) + " cannot be read: " + why, "scenario");
 }
 
@@ -69,7 +74,8 @@ Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared wh
                                                             : known.default_value;
   if (!bytes && what == steps::Declared::default_value && object.index == Index(0x1018)) {
     const auto& identity = profile_.identity;
-    const std::optional<std::uint32_t> wanted[] = {identity.vendor, identity.product, identity.revision, identity.serial};
+    const std::optional<std::uint32_t> wanted[] = {identity.vendor, identity.product, identity.revision,
+                                                   identity.serial};
     const auto sub = object.sub.value();
     if (sub >= 1 && sub <= 4 && wanted[sub - 1]) return steps::Value::of_bytes(to_le(*wanted[sub - 1], 4));
   }
@@ -95,7 +101,8 @@ Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
   if (!answer) return std::unexpected(answer.error());
   using Kind = steps::SdoAnswer::Kind;
   // Silence is neither: to take it for absence would excuse the device from every rule about the entry.
-  if (answer->kind == Kind::silence) return fail("no answer when " + to_string(object) + " was looked for", "scenario");
+  if (answer->kind == Kind::silence)
+    return fail("no answer when " + to_string(object) + " was looked for", "scenario");
   const bool present = answer->kind != Kind::aborted || (answer->code != canopen::abort::no_object &&
                                                          answer->code != canopen::abort::no_sub_index);
   present_[object] = present;
@@ -103,7 +110,9 @@ Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
 }
 
 bool RunSession::is_claimed(Multiplexer object, bool whole_object) const {
-  const auto claimed = [](const device::Entry& entry) { return entry.presence() != device::Presence::unclaimed; };
+  const auto claimed = [](const device::Entry& entry) {
+    return entry.presence() != device::Presence::unclaimed;
+  };
   if (whole_object) return std::ranges::any_of(dictionary_.object(object.index), claimed);
   const auto* found = entry(object);
   return found != nullptr && claimed(*found);
@@ -122,20 +131,25 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   if (found != nullptr && !found->access_open) return found->writable();
   const auto probed = writable_.find(object);
   if (probed != writable_.end()) return probed->second;
-  // The standard leaves rw or const open here: writing back what is there tells, and changes nothing. A command is not tried.
+  // The standard leaves rw or const open here: writing back what is there tells, and changes nothing. A
+  // command is not tried.
   if (found != nullptr && found->command) return found->writable();
-  if (auto allowed = needs(scenario::Risk::config, "try whether " + to_string(object) + " is writable"); !allowed) {
+  if (auto allowed = needs(scenario::Risk::config, "try whether " + to_string(object) + " is writable");
+      !allowed) {
     return std::unexpected(allowed.error());
   }
   auto value = peek(object);
   if (!value) return std::unexpected(value.error());
-  const auto silent = [object] { return fail("no answer when " + to_string(object) + " was tried", "scenario"); };
+  const auto silent = [object] {
+    return fail("no answer when " + to_string(object) + " was tried", "scenario");
+  };
   if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
   if (value->kind != steps::SdoAnswer::Kind::confirmed) return false;
   auto answer = channel_.download(object, value->data, canopen::SdoDownload::Mode::automatic, std::nullopt);
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind == steps::SdoAnswer::Kind::silence) return silent();
-  const bool refused = answer->kind == steps::SdoAnswer::Kind::aborted && answer->code == canopen::abort::read_only;
+  const bool refused =
+      answer->kind == steps::SdoAnswer::Kind::aborted && answer->code == canopen::abort::read_only;
   writable_[object] = !refused;
   if (refused) {
     if (auto* known = dictionary_.find(object)) known->access = device::Access::constant;
@@ -159,8 +173,8 @@ std::size_t RunSession::error_triggers() const {
   // A heartbeat can stay away only from a device that consumes heartbeats.
   const auto consumer = present_.find({Index(0x1016), SubIndex(1)});
   const bool consumes = consumer != present_.end() && consumer->second;
-  return static_cast<std::size_t>(
-      std::ranges::count_if(profile_.errors, [consumes](const auto& trigger) { return trigger.raise || consumes; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      profile_.errors, [consumes](const auto& trigger) { return trigger.raise || consumes; }));
 }
 
 void RunSession::note_sent(std::size_t index) {
@@ -184,7 +198,8 @@ Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Du
 Result<void> RunSession::will_change(Multiplexer object) {
   const auto* found = entry(object);
   if (found != nullptr && !found->readable()) return {};
-  // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is all commands.
+  // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is
+  // all commands.
   const bool program = object.index.value() >= 0x1F50 && object.index.value() <= 0x1F5F;
   if (found == nullptr && (program || channel_.is_open())) return {};
   // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
@@ -200,13 +215,15 @@ Result<void> RunSession::will_change(Multiplexer object) {
   if (found != nullptr && found->command) return {};
   // Nor can a value be put back that only the device itself sets, like an error field.
   if (found != nullptr && found->may_change && !found->writable()) return {};
-  if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) journal_.push_back({object, before->data});
+  if (std::ranges::find(journal_, object, &Change::object) == journal_.end())
+    journal_.push_back({object, before->data});
   return {};
 }
 
 Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                               std::optional<Duration> timeout) {
-  if (auto allowed = needs(scenario::Risk::config, "write to the device"); !allowed) return std::unexpected(allowed.error());
+  if (auto allowed = needs(scenario::Risk::config, "write to the device"); !allowed)
+    return std::unexpected(allowed.error());
   if (auto noted = will_change(object); !noted) return std::unexpected(noted.error());
   const auto copy = data;
   auto answer = channel_.download(object, std::move(data), mode, timeout);
@@ -232,8 +249,8 @@ std::optional<Bytes> RunSession::before_last_write(Multiplexer object) const {
 
 Result<void> RunSession::needs(scenario::Risk risk, std::string_view what) const {
   if (risk_ >= risk) return {};
-  return fail("a scenario of risk '" + std::string(to_string(risk_)) + "' must not " + std::string(what), "scenario",
-              "give the scenario 'risk: " + std::string(to_string(risk)) + "'");
+  return fail("a scenario of risk '" + std::string(to_string(risk_)) + "' must not " + std::string(what),
+              "scenario", "give the scenario 'risk: " + std::string(to_string(risk)) + "'");
 }
 
 Result<void> RunSession::nmt(canopen::NmtCommand what) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The session steps act on: one device, one bus, the names of the running case, and the journal of what was changed.
+// The session steps act on: one device, one bus, the names of the running case, and the journal of what was
+// changed.
 #pragma once
 
 #include <map>
@@ -56,7 +57,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] const can::Capture& capture() const override { return recorder_.capture(); }
   [[nodiscard]] BusTime now() const override { return recorder_.now(); }
   [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout) override;
-  [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
+  [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data,
+                                                  canopen::SdoDownload::Mode mode,
                                                   std::optional<Duration> timeout) override;
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer object) const override;
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
@@ -64,7 +66,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<void> will_change(Multiplexer object) override;
   void sdo_channel_dirty() override { channel_.dirty(false); }
   void sdo_answer_may_be_late() override { channel_.dirty(true); }
-  [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match, BusTime deadline) override {
+  [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match,
+                                                              BusTime deadline) override {
     return recorder_.find(from, match, deadline);
   }
   [[nodiscard]] Result<void> wait_until(BusTime until) override { return recorder_.wait_until(until); }
@@ -79,7 +82,7 @@ class RunSession final : public steps::Session {
   void device_was_reset(bool application_too) override;
 
   // For the engine
-  void begin_case(scenario::Risk risk);                ///< forgets names, labels, windows; the journal is empty
+  void begin_case(scenario::Risk risk);  ///< forgets names, labels, windows; the journal is empty
   void begin_step(bool acts, const steps::ObjectReference* object);
   /// NMT commands of the engine itself: baseline, restore, liveness.
   [[nodiscard]] Result<void> command(canopen::NmtCommand command);

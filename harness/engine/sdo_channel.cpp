@@ -12,7 +12,8 @@
 namespace conform::engine {
 namespace {
 
-/// A server that wrongly answers the abort does so within this time, and its answer is then no answer to what follows.
+/// A server that wrongly answers the abort does so within this time, and its answer is then no answer to what
+/// follows.
 constexpr Duration after_conversation = std::chrono::milliseconds(20);
 
 }  // namespace
@@ -20,7 +21,8 @@ constexpr Duration after_conversation = std::chrono::milliseconds(20);
 Result<void> SdoChannel::make_idle() {
   if (state_ == State::idle) return {};
   const auto rest = std::exchange(state_, State::idle) == State::late_answers ? quiet_ : after_conversation;
-  // An abort is never answered; after it, answers to what was before must not be taken for answers to what comes.
+  // An abort is never answered; after it, answers to what was before must not be taken for answers to what
+  // comes.
   const auto abort = canopen::encode_abort({Index(0), SubIndex(0)}, AbortCode(0x0800'0000));
   auto sent = recorder_.send(can::data_frame(canopen::connection_set(node_).sdo_request, abort));
   if (!sent) return std::unexpected(sent.error());
@@ -28,7 +30,8 @@ Result<void> SdoChannel::make_idle() {
 }
 
 template <typename Transfer>
-Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object, std::optional<Duration> timeout) {
+Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object,
+                                         std::optional<Duration> timeout) {
   if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
   const auto set = canopen::connection_set(node_);
   const auto limit = timeout.value_or(timeout_);
@@ -74,7 +77,8 @@ Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object, 
     out.detail = std::move(result.detail);
     out.remarks = std::move(result.remarks);
     if (result.reply) {
-      auto told = recorder_.send(can::data_frame(set.sdo_request, canopen::encode_abort(object, *result.reply)));
+      auto told =
+          recorder_.send(can::data_frame(set.sdo_request, canopen::encode_abort(object, *result.reply)));
       if (!told) return std::unexpected(told.error());
     }
     if (result.kind == Kind::violation) dirty(true);

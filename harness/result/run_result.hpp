@@ -44,7 +44,8 @@ struct Finding {
   std::vector<std::uint8_t> actual_bytes;  ///< data or frame bytes behind `actual`, may be empty
   std::string reason;                      ///< why this verdict, one sentence
   std::vector<EvidenceFrame> evidence;
-  std::size_t frames_seen = 0;  ///< length of the capture when it was judged: what came later shows that the device lived
+  std::size_t frames_seen =
+      0;  ///< length of the capture when it was judged: what came later shows that the device lived
 };
 
 /// The unit of judgement: one requirement in one case.

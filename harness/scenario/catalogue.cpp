@@ -25,7 +25,9 @@ Requirement read_requirement(const yaml::Field& item) {
   out.id = fields.required("id").text().value_or("");
   out.clause = fields.required("clause").text().value_or("");
   out.object = fields.optional("object").text().value_or("");
-  out.level = fields.required("level").one_of({"mandatory", "conditional", "optional", "recommended"}).value_or("mandatory");
+  out.level = fields.required("level")
+                  .one_of({"mandatory", "conditional", "optional", "recommended"})
+                  .value_or("mandatory");
   out.applies = fields.optional("applies").text().value_or("");
   out.statement = fields.required("statement").text().value_or("");
   out.passes = fields.required("passes").text().value_or("");
@@ -44,7 +46,8 @@ Requirement read_requirement(const yaml::Field& item) {
 
 }  // namespace
 
-std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnostics& diagnostics, const std::string& path) {
+std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnostics& diagnostics,
+                                           const std::string& path) {
   std::vector<Requirement> out;
   yaml::Fields fields(root, diagnostics, "requirement file");
   (void)fields.required("format").number(1, 1);
@@ -65,7 +68,8 @@ std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnos
   return out;
 }
 
-Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::string>& problems, bool colour) {
+Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::string>& problems,
+                                  bool colour) {
   auto files = yaml_files_below(suites, "requirements");
   if (!files) return std::unexpected(files.error());
   Catalogue out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The requirement catalogue (suites/requirements): what every id means, and which ids are two names of one rule.
+// The requirement catalogue (suites/requirements): what every id means, and which ids are two names of one
+// rule.
 #pragma once
 
 #include <functional>
@@ -19,31 +20,34 @@ namespace conform::scenario {
 struct Requirement {
   std::string id;
   std::string clause;
-  std::string object;      ///< may be empty
-  std::string level;       ///< mandatory, conditional, optional, recommended
-  std::string applies;     ///< empty: always
+  std::string object;   ///< may be empty
+  std::string level;    ///< mandatory, conditional, optional, recommended
+  std::string applies;  ///< empty: always
   std::string statement;
   std::string passes, warns, fails;
   std::vector<std::string> same_as;
   std::vector<std::string> cct;
   std::string risk;
   std::string note;
-  std::string proof;         ///< "", "manual", "reference node only"
+  std::string proof;  ///< "", "manual", "reference node only"
   std::string proof_reason;
   std::string area;
-  std::string file;          ///< relative to the suites
+  std::string file;  ///< relative to the suites
   int line = 0;
 
   [[nodiscard]] result::RequirementInfo info() const { return {id, clause, level, area, statement}; }
 };
 
 /// Reads one file of requirements. All mistakes are in `diagnostics`, ids given twice in the file included.
-[[nodiscard]] std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnostics& diagnostics, const std::string& path);
+[[nodiscard]] std::vector<Requirement> load_requirements(const yaml::Node& root,
+                                                         yaml::Diagnostics& diagnostics,
+                                                         const std::string& path);
 
 class Catalogue {
  public:
   /// Reads every *.yaml below `<suites>/requirements`. Mistakes go to `problems`, one rendered text per file.
-  static Result<Catalogue> load(const std::string& suites, std::vector<std::string>& problems, bool colour = false);
+  static Result<Catalogue> load(const std::string& suites, std::vector<std::string>& problems,
+                                bool colour = false);
 
   /// By its own id or by an alias (same_as).
   [[nodiscard]] const Requirement* find(std::string_view id) const;

@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 Result<std::vector<std::string>> yaml_files_below(const std::string& root, const std::string& folder) {
   std::error_code error;
   const fs::path top = folder.empty() ? fs::path(root) : fs::path(root) / folder;
-  if (!fs::is_directory(top, error)) return fail("no such folder", top.string(), "name the suites with --suites");
+  if (!fs::is_directory(top, error))
+    return fail("no such folder", top.string(), "name the suites with --suites");
   std::vector<std::string> out;
   for (auto it = fs::recursive_directory_iterator(top, fs::directory_options::skip_permission_denied, error);
        it != fs::recursive_directory_iterator(); it.increment(error)) {

@@ -25,7 +25,8 @@ bool is_id(std::string_view id) {
   });
 }
 
-/// `for_each`: {name: [values]}, {name: query}, or a list of rows (mappings; the first key names the instance).
+/// `for_each`: {name: [values]}, {name: query}, or a list of rows (mappings; the first key names the
+/// instance).
 std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseContext& context) {
   ForEach out;
   std::set<std::string> seen;
@@ -82,7 +83,8 @@ std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseCont
     if (!query) {
       values.error(query.error().what, query.error().hint);
     } else if (query->holding()) {
-      values.error("what an entry holds is not known when the cases are planned", "look for one such entry with 'given'");
+      values.error("what an entry holds is not known when the cases are planned",
+                   "look for one such entry with 'given'");
     }
   }
   context.know(out.variable);
@@ -93,7 +95,8 @@ std::optional<ForEach> parse_for_each(const yaml::Field& field, steps::ParseCont
 std::vector<Given> parse_given(const yaml::Field& field, steps::ParseContext& context) {
   std::vector<Given> out;
   if (!field.node()->is_mapping() || field.node()->entries().empty()) {
-    field.error("'given' needs names with queries", "write given: {long: entries with readable and holding 15.. bytes}");
+    field.error("'given' needs names with queries",
+                "write given: {long: entries with readable and holding 15.. bytes}");
     return out;
   }
   for (const auto& entry : field.node()->entries()) {
@@ -112,7 +115,8 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   auto fields = item.fields("scenario");
   const auto id = fields.required("id");
   const auto name = id.text().value_or("");
-  if (id && !is_id(name)) id.error("'" + name + "' is not an id", "small letters, digits and hyphens: it is quoted for ever");
+  if (id && !is_id(name))
+    id.error("'" + name + "' is not an id", "small letters, digits and hyphens: it is quoted for ever");
   out.suite = path.substr(0, path.rfind('.'));
   out.id = out.suite + "/" + name;
   out.position = {path, item.node()->position().line, item.node()->position().column};
@@ -124,11 +128,15 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
     }
   }
   if (const auto risk = fields.optional("risk")) {
-    out.risk = risk.one_of<Risk>({{"read-only", Risk::read_only}, {"config", Risk::config}, {"nvm", Risk::nvm}, {"motion", Risk::motion}})
+    out.risk = risk.one_of<Risk>({{"read-only", Risk::read_only},
+                                  {"config", Risk::config},
+                                  {"nvm", Risk::nvm},
+                                  {"motion", Risk::motion}})
                    .value_or(Risk::motion);
   }
   if (const auto fresh = fields.optional("fresh")) {
-    out.fresh = fresh.one_of<Fresh>({{"communication", Fresh::communication}, {"node", Fresh::node}}).value_or(Fresh::none);
+    out.fresh = fresh.one_of<Fresh>({{"communication", Fresh::communication}, {"node", Fresh::node}})
+                    .value_or(Fresh::none);
   }
   out.basic = fields.optional("basic").boolean().value_or(false);
   out.slow = fields.optional("slow").boolean().value_or(false);
@@ -153,10 +161,12 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
     const steps::Step* change = steps::first_change(out.steps);
     if (change == nullptr) change = steps::first_change(out.cleanup);
     if (change != nullptr) {
-      context.diagnostics.error(change->position, change->length, "a read-only scenario may only upload from the device, and wait",
+      context.diagnostics.error(change->position, change->length,
+                                "a read-only scenario may only upload from the device, and wait",
                                 "add risk: config to the scenario, or nvm or motion");
     } else if (out.when && out.when->may_write()) {
-      item.error("the condition of a read-only scenario may write: '" + out.when->text() + "'", "add risk: config");
+      item.error("the condition of a read-only scenario may write: '" + out.when->text() + "'",
+                 "add risk: config");
     }
   }
   std::set<std::string> requirements;
@@ -201,33 +211,38 @@ ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnosti
   context.check_query = [](std::string_view text) -> Result<void> {
     auto query = Query::parse(text);
     if (!query) return std::unexpected(query.error());
-    if (query->holding()) return fail("'holding' needs an answer of the device", {}, "look for one such entry with 'given'");
+    if (query->holding())
+      return fail("'holding' needs an answer of the device", {}, "look for one such entry with 'given'");
     return {};
   };
   context.requirement = [&catalogue](std::string_view id) { return catalogue.canonical(id); };
   context.all_requirements = [&catalogue] { return catalogue.ids(); };
   std::set<std::string> ids;
   const auto list = fields.required("scenarios");
-  if (list && list.node()->is_sequence() && list.node()->items().empty()) list.error("a file without a scenario");
+  if (list && list.node()->is_sequence() && list.node()->items().empty())
+    list.error("a file without a scenario");
   for (const auto& item : list.items()) {
     if (!item.node()->is_mapping()) {
       item.expected("a mapping with id, title and steps");
       continue;
     }
     auto scenario = parse_scenario(item, context, path);
-    if (item.node()->find("id") != nullptr && !ids.insert(scenario.id).second) item.error("scenario id '" + scenario.id + "' is given twice");
+    if (item.node()->find("id") != nullptr && !ids.insert(scenario.id).second)
+      item.error("scenario id '" + scenario.id + "' is given twice");
     out.scenarios.push_back(std::move(scenario));
   }
   return out;
 }
 
-Result<Suite> load_suite(const std::string& root, const std::vector<std::string>& files, const Catalogue& catalogue, bool colour) {
+Result<Suite> load_suite(const std::string& root, const std::vector<std::string>& files,
+                         const Catalogue& catalogue, bool colour) {
   Suite out;
   for (const auto& file : files) {
     const auto path = file.starts_with('/') || root.empty() ? file : root + "/" + file;
     auto document = yaml::load_file(path, file);
     if (!document) return std::unexpected(document.error());
-    if (document->root) out.files.push_back(load_scenarios(*document->root, document->diagnostics, file, catalogue));
+    if (document->root)
+      out.files.push_back(load_scenarios(*document->root, document->diagnostics, file, catalogue));
     out.errors += document->diagnostics.error_count();
     if (!document->diagnostics.empty()) out.problems.push_back(document->diagnostics.render(colour));
   }

@@ -12,9 +12,10 @@
 
 namespace conform::scenario {
 
-/// Reads one document. `path` (relative, with extension) gives the ids. Usable when the diagnostics have no errors.
-[[nodiscard]] ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnostics, const std::string& path,
-                                          const Catalogue& catalogue);
+/// Reads one document. `path` (relative, with extension) gives the ids. Usable when the diagnostics have no
+/// errors.
+[[nodiscard]] ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnostics,
+                                          const std::string& path, const Catalogue& catalogue);
 
 struct Suite {
   std::vector<ScenarioFile> files;

@@ -45,10 +45,13 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
     for (std::size_t i = 1; i < words.size(); ++i) {
       if (words[i] == "or") continue;
       const auto access = device::parse_access(words[i]);
-      if (!access) return fail("unknown access '" + std::string(words[i]) + "'", {}, "ro, wo, rw, rwr, rww or const");
+      if (!access)
+        return fail("unknown access '" + std::string(words[i]) + "'", {}, "ro, wo, rw, rwr, rww or const");
       accesses.push_back(*access);
     }
-    return Clause([accesses](const Entry& entry) { return std::ranges::find(accesses, entry.access) != accesses.end(); });
+    return Clause([accesses](const Entry& entry) {
+      return std::ranges::find(accesses, entry.access) != accesses.end();
+    });
   }
   if (words.front() == "type" && words.size() == 2) {
     const auto type = canopen::parse_data_type(words[1]);
@@ -92,9 +95,11 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
       {"domain", [](const Entry& e) { return e.type == canopen::DataType::domain; }},
       {"command", [](const Entry& e) { return e.command; }},
       {"claimed", [](const Entry& e) { return e.presence() != device::Presence::unclaimed; }},
-      {"complex", [](const Entry& e) { return e.object == ObjectCode::array || e.object == ObjectCode::record; }},
+      {"complex",
+       [](const Entry& e) { return e.object == ObjectCode::array || e.object == ObjectCode::record; }},
       {"array", [](const Entry& e) { return e.object == ObjectCode::array; }},
-      {"element", [](const Entry& e) {
+      {"element",
+       [](const Entry& e) {
          return (e.object == ObjectCode::array || e.object == ObjectCode::record) && e.mux.sub != SubIndex(0);
        }},
       {"integer", [](const Entry& e) { return canopen::is_integer(e.type); }},
@@ -110,12 +115,15 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
   auto near = did_you_mean(all, known);
   static constexpr std::string_view with_value[] = {"access", "type", "size", "index", "holding"};
   if (near.empty()) near = did_you_mean(words.front(), with_value);
-  return fail("unknown property '" + all + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+  return fail("unknown property '" + all + "'", {},
+              near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
 }
 
 /// "holding 15.. bytes", "holding 8 bytes"
 Result<Query::Holding> parse_holding(const std::vector<std::string_view>& words) {
-  const auto wrong = [] { return fail("'holding' needs a number or range of bytes", {}, "holding 15.. bytes, holding 8 bytes"); };
+  const auto wrong = [] {
+    return fail("'holding' needs a number or range of bytes", {}, "holding 15.. bytes, holding 8 bytes");
+  };
   if (words.size() != 3 || words[2] != "bytes") return wrong();
   const auto dots = words[1].find("..");
   const auto low = parse_number(words[1].substr(0, dots));
@@ -129,15 +137,17 @@ Result<Query::Holding> parse_holding(const std::vector<std::string_view>& words)
 
 Result<Query> Query::parse(std::string_view text) {
   // Every 'not' recurses: a bound on the text is a bound on the stack.
-  if (text.size() > 1000) return fail("a query of " + std::to_string(text.size()) + " characters", {}, "write at most 1000");
+  if (text.size() > 1000)
+    return fail("a query of " + std::to_string(text.size()) + " characters", {}, "write at most 1000");
   auto words = words_of(text);
   Query out;
   if (words.empty()) return fail("an empty query");
   const auto kind = words.front();
   const auto in_range = [&out](std::uint16_t low, std::uint16_t high) {
     out.whole_objects_ = true;
-    out.clauses_.emplace_back(
-        [low, high](const Entry& entry) { return entry.mux.index.value() >= low && entry.mux.index.value() <= high; });
+    out.clauses_.emplace_back([low, high](const Entry& entry) {
+      return entry.mux.index.value() >= low && entry.mux.index.value() <= high;
+    });
   };
   if (kind == "objects") {
     out.whole_objects_ = true;

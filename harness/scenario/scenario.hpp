@@ -24,46 +24,49 @@ enum class Fresh : std::uint8_t { none, communication, node };
 
 /// One value of for_each: literal expressions, or a row of several names.
 struct Row {
-  std::string name;                                          ///< of the instance; stable between runs
-  std::map<std::string, std::string, std::less<>> texts;     ///< variable -> expression, object or word as written
+  std::string name;  ///< of the instance; stable between runs
+  std::map<std::string, std::string, std::less<>>
+      texts;  ///< variable -> expression, object or word as written
 };
 
 /// for_each: rows written out, or a query over the dictionary ("entries with access ro").
 struct ForEach {
-  std::string variable;        ///< of a query
-  std::string query;           ///< empty: rows
+  std::string variable;  ///< of a query
+  std::string query;     ///< empty: rows
   std::vector<Row> rows;
 };
 
-/// An entry a scenario needs and looks for: the first of a query that the device has (and that is long enough).
+/// An entry a scenario needs and looks for: the first of a query that the device has (and that is long
+/// enough).
 struct Given {
   std::string name;
-  std::string query;           ///< "entries with readable and holding 15.. bytes"
+  std::string query;  ///< "entries with readable and holding 15.. bytes"
 };
 
 struct Scenario {
-  std::string id;              ///< "cia301/dictionary/1003-error-history/non-zero-write"
+  std::string id;  ///< "cia301/dictionary/1003-error-history/non-zero-write"
   std::string title;
   std::string about;
-  std::string suite;           ///< file path without extension
+  std::string suite;  ///< file path without extension
   result::SourcePosition position;
   std::vector<std::string> cct;
-  std::vector<Given> given;    ///< found before `when` is asked; not applicable when one is missing
+  std::vector<Given> given;  ///< found before `when` is asked; not applicable when one is missing
   std::optional<steps::Condition> when;
   std::optional<ForEach> for_each;
-  std::uint64_t sample = 0;    ///< most instances of a query, 0: all
+  std::uint64_t sample = 0;  ///< most instances of a query, 0: all
   Risk risk = Risk::read_only;
   Fresh fresh = Fresh::none;
-  bool basic = false;          ///< judged first, and even when the device answers no SDO request at all
-  bool slow = false;           ///< takes long on a real bus: held back there unless asked for
+  bool basic = false;  ///< judged first, and even when the device answers no SDO request at all
+  bool slow = false;   ///< takes long on a real bus: held back there unless asked for
   std::vector<steps::Step> steps;
   std::vector<steps::Step> cleanup;
-  std::vector<std::string> requirements;  ///< ids its expectations decide, sorted; "$name" ones resolved per row
+  std::vector<std::string>
+      requirements;  ///< ids its expectations decide, sorted; "$name" ones resolved per row
 };
 
 /// One file; scenarios share its source for diagnostics.
 struct ScenarioFile {
-  std::string path;            ///< relative to the suites
+  std::string path;  ///< relative to the suites
   std::string title;
   std::string about;
   std::vector<Scenario> scenarios;

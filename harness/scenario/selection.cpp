@@ -45,7 +45,8 @@ bool Selection::takes(const Scenario& scenario, std::string_view instance, const
   if (requirements.empty()) return true;
   return std::ranges::any_of(requirements, [&](const std::string& wanted) {
     const auto canonical = catalogue.canonical(wanted).value_or(wanted);
-    return std::ranges::any_of(scenario.requirements, [&](const std::string& id) { return glob(canonical, id); });
+    return std::ranges::any_of(scenario.requirements,
+                               [&](const std::string& id) { return glob(canonical, id); });
   });
 }
 

@@ -11,13 +11,15 @@
 
 namespace conform::scenario {
 
-/// Patterns match whole ids or any leading path: "cia301/dictionary", "cia301/*/1003*", "*/non-zero-write[02h]".
+/// Patterns match whole ids or any leading path: "cia301/dictionary", "cia301/*/1003*",
+/// "*/non-zero-write[02h]".
 struct Selection {
   std::vector<std::string> patterns;      ///< empty: all
   std::vector<std::string> requirements;  ///< ids or prefixes ending in *: empty: all
   std::vector<std::string> excludes;
 
-  [[nodiscard]] bool takes(const Scenario& scenario, std::string_view instance, const Catalogue& catalogue) const;
+  [[nodiscard]] bool takes(const Scenario& scenario, std::string_view instance,
+                           const Catalogue& catalogue) const;
 };
 
 /// '*' any characters, '?' one; a pattern without them also matches as a leading path.

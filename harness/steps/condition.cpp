@@ -12,11 +12,29 @@ namespace conform::steps {
 
 struct Condition::Tree {
   enum class Kind {
-    all, any, negation,                                    // and, or, not
-    present, claimed, readable, writable, access, changes, // about an entry
+    all,
+    any,
+    negation,  // and, or, not
+    present,
+    claimed,
+    readable,
+    writable,
+    access,
+    changes,  // about an entry
     has_default,
-    feature, triggers, remote, factory, described, refused, sweep, store_fault,  // about device and bench
-    equal, at_least, at_most, above, below                 // two expressions
+    feature,
+    triggers,
+    remote,
+    factory,
+    described,
+    refused,
+    sweep,
+    store_fault,  // about device and bench
+    equal,
+    at_least,
+    at_most,
+    above,
+    below  // two expressions
   };
   Kind kind = Kind::all;
   std::vector<std::shared_ptr<const Tree>> parts;
@@ -42,7 +60,8 @@ TreePtr negate(TreePtr inner) {
   return node;
 }
 
-/// "is present", "is not writable", "is rw", "may change by itself" behind an object; null when it is no such phrase.
+/// "is present", "is not writable", "is rw", "may change by itself" behind an object; null when it is no such
+/// phrase.
 Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, bool whole) {
   auto node = std::make_shared<Tree>();
   node->object = std::move(object);
@@ -64,7 +83,8 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
   in.take();
   const bool negative = in.accept("not");
   const std::string word(in.peek());
-  if (word == "present" || word == "absent" || word == "claimed" || word == "readable" || word == "writable") {
+  if (word == "present" || word == "absent" || word == "claimed" || word == "readable" ||
+      word == "writable") {
     in.take();
     node->kind = word == "claimed"    ? Kind::claimed
                  : word == "readable" ? Kind::readable
@@ -118,7 +138,8 @@ Result<TreePtr> parse_comparison(TokenReader& in) {
   } else if (in.accept("<")) {
     node->kind = Kind::below;
   } else {
-    return fail("a comparison is missing: 'is', 'is not', 'is at least', 'is at most', 'is above' or 'is below'");
+    return fail(
+        "a comparison is missing: 'is', 'is not', 'is at least', 'is at most', 'is above' or 'is below'");
   }
   auto right = parse_expression_prefix(in, "");
   if (!right) return std::unexpected(right.error());
@@ -150,7 +171,8 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     std::vector<std::string_view> known;
     for (const auto& item : device::features()) known.push_back(item.word);
     const auto near = did_you_mean(feature, known);
-    return fail("unknown feature '" + feature + "'", {}, near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+    return fail("unknown feature '" + feature + "'", {},
+                near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
   }
   if (in.peek() == "interface" && in.peek(1) == "can") {
     in.take();
@@ -225,13 +247,15 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     if (said_object) {
       for (int i = 0; i < 2; ++i) in.take();
       if (in.accept("is") || in.accept("are")) (void)in.accept("not");
-      static constexpr std::string_view properties[] = {"present", "absent", "claimed", "readable", "writable", "const"};
+      static constexpr std::string_view properties[] = {"present",  "absent",   "claimed",
+                                                        "readable", "writable", "const"};
       const std::string property(in.peek());
       if (const auto near = did_you_mean(property, properties); !near.empty()) {
         return fail("unknown property '" + property + "'", {}, "did you mean '" + std::string(near) + "'?");
       }
     }
-    if (said_object) return fail("'object' must be followed by an object and 'is present', 'is writable', ...");
+    if (said_object)
+      return fail("'object' must be followed by an object and 'is present', 'is writable', ...");
   }
   return parse_comparison(in);
 }
@@ -332,7 +356,9 @@ Result<Condition> Condition::parse(std::string_view text) {
   TokenReader in(std::move(*tokens));
   auto tree = parse_any(in);
   if (!tree) return std::unexpected(tree.error());
-  if (!in.done()) return fail("'" + std::string(in.peek()) + "' is not expected here", {}, "join conditions with 'and' or 'or'");
+  if (!in.done())
+    return fail("'" + std::string(in.peek()) + "' is not expected here", {},
+                "join conditions with 'and' or 'or'");
   Condition out;
   out.text_ = trim(text);
   out.tree_ = *tree;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conditions in words: "object 1003h is present and 1014h:00 is writable". `when`, `unless` and `require` use them.
+// Conditions in words: "object 1003h is present and 1014h:00 is writable". `when`, `unless` and `require` use
+// them.
 #pragma once
 
 #include <memory>
@@ -14,11 +15,13 @@ namespace conform::steps {
 /// What conditions may ask of the device and the bench.
 class Facts : public Scope {
  public:
-  /// Whether the device has shown the entry (sub_given) or any entry of the index. Asks the device if unknown.
+  /// Whether the device has shown the entry (sub_given) or any entry of the index. Asks the device if
+  /// unknown.
   [[nodiscard]] virtual Result<bool> is_present(Multiplexer object, bool whole_object) = 0;
   /// Whether standard, EDS or profile say that the device has it.
   [[nodiscard]] virtual bool is_claimed(Multiplexer object, bool whole_object) const = 0;
-  /// Access as claimed; where the standard leaves rw or const open, `writable` is found out by rewriting the value.
+  /// Access as claimed; where the standard leaves rw or const open, `writable` is found out by rewriting the
+  /// value.
   [[nodiscard]] virtual Result<bool> is_readable(Multiplexer object) = 0;
   [[nodiscard]] virtual Result<bool> is_writable(Multiplexer object) = 0;
   /// Access word of the dictionary ("ro", "const", ...), empty when unknown.

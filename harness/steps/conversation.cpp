@@ -47,12 +47,14 @@ class LineParser {
   }
 
  private:
-  std::nullopt_t problem(std::string what, std::string hint, std::size_t at = std::string_view::npos, std::size_t length = 1) {
+  std::nullopt_t problem(std::string what, std::string hint, std::size_t at = std::string_view::npos,
+                         std::size_t length = 1) {
     if (at == std::string_view::npos) at = at_;
     at = std::min(at, text_.size());
     // Editors count characters, not bytes.
-    problems_.push_back({number_, yaml::code_points(text_.substr(0, at)), std::max(yaml::code_points(text_.substr(at, length)), 1),
-                         std::move(what), std::move(hint)});
+    problems_.push_back({number_, yaml::code_points(text_.substr(0, at)),
+                         std::max(yaml::code_points(text_.substr(at, length)), 1), std::move(what),
+                         std::move(hint)});
     return std::nullopt;
   }
   void skip_blanks() {
@@ -77,11 +79,13 @@ class LineParser {
     for (const auto part : split(id, '+')) {
       if (part == "N") {
         line.add_node = true;
-      } else if (const auto number = parse_number("0x" + std::string(part.ends_with('h') ? part.substr(0, part.size() - 1) : part));
+      } else if (const auto number = parse_number(
+                     "0x" + std::string(part.ends_with('h') ? part.substr(0, part.size() - 1) : part));
                  number && *number <= 0x1FFF'FFFFU) {
         line.id += static_cast<std::uint32_t>(*number);
       } else {
-        problem("'" + std::string(id) + "' is not a CAN-ID", "hexadecimal: 600+N, 80+N, 7E5", begin, std::max<std::size_t>(id.size(), 1));
+        problem("'" + std::string(id) + "' is not a CAN-ID", "hexadecimal: 600+N, 80+N, 7E5", begin,
+                std::max<std::size_t>(id.size(), 1));
         return false;
       }
     }
@@ -100,14 +104,16 @@ class LineParser {
     TimeReference time;
     if (rest.starts_with("T_")) {
       if (!device::Profile{}.duration(rest)) {
-        problem("unknown time '" + std::string(rest) + "'", "T_SDO, T_QUIET, T_NMT, T_BOOT, ...", begin, rest.size());
+        problem("unknown time '" + std::string(rest) + "'", "T_SDO, T_QUIET, T_NMT, T_BOOT, ...", begin,
+                rest.size());
         return false;
       }
       time.profile_name = rest;
     } else if (const auto fixed = parse_duration(rest)) {
       time.fixed = *fixed;
     } else {
-      problem("'" + std::string(rest) + "' is not a duration", "100 ms, 1 s, T_QUIET", begin, std::max<std::size_t>(rest.size(), 1));
+      problem("'" + std::string(rest) + "' is not a duration", "100 ms, 1 s, T_QUIET", begin,
+              std::max<std::size_t>(rest.size(), 1));
       return false;
     }
     line.time = time;
@@ -119,7 +125,8 @@ class LineParser {
       skip_blanks();
       if (at_ >= text_.size()) return true;
       const auto begin = at_;
-      if (!line.bytes.empty() && line.bytes.back().kind == Kind::rest && text_[at_] != 'w' && text_[at_] != 'R') {
+      if (!line.bytes.empty() && line.bytes.back().kind == Kind::rest && text_[at_] != 'w' &&
+          text_[at_] != 'R') {
         problem("'..' must be the last of the bytes", "", begin);
         return false;
       }
@@ -152,8 +159,8 @@ class LineParser {
         }
         line.dlc = static_cast<std::uint8_t>(*dlc);
       } else if (!parse_plain(token, line)) {
-        problem("'" + std::string(token) + "' is not a byte", "two hex digits, xx, zz, N, {m}, {name:4}, ..", begin,
-                std::max<std::size_t>(token.size(), 1));
+        problem("'" + std::string(token) + "' is not a byte", "two hex digits, xx, zz, N, {m}, {name:4}, ..",
+                begin, std::max<std::size_t>(token.size(), 1));
         return false;
       }
     }
@@ -206,7 +213,8 @@ class LineParser {
         for (const auto part : split(group, ',')) {
           const auto code = parse_number(trim(part));
           if (!code || *code > 0xFFFF'FFFFU) {
-            return problem("'" + std::string(trim(part)) + "' is not an abort code", "{abort: 0503 0000h; warn 0504 0001h}", begin, length);
+            return problem("'" + std::string(trim(part)) + "' is not an abort code",
+                           "{abort: 0503 0000h; warn 0504 0001h}", begin, length);
           }
           (warns ? pattern.warns : pattern.passes).push_back(AbortCode(static_cast<std::uint32_t>(*code)));
         }
@@ -219,13 +227,15 @@ class LineParser {
     pattern.name = trim(inside.substr(0, std::min(colon, at)));
     if (pattern.name.empty()) return problem("a name is missing in braces", "{size:4}", begin, length);
     if (at != std::string_view::npos) {
-      const auto from = parse_number(trim(inside.substr(at + 1, colon == std::string_view::npos ? colon : colon - at - 1)));
+      const auto from =
+          parse_number(trim(inside.substr(at + 1, colon == std::string_view::npos ? colon : colon - at - 1)));
       if (!from) return problem("a number is missing behind '@'", "{data@7:7}", begin, length);
       pattern.from = *from;
     }
     if (colon != std::string_view::npos) {
       const auto size = parse_number(trim(inside.substr(colon + 1)));
-      if (!size || *size == 0 || *size > 8) return problem("a number of bytes from 1 to 8 is missing behind ':'", "{size:4}", begin, length);
+      if (!size || *size == 0 || *size > 8)
+        return problem("a number of bytes from 1 to 8 is missing behind ':'", "{size:4}", begin, length);
       pattern.size = *size;
     }
     return pattern;
@@ -238,8 +248,8 @@ class LineParser {
 };
 
 Bytes multiplexer_bytes(Multiplexer object) {
-  return {static_cast<std::uint8_t>(object.index.value() & 0xFFU), static_cast<std::uint8_t>(object.index.value() >> 8U),
-          object.sub.value()};
+  return {static_cast<std::uint8_t>(object.index.value() & 0xFFU),
+          static_cast<std::uint8_t>(object.index.value() >> 8U), object.sub.value()};
 }
 
 Result<Bytes> named_bytes(const BytePattern& pattern, const Scope& scope) {
@@ -249,13 +259,15 @@ Result<Bytes> named_bytes(const BytePattern& pattern, const Scope& scope) {
   if (value->bytes) {
     all = *value->bytes;
   } else if (value->number) {
-    all = to_le(*value->number, pattern.size != 0 ? std::min<std::size_t>(pattern.from + pattern.size, 8) : 4);
+    all =
+        to_le(*value->number, pattern.size != 0 ? std::min<std::size_t>(pattern.from + pattern.size, 8) : 4);
   } else {
     return fail("{" + pattern.name + "} is " + value->text() + ", not data", "scenario");
   }
   const auto from = std::min(pattern.from, all.size());
   const auto size = pattern.size == 0 ? all.size() - from : std::min(pattern.size, all.size() - from);
-  return Bytes(all.begin() + static_cast<std::ptrdiff_t>(from), all.begin() + static_cast<std::ptrdiff_t>(from + size));
+  return Bytes(all.begin() + static_cast<std::ptrdiff_t>(from),
+               all.begin() + static_cast<std::ptrdiff_t>(from + size));
 }
 
 }  // namespace
@@ -292,7 +304,9 @@ Result<can::Frame> build_frame(const Line& line, Scope& scope, std::optional<Mul
       case Kind::any:
       case Kind::reserved: bytes.push_back(0); break;
       case Kind::multiplexer: {
-        if (!object) return fail("{m} needs the object of the conversation", "scenario", "write talk: {object: 1008h:00, frames: ...}");
+        if (!object)
+          return fail("{m} needs the object of the conversation", "scenario",
+                      "write talk: {object: 1008h:00, frames: ...}");
         const auto mux = multiplexer_bytes(*object);
         bytes.insert(bytes.end(), mux.begin(), mux.end());
         break;
@@ -321,7 +335,8 @@ Result<can::Frame> build_frame(const Line& line, Scope& scope, std::optional<Mul
   return frame;
 }
 
-Comparison compare(const Line& line, const can::Frame& frame, Scope& scope, std::optional<Multiplexer> object) {
+Comparison compare(const Line& line, const can::Frame& frame, Scope& scope,
+                   std::optional<Multiplexer> object) {
   Comparison out;
   const auto bytes = frame.bytes();
   std::size_t at = 0;
@@ -344,17 +359,20 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope, std:
         }
         break;
       case Kind::node:
-        if (part[0] != scope.node().value()) return wrong(at, "byte " + std::to_string(at) + " is not the node-ID");
+        if (part[0] != scope.node().value())
+          return wrong(at, "byte " + std::to_string(at) + " is not the node-ID");
         break;
       case Kind::reserved:
         if (part[0] != 0) {
-          out.tolerated.push_back("reserved byte " + std::to_string(at) + " is " + hex(part[0], 2) + " instead of 00h");
+          out.tolerated.push_back("reserved byte " + std::to_string(at) + " is " + hex(part[0], 2) +
+                                  " instead of 00h");
         }
         break;
       case Kind::multiplexer: {
         if (!object) return wrong(at, "the conversation has no object");
         const auto mux = multiplexer_bytes(*object);
-        if (!std::ranges::equal(part, mux)) return wrong(at, "the multiplexer is not that of " + to_string(*object));
+        if (!std::ranges::equal(part, mux))
+          return wrong(at, "the multiplexer is not that of " + to_string(*object));
         break;
       }
       case Kind::abort: {
@@ -369,7 +387,8 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope, std:
       case Kind::name: {
         if (scope.find(pattern.name) != nullptr) {
           const auto known = named_bytes(pattern, scope);
-          if (!known || !std::ranges::equal(part, *known)) return wrong(at, "{" + pattern.name + "} differs from before");
+          if (!known || !std::ranges::equal(part, *known))
+            return wrong(at, "{" + pattern.name + "} differs from before");
           break;  // a part of known data must not become the whole of it
         }
         out.names.emplace_back(pattern.name, Bytes(part.begin(), part.end()));
@@ -379,7 +398,9 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope, std:
     }
     at += width;
   }
-  if (at < bytes.size()) return wrong(at, "the frame has " + std::to_string(bytes.size()) + " bytes instead of " + std::to_string(at));
+  if (at < bytes.size())
+    return wrong(at,
+                 "the frame has " + std::to_string(bytes.size()) + " bytes instead of " + std::to_string(at));
   out.equal = true;
   return out;
 }

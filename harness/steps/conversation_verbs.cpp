@@ -31,18 +31,21 @@ class Talk final : public Action {
 
   std::string words(Session&) const override {
     return lines_.size() == 1 ? "conversation: " + lines_.front().text
-                              : "conversation of " + std::to_string(lines_.size()) + " lines: " + lines_.front().text + " ...";
+                              : "conversation of " + std::to_string(lines_.size()) +
+                                    " lines: " + lines_.front().text + " ...";
   }
   const ObjectReference* object() const override { return object_ ? &*object_ : nullptr; }
   bool acts() const override {
     return std::ranges::any_of(lines_, [](const Line& line) { return line.kind == Line::Kind::send; });
   }
 
-  /// Requests of uploads (initiate, segment, block) and aborts on the device's own request channel, and nothing else.
+  /// Requests of uploads (initiate, segment, block) and aborts on the device's own request channel, and
+  /// nothing else.
   bool reads_only() const override {
     return std::ranges::all_of(lines_, [](const Line& line) {
       if (line.kind != Line::Kind::send) return true;
-      if (line.id != 0x600 || !line.add_node || line.remote || line.extended || line.bytes.empty()) return false;
+      if (line.id != 0x600 || !line.add_node || line.remote || line.extended || line.bytes.empty())
+        return false;
       const auto& first = line.bytes.front();
       if (first.kind != BytePattern::Kind::exact || first.mask != 0xFF) return false;
       const auto command = first.value & 0xE0U;
@@ -83,7 +86,8 @@ class Talk final : public Action {
         return mismatch(session, line, **found, "a frame where silence is due");
       }
       if (!*found) {
-        if (line.can_id(session.node()) == canopen::connection_set(session.node()).sdo_response) session.sdo_answer_may_be_late();
+        if (line.can_id(session.node()) == canopen::connection_set(session.node()).sdo_response)
+          session.sdo_answer_may_be_late();
         out.kind = Actual::Kind::silence;
         out.detail = "no frame on " + to_string(line.can_id(session.node())) + " within " +
                      to_string(time_of(session, line)) + ", due: " + line.text;
@@ -143,19 +147,22 @@ class Talk final : public Action {
     return line.time ? line.time->resolve(session.profile()) : session.profile().sdo_timeout;
   }
 
-  /// The next received frame on the line's CAN-ID, remote and extended frames included: they are wrong, not absent.
+  /// The next received frame on the line's CAN-ID, remote and extended frames included: they are wrong, not
+  /// absent.
   static Result<std::optional<std::size_t>> next(Session& session, const Line& line) {
     const auto id = line.can_id(session.node());
     const auto window = session.window();
     return session.find_frame(
         window.first,
         [id](const can::CapturedFrame& captured) {
-          return captured.direction == can::Direction::received && !captured.frame.error && captured.frame.id == id.value();
+          return captured.direction == can::Direction::received && !captured.frame.error &&
+                 captured.frame.id == id.value();
         },
         window.anchor + time_of(session, line));
   }
 
-  /// Downloads hidden in the frames change the device like any other: their old values are noted before the first frame.
+  /// Downloads hidden in the frames change the device like any other: their old values are noted before the
+  /// first frame.
   Result<void> announce_downloads(Session& session, const std::optional<Multiplexer>& object) const {
     const auto request_id = canopen::connection_set(session.node()).sdo_request;
     for (const auto& line : lines_) {
@@ -163,9 +170,11 @@ class Talk final : public Action {
       auto frame = build_frame(line, session, object);
       if (!frame || frame->size() < 4) continue;
       const auto command = frame->data[0];
-      const bool download = (command & 0xE0U) == 0x20U || (command & 0xE1U) == 0xC0U;  // initiate, block initiate
+      const bool download =
+          (command & 0xE0U) == 0x20U || (command & 0xE1U) == 0xC0U;  // initiate, block initiate
       if (!download) continue;
-      const Multiplexer target{Index(static_cast<std::uint16_t>(frame->data[1] | (frame->data[2] << 8U))), SubIndex(frame->data[3])};
+      const Multiplexer target{Index(static_cast<std::uint16_t>(frame->data[1] | (frame->data[2] << 8U))),
+                               SubIndex(frame->data[3])};
       auto noted = session.will_change(target);
       if (!noted) return noted;
     }
@@ -184,7 +193,8 @@ class Talk final : public Action {
       const auto text = hex_bytes(ByteView(out.data).subspan(i, 1));
       bytes += (i == 0 ? "" : " ") + (wrong == i ? "[" + text + "]" : text);
     }
-    out.detail = "due '" + line.text + "', came " + to_string(CanId(frame.id)) + ": " + bytes + " (" + reason + ")";
+    out.detail =
+        "due '" + line.text + "', came " + to_string(CanId(frame.id)) + ": " + bytes + " (" + reason + ")";
     return out;
   }
 
@@ -195,7 +205,8 @@ class Talk final : public Action {
 constexpr Verb table[] = {
     {"talk", "Play frames as the standard prints them.",
      "(text) or frames: the lines\nobject: the entry {m} stands for\n> 600+N: bytes  is sent, < 580+N: bytes  must come, silence 580+N for T_QUIET",
-     "- talk:\n    object: 1008h:00\n    frames: |\n      > 600+N: 40 {m} 00 00 00 00\n      < 580+N: 41 {m} {size:4}", &Talk::parse},
+     "- talk:\n    object: 1008h:00\n    frames: |\n      > 600+N: 40 {m} 00 00 00 00\n      < 580+N: 41 {m} {size:4}",
+     &Talk::parse},
 };
 
 }  // namespace

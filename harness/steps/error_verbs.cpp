@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verbs about errors: raise and clear them by the triggers of the device profile, wait for EMCY, fill the history.
+// Verbs about errors: raise and clear them by the triggers of the device profile, wait for EMCY, fill the
+// history.
 #include <chrono>
 
 #include "base/text.hpp"
@@ -27,7 +28,7 @@ Result<Actual> write(Session& session, Multiplexer object, const Bytes& bytes) {
     out.detail = "confirmed";
     return out;
   }
-  out.kind = answer->kind == SdoAnswer::Kind::aborted ? Actual::Kind::aborted
+  out.kind = answer->kind == SdoAnswer::Kind::aborted   ? Actual::Kind::aborted
              : answer->kind == SdoAnswer::Kind::silence ? Actual::Kind::silence
                                                         : Actual::Kind::violation;
   out.code = answer->code;
@@ -35,7 +36,8 @@ Result<Actual> write(Session& session, Multiplexer object, const Bytes& bytes) {
   return out;
 }
 
-/// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer of heartbeats.
+/// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer of
+/// heartbeats.
 Result<std::vector<device::ErrorTrigger>> usable_triggers(Session& session) {
   auto consumes = session.is_present(consumer_entry, false);
   if (!consumes) return std::unexpected(consumes.error());
@@ -46,11 +48,13 @@ Result<std::vector<device::ErrorTrigger>> usable_triggers(Session& session) {
   return out;
 }
 
-/// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed away.
+/// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed
+/// away.
 Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger) {
   if (trigger.raise) return write(session, trigger.raise->object, trigger.raise->bytes);
   const auto node = trigger.heartbeat_node.value_or(NodeId(0x7E));
-  auto set = write(session, consumer_entry, to_le((std::uint32_t{node.value()} << 16U) | heartbeat_time_ms, 4));
+  auto set =
+      write(session, consumer_entry, to_le((std::uint32_t{node.value()} << 16U) | heartbeat_time_ms, 4));
   if (!set || set->kind != Actual::Kind::matched) return set;
   auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
   if (!sent) return std::unexpected(sent.error());
@@ -99,14 +103,16 @@ class RaiseError final : public Action {
 
   std::string words(Session& session) const override {
     std::string name = "error trigger " + std::to_string(number_);
-    if (number_ <= session.profile().errors.size()) name += " (" + session.profile().errors[number_ - 1].name + ")";
+    if (number_ <= session.profile().errors.size())
+      name += " (" + session.profile().errors[number_ - 1].name + ")";
     return (clear_ ? "clear " : "raise ") + name;
   }
   Result<Actual> run(Session& session) const override {
     const auto triggers = usable_triggers(session);
     if (!triggers) return std::unexpected(triggers.error());
     if (number_ > triggers->size()) {
-      return fail("error trigger " + std::to_string(number_) + " is not known", "scenario", "name one under errors: in the device profile");
+      return fail("error trigger " + std::to_string(number_) + " is not known", "scenario",
+                  "name one under errors: in the device profile");
     }
     const auto& trigger = (*triggers)[number_ - 1];
     auto out = clear_ ? clear(session, trigger) : raise(session, trigger);
@@ -195,7 +201,8 @@ class AwaitEmcy final : public Action {
       wanted = *code;
     }
     auto within = within_.resolve(session.profile());
-    if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration) within += *delay->duration;
+    if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)
+      within += *delay->duration;
     const auto id = session.emcy_can_id();
     auto found = session.find_frame(
         window->first,
@@ -217,10 +224,12 @@ class AwaitEmcy final : public Action {
     const auto emcy = canopen::decode_emcy(captured.frame.bytes());
     if (!emcy) {
       out.kind = Actual::Kind::mismatched;
-      out.detail = "an EMCY of " + std::to_string(out.data.size()) + " bytes instead of eight: " + hex_bytes(out.data);
+      out.detail =
+          "an EMCY of " + std::to_string(out.data.size()) + " bytes instead of eight: " + hex_bytes(out.data);
       return out;
     }
-    out.detail = "EMCY " + canopen::describe_emcy_code(emcy->code) + ", error register " + hex(emcy->error_register, 2);
+    out.detail = "EMCY " + canopen::describe_emcy_code(emcy->code) + ", error register " +
+                 hex(emcy->error_register, 2);
     out.measured["register"] = emcy->error_register;
     if (wanted && *wanted != emcy->code) {
       out.kind = Actual::Kind::mismatched;
@@ -237,7 +246,8 @@ class AwaitEmcy final : public Action {
   std::string after_, save_code_, save_register_;
 };
 
-/// Raises the known errors in turn until the number of errors in the history stays where it is: that is its depth.
+/// Raises the known errors in turn until the number of errors in the history stays where it is: that is its
+/// depth.
 class FillHistory final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
@@ -253,12 +263,15 @@ class FillHistory final : public Action {
     name("save_previous", out->previous_);
     return out;
   }
-  std::string words(Session&) const override { return "raise errors until the history is full, and one more"; }
+  std::string words(Session&) const override {
+    return "raise errors until the history is full, and one more";
+  }
 
   Result<Actual> run(Session& session) const override {
     const auto triggers = usable_triggers(session);
     if (!triggers) return std::unexpected(triggers.error());
-    if (triggers->size() < 2) return fail("two error triggers are needed", "scenario", "when: 2 error triggers are known");
+    if (triggers->size() < 2)
+      return fail("two error triggers are needed", "scenario", "when: 2 error triggers are known");
     constexpr int most = 254 + 1;  // 1003h holds at most 254 errors (7.5.2.4)
     std::uint64_t count = 0;
     std::uint16_t newest = 0;
@@ -300,10 +313,14 @@ class FillHistory final : public Action {
 };
 
 constexpr Verb table[] = {
-    {"raise_error", "Raise an error by a trigger of the device profile (default: a heartbeat that stays away).",
-     "trigger: number, from 1\nsave: name that the EMCY error code gets", "- raise_error: {trigger: 1, save: code}", &RaiseError::parse},
-    {"clear_error", "Remove the cause of an error.", "trigger: number, from 1", "- clear_error: 1", &RaiseError::parse_clear},
-    {"store_fault", "Make storing and restoring (1010h, 1011h) fail by store_fault of the device profile, or work again.",
+    {"raise_error",
+     "Raise an error by a trigger of the device profile (default: a heartbeat that stays away).",
+     "trigger: number, from 1\nsave: name that the EMCY error code gets",
+     "- raise_error: {trigger: 1, save: code}", &RaiseError::parse},
+    {"clear_error", "Remove the cause of an error.", "trigger: number, from 1", "- clear_error: 1",
+     &RaiseError::parse_clear},
+    {"store_fault",
+     "Make storing and restoring (1010h, 1011h) fail by store_fault of the device profile, or work again.",
      "(word): arm, disarm", "- store_fault: arm", &SwitchStoreFault::parse},
     {"emcy", "Wait for an EMCY.",
      "code: error code, any when absent\nwithin: time (default 1 s, plus the delay of the trigger)\nafter: label to count from\n"
@@ -311,7 +328,8 @@ constexpr Verb table[] = {
      "- emcy: {code: $code, within: 1 s}\n  checks: EMCY-FMT-01", &AwaitEmcy::parse},
     {"fill_history", "Raise errors in turn until 1003h is full, and one more.",
      "save_depth: name that the depth gets\nsave_newest, save_previous: names that the last two error codes get",
-     "- fill_history: {save_depth: depth, save_newest: newest, save_previous: previous}", &FillHistory::parse},
+     "- fill_history: {save_depth: depth, save_newest: newest, save_previous: previous}",
+     &FillHistory::parse},
 };
 
 }  // namespace

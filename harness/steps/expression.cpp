@@ -50,7 +50,9 @@ bool Value::same_as(const Value& other) const {
   return word && other.word && *word == *other.word;
 }
 
-Result<Value> Scope::declared(Multiplexer object, Declared) { return fail("nothing is known of " + to_string(object)); }
+Result<Value> Scope::declared(Multiplexer object, Declared) {
+  return fail("nothing is known of " + to_string(object));
+}
 
 namespace {
 
@@ -67,7 +69,8 @@ Result<NodePtr> parse_sum(TokenReader& in) {
     const auto op = in.peek();
     if (op != "+" && op != "-" && op != "|" && op != "&" && op != "^") return left;
     if (!used.empty() && used != op) {
-      return fail("'" + used + "' and '" + std::string(op) + "' are mixed", {}, "use parentheses: there is no precedence");
+      return fail("'" + used + "' and '" + std::string(op) + "' are mixed", {},
+                  "use parentheses: there is no precedence");
     }
     used = op;
     in.take();
@@ -123,9 +126,10 @@ Result<NodePtr> parse_term(TokenReader& in) {
     return node;
   }
   if (const bool of_default = in.peek() == "default" && in.peek(1) == "of";
-      of_default || ((in.peek() == "low" || in.peek() == "high") && in.peek(1) == "limit" && in.peek(2) == "of")) {
+      of_default ||
+      ((in.peek() == "low" || in.peek() == "high") && in.peek(1) == "limit" && in.peek(2) == "of")) {
     node->kind = Node::Kind::declared;
-    node->declared = of_default                ? Declared::default_value
+    node->declared = of_default           ? Declared::default_value
                      : in.peek() == "low" ? Declared::low_limit
                                           : Declared::high_limit;
     for (int i = of_default ? 2 : 3; i > 0; --i) in.take();
@@ -156,7 +160,8 @@ Result<NodePtr> parse_term(TokenReader& in) {
 void collect_names(const NodePtr& node, std::vector<std::string>& out) {
   if (!node) return;
   if (node->kind == Node::Kind::name) out.push_back(node->name);
-  if (node->kind == Node::Kind::value_of || node->kind == Node::Kind::bit_of || node->kind == Node::Kind::declared) {
+  if (node->kind == Node::Kind::value_of || node->kind == Node::Kind::bit_of ||
+      node->kind == Node::Kind::declared) {
     for (auto& name : node->object.names()) out.push_back(name);
   }
   collect_names(node->left, out);
@@ -265,7 +270,8 @@ Result<ObjectReference> ObjectReference::parse(std::string_view text) {
   } else {
     const auto mux = parse_multiplexer(index_text);
     if (!mux) {
-      return fail("'" + std::string(text) + "' is not an object", {}, "write 1003h:00, $object or 1003h:$count");
+      return fail("'" + std::string(text) + "' is not an object", {},
+                  "write 1003h:00, $object or 1003h:$count");
     }
     out.index_ = mux->index.value();
   }
@@ -280,7 +286,9 @@ Result<ObjectReference> ObjectReference::parse(std::string_view text) {
   }
   // Sub-indices are hexadecimal with or without h, as the standard prints them: 1003h:10 is sub-index 16.
   const auto mux = parse_multiplexer("0000h:" + std::string(sub_text));
-  if (!mux) return fail("'" + std::string(sub_text) + "' is not a sub-index", {}, "write two hexadecimal digits: 1003h:0A");
+  if (!mux)
+    return fail("'" + std::string(sub_text) + "' is not a sub-index", {},
+                "write two hexadecimal digits: 1003h:0A");
   out.sub_ = Expression::parse(std::to_string(mux->sub.value())).value();
   return out;
 }
@@ -330,7 +338,8 @@ std::optional<Multiplexer> ObjectReference::literal() const {
 
 Result<Range> Range::parse(std::string_view text) {
   const auto dots = text.find("..");
-  if (dots == std::string_view::npos) return fail("'" + std::string(text) + "' is not a range", {}, "write 1..240, 1.. or ..FFh");
+  if (dots == std::string_view::npos)
+    return fail("'" + std::string(text) + "' is not a range", {}, "write 1..240, 1.. or ..FFh");
   Range out;
   const auto read = [](std::string_view part) -> Result<Expression> {
     part = trim(part);

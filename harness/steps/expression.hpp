@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values a scenario computes with, and the small arithmetic on them: + - | & ^ ~ on saved values, the node-ID and what
-// an entry holds. Deliberately nothing more: what does not fit becomes a verb with a name.
+// Values a scenario computes with, and the small arithmetic on them: + - | & ^ ~ on saved values, the node-ID
+// and what an entry holds. Deliberately nothing more: what does not fit becomes a verb with a name.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Value {
   std::optional<std::uint64_t> number;  ///< numbers, and data of up to eight bytes read little endian
   std::optional<Multiplexer> object;    ///< an entry of the dictionary (loops over entries)
   std::optional<Duration> duration;
-  std::optional<std::string> word;      ///< a requirement id or another word in a row of for_each
+  std::optional<std::string> word;  ///< a requirement id or another word in a row of for_each
 
   static Value of_number(std::uint64_t number);
   static Value of_bytes(Bytes bytes);
@@ -46,11 +46,13 @@ class Scope {
   virtual ~Scope() = default;
   [[nodiscard]] virtual const Value* find(std::string_view name) const = 0;
   [[nodiscard]] virtual NodeId node() const = 0;
-  /// `current`: what the entry the step is about holds now. Error when the step has no entry or it cannot be read.
+  /// `current`: what the entry the step is about holds now. Error when the step has no entry or it cannot be
+  /// read.
   [[nodiscard]] virtual Result<Value> current() = 0;
   /// `value of 1003h:00`: an upload that judges nothing.
   [[nodiscard]] virtual Result<Value> read(Multiplexer object) = 0;
-  /// `low limit of $object`, `default of $object`: what is known of the entry. Error when the description leaves it open.
+  /// `low limit of $object`, `default of $object`: what is known of the entry. Error when the description
+  /// leaves it open.
   [[nodiscard]] virtual Result<Value> declared(Multiplexer object, Declared what);
 };
 
@@ -73,7 +75,8 @@ class Expression {
 
   struct Tree;
   [[nodiscard]] const std::shared_ptr<const Tree>& tree() const { return tree_; }
-  Expression(std::string text, std::shared_ptr<const Tree> tree) : text_(std::move(text)), tree_(std::move(tree)) {}
+  Expression(std::string text, std::shared_ptr<const Tree> tree)
+      : text_(std::move(text)), tree_(std::move(tree)) {}
 
  private:
   std::string text_;
@@ -94,12 +97,12 @@ class ObjectReference {
   std::string text_;
   std::optional<std::uint16_t> index_;
   std::string index_name_;
-  Expression sub_;          ///< empty: the variable's own sub-index, or 00h
+  Expression sub_;  ///< empty: the variable's own sub-index, or 00h
   bool sub_given_ = false;
 };
 
-/// "1..240", "1..", "..FFh": an inclusive range of numbers, either end may be open. Of signed numbers the value and the bounds
-/// are sign-extended two's complement, as declared limits are.
+/// "1..240", "1..", "..FFh": an inclusive range of numbers, either end may be open. Of signed numbers the
+/// value and the bounds are sign-extended two's complement, as declared limits are.
 struct Range {
   Expression low, high;
   static Result<Range> parse(std::string_view text);

@@ -8,7 +8,21 @@
 namespace conform::steps {
 
 struct Expression::Tree {
-  enum class Kind { number, node_id, current, name, value_of, bit_of, declared, complement, add, subtract, bit_or, bit_and, bit_xor };
+  enum class Kind {
+    number,
+    node_id,
+    current,
+    name,
+    value_of,
+    bit_of,
+    declared,
+    complement,
+    add,
+    subtract,
+    bit_or,
+    bit_and,
+    bit_xor
+  };
   Kind kind = Kind::number;
   std::uint64_t number = 0;
   std::string name;

@@ -93,10 +93,11 @@ class Wait final : public Action {
 
 constexpr Verb table[] = {
     {"require", "A condition that must hold.", "(text): a condition, as in `when`",
-     "- require: 1017h is present or (100Ch is present and 100Dh is present)\n  checks: OD-ERC-01", &Require::parse},
+     "- require: 1017h is present or (100Ch is present and 100Dh is present)\n  checks: OD-ERC-01",
+     &Require::parse},
     {"let", "Give names to values.", "NAME: expression", "- let: {above: $count + 1}", &Let::parse},
-    {"wait", "Let bus time pass. Frames that come meanwhile are not seen by later steps.", "(duration): 100 ms, T_NMT",
-     "- wait: 100 ms", &Wait::parse},
+    {"wait", "Let bus time pass. Frames that come meanwhile are not seen by later steps.",
+     "(duration): 100 ms, T_NMT", "- wait: 100 ms", &Wait::parse},
 };
 
 }  // namespace

@@ -28,7 +28,8 @@ struct Source {
     Source out;
     const auto text = field.text();
     if (!text) return std::nullopt;
-    for (const std::string_view word : {"heartbeat", "emcy", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
+    for (const std::string_view word :
+         {"heartbeat", "emcy", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
       if (*text == word) {
         out.service = *text;
         return out;
@@ -45,7 +46,9 @@ struct Source {
   [[nodiscard]] Result<Session::Match> match(Session& session) const {
     const auto set = canopen::connection_set(session.node());
     if (service == "anything") {
-      return [](const can::CapturedFrame& c) { return c.direction == can::Direction::received && !c.frame.error; };
+      return [](const can::CapturedFrame& c) {
+        return c.direction == can::Direction::received && !c.frame.error;
+      };
     }
     CanId can_id{};
     if (service == "heartbeat" || service == "boot-up") {
@@ -163,15 +166,18 @@ class Send final : public Action {
     if (!named_data_.empty()) {
       auto value = named_data_.evaluate(session);
       if (!value) return std::unexpected(value.error());
-      if (!value->bytes || value->bytes->size() > 8) return fail("'" + named_data_.text() + "' is not up to eight bytes", "scenario");
+      if (!value->bytes || value->bytes->size() > 8)
+        return fail("'" + named_data_.text() + "' is not up to eight bytes", "scenario");
       data = *value->bytes;
     }
     auto frame = can::data_frame(CanId(static_cast<std::uint32_t>(*id)), data);
     frame.remote = remote_;
     frame.extended = extended_ || *id > 0x7FF;
     if (dlc_) frame.dlc = static_cast<std::uint8_t>(*dlc_);
-    if (!remote_ && !extended_ && frame.id == 0 && frame.size() >= 2 && frame.data[1] != session.node().value()) {
-      return fail("an NMT command that is not for the device under test", "scenario", "use nmt:; other nodes may be on the bus");
+    if (!remote_ && !extended_ && frame.id == 0 && frame.size() >= 2 &&
+        frame.data[1] != session.node().value()) {
+      return fail("an NMT command that is not for the device under test", "scenario",
+                  "use nmt:; other nodes may be on the bus");
     }
     return frame;
   }
@@ -203,7 +209,9 @@ class AwaitFrame final : public Action {
     return id && within ? std::move(out) : nullptr;
   }
   bool acts() const override { return false; }
-  std::string words(Session&) const override { return "a frame of " + source_.words() + " within " + within_.text(); }
+  std::string words(Session&) const override {
+    return "a frame of " + source_.words() + " within " + within_.text();
+  }
   Result<Actual> run(Session& session) const override {
     const auto window = window_of(session, after_);
     if (!window) return std::unexpected(window.error());
@@ -341,7 +349,8 @@ class Collect final : public Action {
   }
 
  private:
-  [[nodiscard]] static Actual measure(Session& session, const Window& window, const std::vector<std::size_t>& hits) {
+  [[nodiscard]] static Actual measure(Session& session, const Window& window,
+                                      const std::vector<std::size_t>& hits) {
     Actual out;
     const auto& frames = session.capture().frames();
     out.measured["count"] = hits.size();
@@ -349,7 +358,8 @@ class Collect final : public Action {
     if (hits.empty()) return out;
     out.decisive = hits.back();
     const auto first = frames[hits.front()].time;
-    out.measured["first"] = static_cast<std::uint64_t>(std::max<Duration::rep>(0, (first - window.anchor).count()));
+    out.measured["first"] =
+        static_cast<std::uint64_t>(std::max<Duration::rep>(0, (first - window.anchor).count()));
     std::optional<std::uint8_t> state;
     bool one_state = true;
     for (const auto hit : hits) {
@@ -389,12 +399,14 @@ class Collect final : public Action {
 };
 
 constexpr Verb table[] = {
-    {"send", "Send one frame, legal or not.", "id: CAN-ID\ndata: bytes, or $name of saved ones\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
+    {"send", "Send one frame, legal or not.",
+     "id: CAN-ID\ndata: bytes, or $name of saved ones\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
      "- send: {id: 80h, data: \"\"}", &Send::parse},
     {"frame", "Wait for a frame of the device.",
      "id: CAN-ID, or heartbeat, emcy, sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
      "- frame: {id: 6A0h, within: 2 s}\n  checks: OD-1014-07", &AwaitFrame::parse},
-    {"silence", "No frame may come.", "of: CAN-ID or service, or a list of them\nfor: how long\nuntil: instead of for, a label that "
+    {"silence", "No frame may come.",
+     "of: CAN-ID or service, or a list of them\nfor: how long\nuntil: instead of for, a label that "
      "was reached\nafter: label to count from",
      "- silence: {of: [emcy, 6A0h], for: 1 s}\n  checks: OD-1014-08", &Silence::parse},
     {"collect", "Count and time frames.",

@@ -20,7 +20,8 @@ bool is_boot_up(const can::CapturedFrame& captured, NodeId node) {
 Result<Actual> await_boot_up(Session& session, const Window& window, Duration within) {
   const auto node = session.node();
   auto found = session.find_frame(
-      window.first, [node](const auto& captured) { return is_boot_up(captured, node); }, window.anchor + within);
+      window.first, [node](const auto& captured) { return is_boot_up(captured, node); },
+      window.anchor + within);
   if (!found) return std::unexpected(found.error());
   Actual out;
   if (!*found) {
@@ -32,7 +33,8 @@ Result<Actual> await_boot_up(Session& session, const Window& window, Duration wi
   session.consume(**found);
   out.kind = Actual::Kind::matched;
   out.decisive = *found;
-  out.detail = "boot-up message after " + to_string(std::chrono::round<std::chrono::microseconds>(captured.time - window.anchor));
+  out.detail = "boot-up message after " +
+               to_string(std::chrono::round<std::chrono::microseconds>(captured.time - window.anchor));
   return out;
 }
 
@@ -67,8 +69,8 @@ class Reset final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
     auto out = std::make_unique<Reset>();
-    const auto command =
-        value.one_of<NmtCommand>({{"node", NmtCommand::reset_node}, {"communication", NmtCommand::reset_communication}});
+    const auto command = value.one_of<NmtCommand>(
+        {{"node", NmtCommand::reset_node}, {"communication", NmtCommand::reset_communication}});
     if (!command) return nullptr;
     out->command_ = *command;
     return out;
@@ -118,8 +120,8 @@ class BootUp final : public Action {
       first->kind = Actual::Kind::mismatched;
       first->decisive = *second;
       first->detail = "a second boot-up message, " +
-                      to_string(std::chrono::round<std::chrono::microseconds>(session.capture().frames()[**second].time -
-                                                                              window.anchor)) +
+                      to_string(std::chrono::round<std::chrono::microseconds>(
+                          session.capture().frames()[**second].time - window.anchor)) +
                       " after the command";
     }
     return first;
@@ -153,11 +155,14 @@ class Produce final : public Action {
     return out->node_ == 0 ? nullptr : std::move(out);
   }
   std::string words(Session&) const override {
-    return "produce heartbeat of node " + std::to_string(node_) + (cyclic_ ? " every " + every_.text() : ", once");
+    return "produce heartbeat of node " + std::to_string(node_) +
+           (cyclic_ ? " every " + every_.text() : ", once");
   }
   Result<Actual> run(Session& session) const override {
     if (node_ == session.node().value()) {
-      return fail("node " + std::to_string(node_) + " is the device under test, its heartbeat cannot be produced", "scenario");
+      return fail(
+          "node " + std::to_string(node_) + " is the device under test, its heartbeat cannot be produced",
+          "scenario");
     }
     const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
     if (cyclic_) {
@@ -169,7 +174,8 @@ class Produce final : public Action {
     if (!sent) return std::unexpected(sent.error());
     Actual out;
     auto echo = session.find_frame(
-        index, [&frame](const auto& captured) {
+        index,
+        [&frame](const auto& captured) {
           return captured.direction == can::Direction::transmitted && captured.frame == frame;
         },
         session.now() + std::chrono::milliseconds(500));
@@ -203,13 +209,15 @@ class Stop final : public Action {
 constexpr Verb table[] = {
     {"nmt", "Send an NMT command to the device under test; never to all nodes.",
      "(word): start, stop, pre-operational, reset node, reset communication", "- nmt: start", &Nmt::parse},
-    {"reset", "Reset the device and wait for its boot-up message.", "(word): node, communication", "- reset: communication",
-     &Reset::parse},
-    {"boot_up", "Wait for the boot-up message.", "within: time (default: boot time of the profile)\nexactly: once",
-     "- nmt: reset node\n- boot_up: {within: $profile.boot_time, exactly: once}\n  checks: NMT-BOOT-01", &BootUp::parse},
+    {"reset", "Reset the device and wait for its boot-up message.", "(word): node, communication",
+     "- reset: communication", &Reset::parse},
+    {"boot_up", "Wait for the boot-up message.",
+     "within: time (default: boot time of the profile)\nexactly: once",
+     "- nmt: reset node\n- boot_up: {within: $profile.boot_time, exactly: once}\n  checks: NMT-BOOT-01",
+     &BootUp::parse},
     {"produce", "Send heartbeats of another node, once or beside the following steps.",
-     "heartbeat: {node, state, every, count}", "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}",
-     &Produce::parse},
+     "heartbeat: {node, state, every, count}",
+     "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}", &Produce::parse},
     {"stop", "End what `produce` began.", "(word): heartbeat", "- stop: heartbeat", &Stop::parse},
 };
 

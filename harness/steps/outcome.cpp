@@ -30,7 +30,8 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
     }
     case Kind::bytes: return actual.data == demand.bytes;
     case Kind::visible_text:
-      return std::ranges::all_of(actual.data, [](std::uint8_t byte) { return byte == 0 || (byte >= 0x20 && byte <= 0x7E); });
+      return std::ranges::all_of(
+          actual.data, [](std::uint8_t byte) { return byte == 0 || (byte >= 0x20 && byte <= 0x7E); });
     case Kind::size: return demand.range.holds(actual.data.size(), scope);
     case Kind::declared_size: {
       // Strings and domains have no length of their own.
@@ -50,7 +51,9 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
       for (const auto& expression : demand.values) {
         auto wanted = expression.evaluate(scope);
         if (!wanted) return std::unexpected(wanted.error());
-        if (wanted->number && actual.data.size() <= 8 && equals(*wanted->number, actual.data, ~std::uint64_t{0})) return true;
+        if (wanted->number && actual.data.size() <= 8 &&
+            equals(*wanted->number, actual.data, ~std::uint64_t{0}))
+          return true;
       }
       return false;
     case Kind::value: break;
@@ -65,7 +68,8 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
   } else if (wanted->bytes) {
     return *wanted->bytes == actual.data;
   } else if (wanted->word) {
-    return std::ranges::equal(*wanted->word, actual.data, {}, {}, [](std::uint8_t byte) { return static_cast<char>(byte); });
+    return std::ranges::equal(*wanted->word, actual.data, {}, {},
+                              [](std::uint8_t byte) { return static_cast<char>(byte); });
   }
   if (!wanted->number) return fail("'" + demand.value.text() + "' is not a number");
   return !actual.data.empty() && actual.data.size() <= 8 && equals(*wanted->number, actual.data, mask);
@@ -126,7 +130,8 @@ bool parse_abort(std::string_view text, const yaml::Field& field, std::vector<Ou
     return false;
   }
   if (*first == *last && canopen::meaning(*first).empty()) {
-    field.error("abort code " + to_string(*first) + " is reserved in CiA 301", "see the table of abort codes, 7.2.4.3.17");
+    field.error("abort code " + to_string(*first) + " is reserved in CiA 301",
+                "see the table of abort codes, 7.2.4.3.17");
     return false;
   }
   outcome.code = *first;
@@ -141,7 +146,7 @@ void check_names(const std::vector<std::string>& used, const yaml::Field& field,
     std::vector<std::string_view> known(names.begin(), names.end());
     const auto near = did_you_mean(name, known);
     field.error("unknown name $" + name, near.empty() ? "names come from save, for_each, over and let"
-                                                       : "did you mean $" + std::string(near) + "?");
+                                                      : "did you mean $" + std::string(near) + "?");
   }
 }
 
@@ -168,7 +173,8 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::F
   };
   const auto dots = text->find("..");
   const auto low_text = trim(std::string_view(*text).substr(0, dots));
-  const auto high_text = dots == std::string::npos ? low_text : trim(std::string_view(*text).substr(dots + 2));
+  const auto high_text =
+      dots == std::string::npos ? low_text : trim(std::string_view(*text).substr(dots + 2));
   const auto low = low_text.empty() ? std::optional<std::uint64_t>(0) : read(low_text);
   const auto high = high_text.empty() ? std::optional<std::uint64_t>(~std::uint64_t{0}) : read(high_text);
   if (!low || !high || *low > *high) {
@@ -182,14 +188,17 @@ struct StateWord {
   std::string_view word;
   std::uint64_t code;
 };
-constexpr StateWord state_words[] = {{"stopped", 0x04}, {"operational", 0x05}, {"pre-operational", 0x7F}, {"boot-up", 0x00}};
+constexpr StateWord state_words[] = {
+    {"stopped", 0x04}, {"operational", 0x05}, {"pre-operational", 0x7F}, {"boot-up", 0x00}};
 
-constexpr std::string_view measures[] = {"count",         "period",     "shortest", "longest",    "first", "register", "latency", "segments",
-                                         "wrong_toggles", "difference", "unmarked", "empty_last", "bits",  "absent",   "longer",  "shorter"};
+constexpr std::string_view measures[] = {
+    "count",         "period",     "shortest", "longest",    "first", "register", "latency", "segments",
+    "wrong_toggles", "difference", "unmarked", "empty_last", "bits",  "absent",   "longer",  "shorter"};
 
 /// A misspelt key is a misspelt outcome: the author knows no other word for it.
 void check_keys(const yaml::Field& field) {
-  if (field.node()->entries().empty()) field.error("an empty outcome", "write {value: 02h}, {range: 1..240}, {abort: 0609 0030h}, ...");
+  if (field.node()->entries().empty())
+    field.error("an empty outcome", "write {value: 02h}, {range: 1..240}, {abort: 0609 0030h}, ...");
   const auto known = outcome_keys();
   for (const auto& entry : field.node()->entries()) {
     if (entry.key.faulty() || std::ranges::find(known, entry.key.text()) != known.end()) continue;
@@ -200,7 +209,8 @@ void check_keys(const yaml::Field& field) {
     } else if (field.node()->flow() && entry.value.is_null()) {
       hint = "a comma ends an entry of { }: write several values as [a, b], or quote the text";
     }
-    yaml::Field(&entry.key, field.diagnostics(), "outcome").error("unknown outcome '" + entry.key.text() + "'", std::move(hint));
+    yaml::Field(&entry.key, field.diagnostics(), "outcome")
+        .error("unknown outcome '" + entry.key.text() + "'", std::move(hint));
   }
 }
 
@@ -335,12 +345,15 @@ Result<bool> Outcome::matches(const Actual& actual, Scope& scope) const {
   switch (kind) {
     case Kind::ok: return actual.kind == ActualKind::confirmed || actual.kind == ActualKind::matched;
     case Kind::abort_any: return actual.kind == ActualKind::aborted;
-    case Kind::abort_defined: return actual.kind == ActualKind::aborted && !canopen::meaning(actual.code).empty();
-    case Kind::abort_code: return actual.kind == ActualKind::aborted && actual.code >= code && actual.code <= last_code;
+    case Kind::abort_defined:
+      return actual.kind == ActualKind::aborted && !canopen::meaning(actual.code).empty();
+    case Kind::abort_code:
+      return actual.kind == ActualKind::aborted && actual.code >= code && actual.code <= last_code;
     case Kind::silence: return actual.kind == ActualKind::silence;
     case Kind::unchanged:
       if (actual.kind != ActualKind::confirmed) return false;
-      if (!actual.unchanged_from) return fail("'unchanged' has nothing to compare with: no value was noted before");
+      if (!actual.unchanged_from)
+        return fail("'unchanged' has nothing to compare with: no value was noted before");
       return actual.data == *actual.unchanged_from;
     case Kind::data: break;
   }
@@ -370,7 +383,8 @@ std::string Outcome::words(Scope& scope, std::optional<canopen::DataType> type) 
 }
 
 std::vector<std::string_view> outcome_keys() {
-  std::vector<std::string_view> out = {"abort", "value", "mask", "one_of", "range", "size", "bytes", "text", "state"};
+  std::vector<std::string_view> out = {"abort", "value", "mask", "one_of", "range",
+                                       "size",  "bytes", "text", "state"};
   out.insert(out.end(), std::begin(measures), std::end(measures));
   return out;
 }
@@ -400,7 +414,8 @@ std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& n
       parse_abort(std::string_view(*text).substr(6), item, out);
     } else {
       const auto first = text->substr(0, text->find(' '));
-      static constexpr std::string_view known[] = {"ok", "abort", "silence", "unchanged", "value", "range", "size", "bytes"};
+      static constexpr std::string_view known[] = {"ok",    "abort", "silence", "unchanged",
+                                                   "value", "range", "size",    "bytes"};
       const auto near = did_you_mean(first, known);
       item.error("unknown outcome '" + *text + "'",
                  near.empty() ? "write ok, abort 0609 0030h, abort any, silence, unchanged or {value: ...}"
@@ -422,7 +437,8 @@ std::vector<std::string> Expectation::warn_words(Scope& scope, std::optional<can
   return out;
 }
 
-Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::string_view level, bool strict, Scope& scope) {
+Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::string_view level, bool strict,
+                    Scope& scope) {
   using result::Verdict;
   bool size_asked = false;
   const auto in = [&](const std::vector<Outcome>& set) -> Result<bool> {
@@ -448,7 +464,8 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
   if (*hit) {
     if (!actual.tolerated.empty()) return Grade{Verdict::warn, join(actual.tolerated, "; ")};
     if (size_asked && actual.has_data && !actual.size_indicated) {
-      return Grade{Verdict::warn, "the expedited response leaves the size open (s = 0), so the length is not proven"};
+      return Grade{Verdict::warn,
+                   "the expedited response leaves the size open (s = 0), so the length is not proven"};
     }
     return Grade{};
   }
@@ -460,7 +477,8 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
   if (*hit) return Grade{Verdict::fail, "an outcome that is ruled out"};
   const bool binding = level != "recommended" && level != "optional";
   if (!binding && !strict) {
-    return Grade{Verdict::warn, "not an expected outcome of a rule whose level is '" + std::string(level) + "'"};
+    return Grade{Verdict::warn,
+                 "not an expected outcome of a rule whose level is '" + std::string(level) + "'"};
   }
   return Grade{Verdict::fail, "not an outcome that the rule accepts"};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verbs about PDOs: configure one by the procedure of the standard, look at its mapping, read what it would carry, send SYNC.
+// Verbs about PDOs: configure one by the procedure of the standard, look at its mapping, read what it would
+// carry, send SYNC.
 #include <array>
 
 #include "base/text.hpp"
@@ -38,7 +39,8 @@ Result<Actual> read(Session& session, Multiplexer object) {
 }
 
 Result<Actual> write(Session& session, Multiplexer object, std::uint64_t value, std::size_t size) {
-  auto answer = session.download(object, to_le(value, size), canopen::SdoDownload::Mode::automatic, std::nullopt);
+  auto answer =
+      session.download(object, to_le(value, size), canopen::SdoDownload::Mode::automatic, std::nullopt);
   if (!answer) return std::unexpected(answer.error());
   return from_answer(*answer);
 }
@@ -59,10 +61,13 @@ Result<Index> communication_of(const ObjectReference& pdo, Session& session) {
   if ((index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF)) {
     return Index(static_cast<std::uint16_t>(index - mapping_offset));
   }
-  return fail(to_string(*object) + " is not a PDO", "scenario", "1400h-15FFh, 1800h-19FFh or the mapping of one");
+  return fail(to_string(*object) + " is not a PDO", "scenario",
+              "1400h-15FFh, 1800h-19FFh or the mapping of one");
 }
 
-Index mapping_of(Index communication) { return Index(static_cast<std::uint16_t>(communication.value() + mapping_offset)); }
+Index mapping_of(Index communication) {
+  return Index(static_cast<std::uint16_t>(communication.value() + mapping_offset));
+}
 
 std::string pdo_words(const ObjectReference& pdo, Session& session) {
   const auto index = communication_of(pdo, session);
@@ -74,7 +79,7 @@ std::string pdo_words(const ObjectReference& pdo, Session& session) {
 /// An entry of a mapping: index in bits 31-16, sub-index in bits 15-8, length in bits in bits 7-0.
 struct MappedEntry {
   std::optional<ObjectReference> object;
-  Expression value;           ///< the whole entry, when no object is named
+  Expression value;                ///< the whole entry, when no object is named
   std::optional<Expression> bits;  ///< another length than the object's own
 
   static std::optional<MappedEntry> parse(const yaml::Field& field, const NameCheck& names) {
@@ -102,7 +107,8 @@ struct MappedEntry {
   [[nodiscard]] Result<std::uint64_t> resolve(Session& session) const {
     if (!object) return value.number(session);
     // "$entry" may also stand for the whole 32-bit value.
-    if (const auto text = object->text(); !bits && text.starts_with('$') && text.find(':') == std::string::npos) {
+    if (const auto text = object->text();
+        !bits && text.starts_with('$') && text.find(':') == std::string::npos) {
       const auto* held = session.find(std::string_view(text).substr(1));
       if (held != nullptr && !held->object && held->number) return *held->number;
     }
@@ -115,14 +121,16 @@ struct MappedEntry {
       length = *number & 0xFF;
     } else {
       const auto* entry = session.dictionary().find(*mux);
-      if (entry == nullptr || !entry->size()) return fail("the length of " + to_string(*mux) + " is not known", "scenario", "add bits:");
+      if (entry == nullptr || !entry->size())
+        return fail("the length of " + to_string(*mux) + " is not known", "scenario", "add bits:");
       length = *entry->size() * 8;
     }
     return (std::uint64_t{mux->index.value()} << 16U) | (std::uint64_t{mux->sub.value()} << 8U) | length;
   }
 };
 
-/// Destroy the PDO, write mapping and parameters, create it again (7.5.2.36, 7.5.2.38). The first refusal ends it.
+/// Destroy the PDO, write mapping and parameters, create it again (7.5.2.36, 7.5.2.38). The first refusal
+/// ends it.
 class SetPdo final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
@@ -210,7 +218,8 @@ class SetPdo final : public Action {
                                                            {"sync_start", "SYNC start value", 6, 1}}};
 
   /// What already holds the value stays untouched; a parameter that is absent does what its value 0 says.
-  static Result<Actual> write_parameter(Session& session, Multiplexer object, std::uint64_t wanted, std::size_t size) {
+  static Result<Actual> write_parameter(Session& session, Multiplexer object, std::uint64_t wanted,
+                                        std::size_t size) {
     auto actual = read(session, object);
     if (!actual) return actual;
     const bool same = actual->kind == Actual::Kind::confirmed && load_le(actual->data) == wanted;
@@ -248,7 +257,8 @@ class SetPdo final : public Action {
 struct Mapping {
   std::uint64_t bits = 0, absent = 0, longer = 0, shorter = 0;
   std::vector<std::uint32_t> entries;
-  std::vector<std::uint8_t> data;  ///< what the objects hold, packed without gaps, least significant bit first
+  std::vector<std::uint8_t>
+      data;  ///< what the objects hold, packed without gaps, least significant bit first
 };
 
 /// Reads the mapping and the objects in it. Not confirmed: the answer that stood in the way.
@@ -260,10 +270,12 @@ Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool 
     actual = read(session, {mapping, SubIndex(static_cast<std::uint8_t>(sub))});
     if (!confirmed(actual)) return actual;
     const auto entry = static_cast<std::uint32_t>(load_le(actual->data));
-    const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)), SubIndex(static_cast<std::uint8_t>((entry >> 8U) & 0xFFU))};
+    const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)),
+                             SubIndex(static_cast<std::uint8_t>((entry >> 8U) & 0xFFU))};
     const std::uint64_t length = entry & 0xFFU;
     out.entries.push_back(entry);
-    const bool placeholder = mapping.value() < 0x1800 && object.index.value() > 0 && object.index.value() < 0x0020;
+    const bool placeholder =
+        mapping.value() < 0x1800 && object.index.value() > 0 && object.index.value() < 0x0020;
     std::optional<std::uint64_t> own;
     Bytes held;
     if (!placeholder) {
@@ -294,7 +306,9 @@ Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool 
 
 class PdoMapping final : public Action {
  public:
-  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) { return parse_as(value, context, false); }
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    return parse_as(value, context, false);
+  }
   static std::unique_ptr<Action> parse_data(const yaml::Field& value, ParseContext& context) {
     return parse_as(value, context, true);
   }
@@ -337,9 +351,10 @@ class PdoMapping final : public Action {
     actual->measured["shorter"] = mapping.shorter;
     std::vector<std::string> parts;
     for (const auto entry : mapping.entries) parts.push_back(hex(entry, 8) + "h");
-    actual->detail = std::to_string(mapping.entries.size()) + " entries, " + std::to_string(mapping.bits) + " bits; " +
-                     std::to_string(mapping.absent) + " absent, " + std::to_string(mapping.longer) + " longer and " +
-                     std::to_string(mapping.shorter) + " shorter than the object: " + join(parts, ", ");
+    actual->detail = std::to_string(mapping.entries.size()) + " entries, " + std::to_string(mapping.bits) +
+                     " bits; " + std::to_string(mapping.absent) + " absent, " +
+                     std::to_string(mapping.longer) + " longer and " + std::to_string(mapping.shorter) +
+                     " shorter than the object: " + join(parts, ", ");
     return actual;
   }
 
@@ -387,7 +402,8 @@ class SendSync final : public Action {
 };
 
 constexpr Verb table[] = {
-    {"set_pdo", "Configure a PDO by the procedure of the standard: switch off, mapping, parameters, switch on. The first refusal ends it.",
+    {"set_pdo",
+     "Configure a PDO by the procedure of the standard: switch off, mapping, parameters, switch on. The first refusal ends it.",
      "pdo: its communication or mapping object\nmapping: list of entries: an object, {object, bits}, or the 32-bit value\n"
      "at_least: repeat the entries until they make up this many bits\ntype, inhibit_time, event_timer, sync_start: sub-indices 02h, 03h, "
      "05h, 06h\ncan_id: another CAN-ID\nvalid: false to leave it switched off",
@@ -399,7 +415,8 @@ constexpr Verb table[] = {
     {"mapped_data", "Read what the objects mapped to a PDO hold, packed as the PDO carries them.",
      "pdo: its communication or mapping object\nsave: name that the data get",
      "- mapped_data: {pdo: $pdo, save: held}", &PdoMapping::parse_data},
-    {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.", "(word): once\nevery: time between two\ncount: how many",
+    {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.",
+     "(word): once\nevery: time between two\ncount: how many",
      "- send_sync: once\n- send_sync: {every: 50 ms, count: 10}", &SendSync::parse},
 };
 

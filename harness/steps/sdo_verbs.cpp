@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Verbs of the SDO client: upload, download, and the change of a COB-ID by the procedure the standard prescribes.
+// Verbs of the SDO client: upload, download, and the change of a COB-ID by the procedure the standard
+// prescribes.
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -111,7 +112,8 @@ class Download final : public Action {
     if (const auto as = fields.optional("as")) {
       if (const auto name = as.text()) {
         out->as_ = canopen::parse_data_type(*name);
-        if (!out->as_) as.error("unknown data type '" + *name + "'", "UNSIGNED8, INTEGER32, VISIBLE_STRING, ...");
+        if (!out->as_)
+          as.error("unknown data type '" + *name + "'", "UNSIGNED8, INTEGER32, VISIBLE_STRING, ...");
       }
     }
     if (const auto transfer = fields.optional("transfer")) {
@@ -168,7 +170,8 @@ class Download final : public Action {
     if (!value->number) return fail("'" + value_.text() + "' is not a number");
     const auto type = type_of(session, object);
     if (!type) {
-      return fail("the type of " + to_string(object) + " is not known", "scenario", "add as: UNSIGNED16, or write bytes:");
+      return fail("the type of " + to_string(object) + " is not known", "scenario",
+                  "add as: UNSIGNED16, or write bytes:");
     }
     const auto size = canopen::size_bytes(*type);
     if (!size) return fail(to_string(object) + " has no fixed length", "scenario", "write bytes: or text:");
@@ -209,8 +212,8 @@ class SetCobId final : public Action {
   std::string words(Session& session) const override {
     const auto object = object_.resolve(session);
     const auto to = to_.evaluate(session);
-    return "set COB-ID " + (object ? to_string(*object) : object_.text()) + " to " + (to ? to->text() : to_.text()) +
-           " (off, change, on)";
+    return "set COB-ID " + (object ? to_string(*object) : object_.text()) + " to " +
+           (to ? to->text() : to_.text()) + " (off, change, on)";
   }
   const ObjectReference* object() const override { return &object_; }
 
@@ -229,7 +232,8 @@ class SetCobId final : public Action {
     const CobId old(static_cast<std::uint32_t>(load_le(before->data)));
     const CobId target(static_cast<std::uint32_t>(*to));
     for (const auto value : {canopen::deactivated(*kind, old), canopen::deactivated(*kind, target), target}) {
-      auto answer = session.download(*object, to_le(value.value(), 4), canopen::SdoDownload::Mode::automatic, std::nullopt);
+      auto answer = session.download(*object, to_le(value.value(), 4), canopen::SdoDownload::Mode::automatic,
+                                     std::nullopt);
       if (!answer) return std::unexpected(answer.error());
       auto actual = to_actual(*answer, session, *object, false);
       if (actual.kind != Actual::Kind::confirmed) {
@@ -249,7 +253,8 @@ class SetCobId final : public Action {
 constexpr Verb table[] = {
     {"upload", "Read an entry by SDO.",
      "object: the entry, 1003h:00 or $name\nsave: name that the data get\ntimeout: how long the answer may take (default: profile)",
-     "- upload: {object: 1003h:00, save: count}\n  checks: OD-1003-01\n  expect: {size: 1, range: 0..FEh}", &Upload::parse},
+     "- upload: {object: 1003h:00, save: count}\n  checks: OD-1003-01\n  expect: {size: 1, range: 0..FEh}",
+     &Upload::parse},
     {"download", "Write an entry by SDO. The engine puts the old value back.",
      "object: the entry\nvalue: number, $name or expression, encoded with the entry's type\nbytes: data as they are, \"E8 03\"\n"
      "text: characters\nas: data type to encode with when it is not the entry's own\n"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verb `segments`: a segmented upload that goes on where a client would give up, and counts what was wrong.
+// The verb `segments`: a segmented upload that goes on where a client would give up, and counts what was
+// wrong.
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -49,7 +50,8 @@ class Segments final : public Action {
     const auto initiate = canopen::decode_upload_response(**first);
     if (!initiate) return wrong_answer(so_far, **first, "an upload response");
     if (initiate->expedited) {
-      so_far.data.assign((*first)->begin() + 4, (*first)->begin() + 4 + static_cast<std::ptrdiff_t>(initiate->expedited_size()));
+      so_far.data.assign((*first)->begin() + 4,
+                         (*first)->begin() + 4 + static_cast<std::ptrdiff_t>(initiate->expedited_size()));
       so_far.marked = true;
       return measured(session, so_far);
     }
@@ -165,11 +167,13 @@ class Segments final : public Action {
 };
 
 constexpr Verb table[] = {
-    {"segments", "Read an entry of more than four bytes segment by segment, to the end even where the server errs.",
+    {"segments",
+     "Read an entry of more than four bytes segment by segment, to the end even where the server errs.",
      "of: the entry\npause: time before each request\nsave: name that the data get\n"
      "measured: segments (0: expedited), wrong_toggles, difference (of the told size and the bytes that came), unmarked (1: no segment is "
      "marked as the last), empty_last (1: an empty segment ends the transfer)",
-     "- segments: {of: 1008h:00, save: name}\n  checks: SDO-SUP-03\n  expect: {wrong_toggles: 0}", &Segments::parse},
+     "- segments: {of: 1008h:00, save: name}\n  checks: SDO-SUP-03\n  expect: {wrong_toggles: 0}",
+     &Segments::parse},
 };
 
 }  // namespace

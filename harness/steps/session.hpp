@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a step may touch: the device through SDO and NMT, the bus, the recorded trace, and the scenario's names.
-// The engine implements it; verbs see nothing else of the run.
+// What a step may touch: the device through SDO and NMT, the bus, the recorded trace, and the scenario's
+// names. The engine implements it; verbs see nothing else of the run.
 #pragma once
 
 #include <cstddef>
@@ -26,19 +26,19 @@ namespace conform::steps {
 struct SdoAnswer {
   enum class Kind : std::uint8_t { confirmed, aborted, silence, violation };
   Kind kind = Kind::silence;
-  Bytes data;                       ///< uploads: what was delivered
+  Bytes data;  ///< uploads: what was delivered
   bool size_indicated = false;
   AbortCode code{};
-  std::string detail;               ///< violation: what was wrong, in one sentence
-  std::vector<std::string> remarks; ///< reserved bits or bytes that were not zero
-  std::size_t decisive = 0;         ///< capture index of the frame that ended it
+  std::string detail;                ///< violation: what was wrong, in one sentence
+  std::vector<std::string> remarks;  ///< reserved bits or bytes that were not zero
+  std::size_t decisive = 0;          ///< capture index of the frame that ended it
 };
 
-/// Where a waiting step begins to look, and from when its window counts. Frames that came while the previous step was
-/// still waiting for its own answer are found as well: nothing falls between two steps.
+/// Where a waiting step begins to look, and from when its window counts. Frames that came while the previous
+/// step was still waiting for its own answer are found as well: nothing falls between two steps.
 struct Window {
   std::size_t first = 0;  ///< capture index
-  BusTime anchor;         ///< stamp of the last frame we sent in the previous acting step, or of a labelled frame
+  BusTime anchor;  ///< stamp of the last frame we sent in the previous acting step, or of a labelled frame
 };
 
 /// A frame that is sent again and again beside the steps that follow.
@@ -58,24 +58,29 @@ class Session : public Facts {
   [[nodiscard]] virtual const can::Capture& capture() const = 0;
   [[nodiscard]] virtual BusTime now() const = 0;
 
-  // Errors below are faults of the environment (interface gone, frames lost): they end the case, they judge nothing.
+  // Errors below are faults of the environment (interface gone, frames lost): they end the case, they judge
+  // nothing.
   [[nodiscard]] virtual Result<SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout) = 0;
   /// Notes the old value first, so that the engine can put it back.
-  [[nodiscard]] virtual Result<SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
+  [[nodiscard]] virtual Result<SdoAnswer> download(Multiplexer object, Bytes data,
+                                                   canopen::SdoDownload::Mode mode,
                                                    std::optional<Duration> timeout) = 0;
-  /// What the entry held just before the last download to it in this scenario; nullopt if none, or not readable.
+  /// What the entry held just before the last download to it in this scenario; nullopt if none, or not
+  /// readable.
   [[nodiscard]] virtual std::optional<Bytes> before_last_write(Multiplexer object) const = 0;
   [[nodiscard]] virtual Result<void> nmt(canopen::NmtCommand command) = 0;
   /// Any frame. A download hidden in it must have been announced with will_change() before.
   [[nodiscard]] virtual Result<void> send(const can::Frame& frame) = 0;
   [[nodiscard]] virtual Result<void> will_change(Multiplexer object) = 0;
-  /// The SDO channel was left in an unknown state (a conversation, a time-out): make it idle before the next use.
+  /// The SDO channel was left in an unknown state (a conversation, a time-out): make it idle before the next
+  /// use.
   virtual void sdo_channel_dirty() = 0;
-  /// An answer that was due did not come: it may come yet, and must not be taken for the answer to the next request.
+  /// An answer that was due did not come: it may come yet, and must not be taken for the answer to the next
+  /// request.
   virtual void sdo_answer_may_be_late() = 0;
 
-  /// Index of the first captured frame at or after `from` that matches and is stamped not after `deadline`. Looks at what is
-  /// recorded, then receives. nullopt: the deadline passed on the bus.
+  /// Index of the first captured frame at or after `from` that matches and is stamped not after `deadline`.
+  /// Looks at what is recorded, then receives. nullopt: the deadline passed on the bus.
   [[nodiscard]] virtual Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match,
                                                                       BusTime deadline) = 0;
   /// Receives until `until` without looking for anything.
@@ -84,10 +89,11 @@ class Session : public Facts {
   /// Window of the step that runs, or counted from a labelled frame.
   [[nodiscard]] virtual Window window() const = 0;
   [[nodiscard]] virtual Result<Window> window_after(std::string_view label) const = 0;
-  /// The step has used the trace up to and including `index`: later steps look behind it. An index behind the last frame
-  /// means all that was recorded; windows then count from now.
+  /// The step has used the trace up to and including `index`: later steps look behind it. An index behind the
+  /// last frame means all that was recorded; windows then count from now.
   virtual void consume(std::size_t index) = 0;
-  /// Where EMCY frames of the device are expected now (1014h as last read or written; 80h + node-ID otherwise).
+  /// Where EMCY frames of the device are expected now (1014h as last read or written; 80h + node-ID
+  /// otherwise).
   [[nodiscard]] virtual CanId emcy_can_id() const = 0;
   virtual void label(std::string_view name, std::size_t capture_index) = 0;
 

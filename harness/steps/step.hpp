@@ -28,11 +28,13 @@ class Action {
   [[nodiscard]] virtual std::string words(Session& session) const = 0;
   /// Error: the environment failed, or a name has no value (Error::where is then "scenario").
   [[nodiscard]] virtual Result<Actual> run(Session& session) const = 0;
-  /// For alternatives in `either`: whether what comes next on the bus is how this action begins. Consumes nothing.
+  /// For alternatives in `either`: whether what comes next on the bus is how this action begins. Consumes
+  /// nothing.
   [[nodiscard]] virtual Result<bool> begins(Session& /*session*/) const { return false; }
   /// Whether it sends something to the device (and so begins a new window for the steps that wait).
   [[nodiscard]] virtual bool acts() const { return true; }
-  /// Whether it cannot change anything: waits, and SDO uploads from the device under test. The tier `read-only` rests on it.
+  /// Whether it cannot change anything: waits, and SDO uploads from the device under test. The tier
+  /// `read-only` rests on it.
   [[nodiscard]] virtual bool reads_only() const { return !acts(); }
   /// The entry it is about, for `current` and for printing values.
   [[nodiscard]] virtual const ObjectReference* object() const { return nullptr; }
@@ -42,7 +44,7 @@ struct Step;
 
 /// One way a step with `either` may go on.
 struct Branch {
-  std::vector<Outcome> on;          ///< empty: the first step is a conversation that tells by its first line
+  std::vector<Outcome> on;  ///< empty: the first step is a conversation that tells by its first line
   result::Verdict verdict = result::Verdict::pass;  ///< grade of taking this way
   std::vector<Step> steps;
   yaml::Position position;
@@ -53,19 +55,20 @@ struct Walk {
   std::string name;
   std::vector<Expression> values;
   std::vector<Range> ranges;
-  std::vector<std::string> sets;  ///< named sets: "restricted CAN-IDs", and queries: "entries with access const"
+  std::vector<std::string>
+      sets;  ///< named sets: "restricted CAN-IDs", and queries: "entries with access const"
   std::vector<Step> steps;
 };
 
 struct Step {
   std::string verb;
-  std::unique_ptr<Action> action;   ///< absent for `over`
+  std::unique_ptr<Action> action;  ///< absent for `over`
   std::optional<Walk> walk;
   Expectation expectation;
   std::optional<Condition> when, unless;
-  std::vector<Branch> branches;     ///< `either`
-  std::string label;                ///< `as`
-  yaml::Position position;          ///< of the verb's key
+  std::vector<Branch> branches;  ///< `either`
+  std::string label;             ///< `as`
+  yaml::Position position;       ///< of the verb's key
   int length = 1;
 };
 
@@ -75,7 +78,7 @@ struct ParseContext {
   /// The canonical id of a requirement (aliases resolved), or nullopt when there is none.
   std::function<std::optional<std::string>(std::string_view)> requirement;
   std::function<std::vector<std::string_view>()> all_requirements;  ///< for "did you mean"
-  NameCheck names;                  ///< known at this place; verbs that save add to it
+  NameCheck names;  ///< known at this place; verbs that save add to it
   std::vector<std::string> default_checks;
   /// What is wrong with a query; queries are the scenario room's, steps only carry them.
   std::function<Result<void>(std::string_view)> check_query;
@@ -103,15 +106,18 @@ struct Verb {
 /// Reads a list of steps. All mistakes go to the diagnostics; unusable steps are left out.
 [[nodiscard]] std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context);
 
-/// The first step (walks, branches and conditions included) that may change or command something; nullptr when none.
+/// The first step (walks, branches and conditions included) that may change or command something; nullptr
+/// when none.
 [[nodiscard]] const Step* first_change(const std::vector<Step>& list);
 
 /// Ids at `checks`; "$name" stands for a word of the instance's row.
 [[nodiscard]] std::vector<std::string> parse_checks(const yaml::Field& field, const ParseContext& context);
 
-/// Reads an expression, an object or a condition at a field and reports what is wrong, unknown names included.
+/// Reads an expression, an object or a condition at a field and reports what is wrong, unknown names
+/// included.
 [[nodiscard]] std::optional<Expression> parse_expression_at(const yaml::Field& field, const NameCheck& names);
-[[nodiscard]] std::optional<ObjectReference> parse_object_at(const yaml::Field& field, const NameCheck& names);
+[[nodiscard]] std::optional<ObjectReference> parse_object_at(const yaml::Field& field,
+                                                             const NameCheck& names);
 [[nodiscard]] std::optional<Condition> parse_condition_at(const yaml::Field& field, const NameCheck& names);
 /// "100 ms" or "$profile.store_timeout"
 struct TimeReference {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the YAML of a step list to steps: what all verbs have in common. The verbs themselves parse their own values.
+// From the YAML of a step list to steps: what all verbs have in common. The verbs themselves parse their own
+// values.
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -8,22 +9,25 @@
 namespace conform::steps {
 namespace {
 
-constexpr std::string_view common_keys[] = {"checks", "expect", "warn", "fail", "as", "when", "unless", "either", "steps", "note"};
+constexpr std::string_view common_keys[] = {"checks", "expect", "warn",   "fail",  "as",
+                                            "when",   "unless", "either", "steps", "note"};
 
-void report_unknown_names(const std::vector<std::string>& used, const yaml::Field& field, const NameCheck& names) {
+void report_unknown_names(const std::vector<std::string>& used, const yaml::Field& field,
+                          const NameCheck& names) {
   for (const auto& name : used) {
     if (name.starts_with("profile.") || std::ranges::find(names, name) != names.end()) continue;
     const std::vector<std::string_view> known(names.begin(), names.end());
     const auto near = did_you_mean(name, known);
-    field.error("unknown name $" + name,
-                near.empty() ? "names come from save, for_each, over and let" : "did you mean $" + std::string(near) + "?");
+    field.error("unknown name $" + name, near.empty() ? "names come from save, for_each, over and let"
+                                                      : "did you mean $" + std::string(near) + "?");
   }
 }
 
 std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) {
   Walk walk;
   if (!value.node()->is_mapping() || value.node()->entries().size() != 1) {
-    value.error("'over' needs one name and its values", "write over: {id: restricted CAN-IDs} or over: {code: [1, 2, 10..20]}");
+    value.error("'over' needs one name and its values",
+                "write over: {id: restricted CAN-IDs} or over: {code: [1, 2, 10..20]}");
     return std::nullopt;
   }
   const auto& entry = value.node()->entries().front();
@@ -52,11 +56,13 @@ std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) 
       walk.values.push_back(*expression);
     }
   }
-  if (entry.value.is_sequence() && entry.value.items().empty()) values.error("'over' has no values to walk over");
+  if (entry.value.is_sequence() && entry.value.items().empty())
+    values.error("'over' has no values to walk over");
   return walk;
 }
 
-std::vector<Branch> parse_branches(const yaml::Field& field, const ObjectReference* object, ParseContext& context) {
+std::vector<Branch> parse_branches(const yaml::Field& field, const ObjectReference* object,
+                                   ParseContext& context) {
   std::vector<Branch> out;
   const auto known_before = context.names;
   if (field.node()->is_sequence() && field.node()->items().empty()) field.error("'either' without a branch");
@@ -127,12 +133,15 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
   known.push_back("over");
   for (const auto* entry : unknown) {
     const auto near = did_you_mean(entry->key.text(), known);
-    context.diagnostics.error(entry->key, std::string(verb_entry != nullptr ? "unknown key '" : "unknown verb or key '") +
-                                              entry->key.text() + "' in a step",
+    context.diagnostics.error(entry->key,
+                              std::string(verb_entry != nullptr ? "unknown key '" : "unknown verb or key '") +
+                                  entry->key.text() + "' in a step",
                               near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
   }
   if (verb_entry == nullptr) {
-    if (unknown.empty()) item.error("a step without a verb", "upload, download, nmt, talk, ...: see 'canopen-conform explain verbs'");
+    if (unknown.empty())
+      item.error("a step without a verb",
+                 "upload, download, nmt, talk, ...: see 'canopen-conform explain verbs'");
     return std::nullopt;
   }
 
@@ -155,7 +164,8 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
     step.walk->steps = parse_steps(steps, context);
     context.names = known_before;
   } else {
-    if (fields.has("steps")) fields.optional("steps").error("'steps' belongs to 'over' and to branches of 'either'");
+    if (fields.has("steps"))
+      fields.optional("steps").error("'steps' belongs to 'over' and to branches of 'either'");
     step.action = find_verb(step.verb)->parse(value, context);
     if (step.action == nullptr) return std::nullopt;
   }
@@ -170,15 +180,17 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
   } else if (fields.has("expect") || fields.has("either") || fields.has("fail")) {
     step.expectation.checks = context.default_checks;
   }
-  for (auto [key, set] : {std::pair("expect", &step.expectation.pass), std::pair("warn", &step.expectation.warn),
-                          std::pair("fail", &step.expectation.fail)}) {
+  for (auto [key, set] :
+       {std::pair("expect", &step.expectation.pass), std::pair("warn", &step.expectation.warn),
+        std::pair("fail", &step.expectation.fail)}) {
     if (const auto field = fields.optional(key)) {
       *set = parse_outcomes(field, context.names);
       step.expectation.given = true;
     }
   }
   if (const auto either = fields.optional("either")) {
-    if (step.expectation.given) either.error("'either' and 'expect' in one step", "the branches are the expectation");
+    if (step.expectation.given)
+      either.error("'either' and 'expect' in one step", "the branches are the expectation");
     step.branches = parse_branches(either, step.action == nullptr ? nullptr : step.action->object(), context);
     for (auto& branch : step.branches) {
       // A conversation as alternative decides what the step decides, unless it says otherwise.
@@ -187,7 +199,8 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
       if (own.empty()) own = step.expectation.checks;
     }
   }
-  if (step.walk && step.expectation.given) fields.optional("expect").error("'over' expects nothing itself; its steps do");
+  if (step.walk && step.expectation.given)
+    fields.optional("expect").error("'over' expects nothing itself; its steps do");
   return step;
 }
 
@@ -207,7 +220,8 @@ std::vector<std::string> parse_checks(const yaml::Field& field, const ParseConte
       out.push_back(*canonical);
     } else {
       const auto near = did_you_mean(*id, context.all_requirements());
-      item.error("unknown requirement '" + *id + "'", near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
+      item.error("unknown requirement '" + *id + "'",
+                 near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
     }
   }
   return out;
@@ -233,7 +247,8 @@ const Step* first_change(const std::vector<Step>& list) {
 
 std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context) {
   std::vector<Step> out;
-  if (list.node()->is_sequence() && list.node()->items().empty()) list.error("a list of steps without a step");
+  if (list.node()->is_sequence() && list.node()->items().empty())
+    list.error("a list of steps without a step");
   for (const auto& item : list.items()) {
     if (auto step = parse_step(item, context)) out.push_back(std::move(*step));
   }
@@ -288,10 +303,12 @@ std::optional<TimeReference> parse_time_at(const yaml::Field& field) {
   const auto text = field.text();
   if (!text) return std::nullopt;
   TimeReference out;
-  const auto name = text->starts_with("$profile.") ? text->substr(9) : (text->starts_with("T_") ? *text : std::string());
+  const auto name =
+      text->starts_with("$profile.") ? text->substr(9) : (text->starts_with("T_") ? *text : std::string());
   if (!name.empty()) {
     if (!device::Profile{}.duration(name)) {
-      field.error("unknown time '" + *text + "'", "$profile.boot_time, $profile.sdo_timeout, $profile.store_timeout, T_QUIET, ...");
+      field.error("unknown time '" + *text + "'",
+                  "$profile.boot_time, $profile.sdo_timeout, $profile.store_timeout, T_QUIET, ...");
       return std::nullopt;
     }
     out.profile_name = name;

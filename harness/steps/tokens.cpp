@@ -13,8 +13,8 @@ bool is_hex_digits(std::string_view text) {
 }
 
 bool is_word_character(char c) {
-  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$' || c == ':' ||
-         c == '.' || c == '-' || c == '#';
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$' ||
+         c == ':' || c == '.' || c == '-' || c == '#';
 }
 
 }  // namespace
@@ -22,7 +22,8 @@ bool is_word_character(char c) {
 Result<std::vector<Token>> tokenize(std::string_view text) {
   // The parsers recurse for every parenthesis and 'not': a bound on the text is a bound on the stack.
   constexpr std::size_t longest = 1000;
-  if (text.size() > longest) return fail("a text of " + std::to_string(text.size()) + " characters", {}, "write at most 1000");
+  if (text.size() > longest)
+    return fail("a text of " + std::to_string(text.size()) + " characters", {}, "write at most 1000");
   std::vector<Token> out;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
@@ -59,7 +60,9 @@ Result<std::vector<Token>> tokenize(std::string_view text) {
     }
   }
   // "0609 0030h", "8000 06A0h", "2710 016E 3600h": groups of four hex digits, the last one with h.
-  const auto is_group = [&out](std::size_t i) { return i < out.size() && out[i].text.size() == 4 && is_hex_digits(out[i].text); };
+  const auto is_group = [&out](std::size_t i) {
+    return i < out.size() && out[i].text.size() == 4 && is_hex_digits(out[i].text);
+  };
   const auto ends_number = [&out](std::size_t i) {
     return i < out.size() && out[i].text.size() == 5 && out[i].text.back() == 'h' &&
            is_hex_digits(std::string_view(out[i].text).substr(0, 4));

@@ -25,7 +25,8 @@ class TokenReader {
   explicit TokenReader(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
   [[nodiscard]] bool done() const { return next_ >= tokens_.size(); }
   [[nodiscard]] std::string_view peek(std::size_t ahead = 0) const {
-    return next_ + ahead < tokens_.size() ? std::string_view(tokens_[next_ + ahead].text) : std::string_view();
+    return next_ + ahead < tokens_.size() ? std::string_view(tokens_[next_ + ahead].text)
+                                          : std::string_view();
   }
   std::string_view take() {
     const auto text = peek();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of verbs, one per service; verbs.cpp joins them. Explicit on purpose: the linker drops self-registering
-// objects out of static libraries.
+// The tables of verbs, one per service; verbs.cpp joins them. Explicit on purpose: the linker drops
+// self-registering objects out of static libraries.
 #pragma once
 
 #include <span>

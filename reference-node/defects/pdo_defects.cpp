@@ -139,14 +139,8 @@ DefectTable transmit_rows() {
   using P = PdoFaults;
   constexpr auto tpdo = &B::tpdo;
   return {
-      {"1800-absent-for-existing-mapping",
-       "1A00h exists without 1800h",
-       {"OD-1800-03"},
-       absent(0x1800)},
-      {"1a00-absent-for-existing-pdo",
-       "1800h exists without 1A00h",
-       {"OD-1800-03"},
-       absent(0x1A00)},
+      {"1800-absent-for-existing-mapping", "1A00h exists without 1800h", {"OD-1800-03"}, absent(0x1800)},
+      {"1a00-absent-for-existing-pdo", "1800h exists without 1A00h", {"OD-1800-03"}, absent(0x1A00)},
       {"1800-sub0-out-of-range", "1800h:00 is 07h", {"OD-1800-01", "OD-GEN-11"}, preset(0x1800, 0, 7)},
       {"1800-sub0-writable",
        "1800h:00 can be written",

@@ -151,8 +151,10 @@ TEST_CASE("While the storage fault is armed storing and restoring fail and chang
   change_all(bench);
   CHECK(bench.sdo("2F 20 2F 00 01 00 00 00") == "60 20 2F 00 00 00 00 00");
   for (const char* sub : {"01", "02", "03"}) {
-    CHECK(bench.sdo("23 10 10 " + std::string(sub) + " 73 61 76 65") == "80 10 10 " + std::string(sub) + " 00 00 06 06");
-    CHECK(bench.sdo("23 11 10 " + std::string(sub) + " 6C 6F 61 64") == "80 11 10 " + std::string(sub) + " 00 00 06 06");
+    CHECK(bench.sdo("23 10 10 " + std::string(sub) + " 73 61 76 65") ==
+          "80 10 10 " + std::string(sub) + " 00 00 06 06");
+    CHECK(bench.sdo("23 11 10 " + std::string(sub) + " 6C 6F 61 64") ==
+          "80 11 10 " + std::string(sub) + " 00 00 06 06");
   }
   // A wrong signature is refused as such before the memory is touched.
   CHECK(bench.sdo("23 10 10 01 00 00 00 00") == "80 10 10 01 20 00 00 08");

@@ -33,7 +33,8 @@ std::string without_colours(const std::string& text) {
 
 TEST_CASE("A passing case is one line with its requirements and its time") {
   const RunResult run = testing::sample_run();
-  CHECK(case_line(run.cases[0], {}) == "pass     cia301/dictionary/1000-device-type/readable  OD-1000-01  2.4 ms");
+  CHECK(case_line(run.cases[0], {}) ==
+        "pass     cia301/dictionary/1000-device-type/readable  OD-1000-01  2.4 ms");
 }
 
 TEST_CASE("A case that did not pass says why on its line") {
@@ -44,9 +45,8 @@ TEST_CASE("A case that did not pass says why on its line") {
   CHECK(case_line(run.cases[4], {}) ==
         "inconcl  cia301/nmt/error-control/heartbeat-period[100 ms]  EC-HB-01, EC-HB-02  3.0 ms  "
         "set-up: download 1017h:00 = 100 -> abort 0800 0022h (device state), expected ok");
-  CHECK(case_line(run.cases[5], {}) ==
-        "n/a      cia301/pdo/mapping/too-long[1A00h]  PDO-MAP-04  "
-        "object 1A00h is present: no, it is not in the EDS and was not found");
+  CHECK(case_line(run.cases[5], {}) == "n/a      cia301/pdo/mapping/too-long[1A00h]  PDO-MAP-04  "
+                                       "object 1A00h is present: no, it is not in the EDS and was not found");
   CHECK(case_line(run.cases[6], {}) == "error    cia301/pdo/mapping/order  PDO-MAP-05  not run");
 }
 
@@ -79,7 +79,9 @@ TEST_CASE("A card marks the decisive frame and stamps relative to the case") {
   CHECK(contains(card, "\n =>     2.840 < 583h  60 03 10 00 00 00 00 00  SDO download 1003h:00 confirmed\n"));
   CHECK(contains(card, "\n  |     1.600 > 603h  2F 03 10 00 02 00 00 00  SDO download 1003h:00 = 02h\n"));
   CHECK(contains(card, "  --> cia301/dictionary/1003-error-history.yaml:14:19\n"));
-  CHECK(contains(card, "  | tolerated    abort 0609 0031h (value too high)\n  |              abort 0800 0000h (general error)\n"));
+  CHECK(contains(
+      card,
+      "  | tolerated    abort 0609 0031h (value too high)\n  |              abort 0800 0000h (general error)\n"));
 }
 
 TEST_CASE("A long conversation is shown around its decisive frame") {
@@ -124,7 +126,8 @@ TEST_CASE("The last line gives the exit code and its meaning") {
   run.cases.resize(1);
   CHECK(summary(run, {}).ends_with("\nexit code     0: everything that was judged conforms\n"));
   run.cases.front().verdict = Verdict::not_applicable;
-  CHECK(summary(run, {}).ends_with("\nexit code     2: nothing selected applies to this device, so nothing was judged\n"));
+  CHECK(summary(run, {}).ends_with(
+      "\nexit code     2: nothing selected applies to this device, so nothing was judged\n"));
   run.signal = 2;
   CHECK(summary(run, {}).ends_with("\nexit code     130: interrupted (SIGINT)\n"));
   CHECK(contains(summary(testing::aborted_run(), {}), "exit code     3: the run stopped early"));

@@ -18,8 +18,8 @@ using result::Verdict;
 
 BusTime at(Duration since_start) { return BusTime{since_start}; }
 
-EvidenceFrame frame(std::size_t index, Duration time, Direction direction, can::Frame data, std::string meaning,
-                    bool decisive = false) {
+EvidenceFrame frame(std::size_t index, Duration time, Direction direction, can::Frame data,
+                    std::string meaning, bool decisive = false) {
   return {data, at(time), direction, index, std::move(meaning), decisive};
 }
 
@@ -42,7 +42,8 @@ void finish(CaseResult& one, Verdict verdict, std::string reason, Duration begin
 }
 
 CaseResult passing() {
-  CaseResult one = planned("cia301/dictionary/1000-device-type", "readable", "", "The device type can be read");
+  CaseResult one =
+      planned("cia301/dictionary/1000-device-type", "readable", "", "The device type can be read");
   one.requirements = {"OD-1000-01"};
   one.cct = {"4.1"};
   one.judgements = {{"OD-1000-01", Verdict::pass, {}, 1}};
@@ -65,15 +66,17 @@ CaseResult failing() {
   finding.actual_bytes = {0x60, 0x03, 0x10, 0x00, 0x00, 0x00, 0x00, 0x00};
   finding.reason = "the device confirmed a write that it has to refuse";
   finding.evidence = {
-      frame(40, 2s + 100us, Direction::transmitted, can::data_frame(CanId{0x603}, {0x40, 0x03, 0x10, 0, 0, 0, 0, 0}),
-            "SDO upload 1003h:00"),
-      frame(41, 2s + 1350us, Direction::received, can::data_frame(CanId{0x583}, {0x4F, 0x03, 0x10, 0, 0, 0, 0, 0}),
-            "SDO upload 1003h:00 -> 00h"),
+      frame(40, 2s + 100us, Direction::transmitted,
+            can::data_frame(CanId{0x603}, {0x40, 0x03, 0x10, 0, 0, 0, 0, 0}), "SDO upload 1003h:00"),
+      frame(41, 2s + 1350us, Direction::received,
+            can::data_frame(CanId{0x583}, {0x4F, 0x03, 0x10, 0, 0, 0, 0, 0}), "SDO upload 1003h:00 -> 00h"),
       frame(42, 2s + 1600us, Direction::transmitted,
             can::data_frame(CanId{0x603}, {0x2F, 0x03, 0x10, 0, 2, 0, 0, 0}), "SDO download 1003h:00 = 02h"),
-      frame(43, 2s + 2840us, Direction::received, can::data_frame(CanId{0x583}, {0x60, 0x03, 0x10, 0, 0, 0, 0, 0}),
+      frame(43, 2s + 2840us, Direction::received,
+            can::data_frame(CanId{0x583}, {0x60, 0x03, 0x10, 0, 0, 0, 0, 0}),
             "SDO download 1003h:00 confirmed", true),
-      frame(44, 2s + 9ms, Direction::received, can::data_frame(CanId{0x703}, {0x7F}), "heartbeat of node 03h, Pre-operational"),
+      frame(44, 2s + 9ms, Direction::received, can::data_frame(CanId{0x703}, {0x7F}),
+            "heartbeat of node 03h, Pre-operational"),
   };
   one.judgements = {{"OD-1003-06", Verdict::fail, {finding}, 1}, {"OD-1003-07", Verdict::pass, {}, 1}};
   finish(one, Verdict::fail, "OD-1003-06 is violated", 2s, 2s + 12ms);
@@ -96,8 +99,10 @@ CaseResult warning() {
   finding.reason = "refused, but with a less precise abort code than the standard names";
   finding.evidence = {
       frame(50, 3s + 200us, Direction::transmitted,
-            can::data_frame(CanId{0x603}, {0x23, 0x03, 0x10, 1, 0, 0, 0, 0}), "SDO download 1003h:01 = 0000 0000h"),
-      frame(51, 3s + 900us, Direction::received, can::data_frame(CanId{0x583}, {0x80, 0x03, 0x10, 1, 0, 0, 0, 0x08}),
+            can::data_frame(CanId{0x603}, {0x23, 0x03, 0x10, 1, 0, 0, 0, 0}),
+            "SDO download 1003h:01 = 0000 0000h"),
+      frame(51, 3s + 900us, Direction::received,
+            can::data_frame(CanId{0x583}, {0x80, 0x03, 0x10, 1, 0, 0, 0, 0x08}),
             "SDO abort 1003h:01 0800 0000h general error", true),
   };
   one.judgements = {{"OD-1003-08", Verdict::warn, {finding}, 1}};
@@ -106,8 +111,9 @@ CaseResult warning() {
 }
 
 CaseResult failing_bytes() {
-  CaseResult one = planned("cia301/nmt/error-control", "heartbeat-after-remote", "",
-                           "A remote frame on the heartbeat identifier is not answered while the heartbeat is produced");
+  CaseResult one =
+      planned("cia301/nmt/error-control", "heartbeat-after-remote", "",
+              "A remote frame on the heartbeat identifier is not answered while the heartbeat is produced");
   one.requirements = {"EC-HB-09"};
   Finding finding;
   finding.requirement = "EC-HB-09";
@@ -127,9 +133,11 @@ CaseResult failing_bytes() {
       frame(60, 4s - 1200us, Direction::received, extended,
             "a frame with an identifier of 29 bits that belongs to nothing this node was configured for; "
             "seen shortly before the case began and kept because it may explain what follows"),
-      frame(61, 4s + 5ms, Direction::transmitted, can::remote_frame(CanId{0x703}, 1), "node guarding request to node 03h"),
+      frame(61, 4s + 5ms, Direction::transmitted, can::remote_frame(CanId{0x703}, 1),
+            "node guarding request to node 03h"),
       frame(62, 4s + 6ms, Direction::received, error, "controller problem"),
-      frame(63, 4s + 7ms, Direction::received, can::data_frame(CanId{0x703}, {}), "answer without data", true),
+      frame(63, 4s + 7ms, Direction::received, can::data_frame(CanId{0x703}, {}), "answer without data",
+            true),
   };
   one.judgements = {{"EC-HB-09", Verdict::fail, {finding}, 1}};
   finish(one, Verdict::fail, "EC-HB-09 is violated", 4s, 4s + 1240ms);
@@ -137,8 +145,8 @@ CaseResult failing_bytes() {
 }
 
 CaseResult inconclusive() {
-  CaseResult one = planned("cia301/nmt/error-control", "heartbeat-period", "100 ms",
-                           "The heartbeat keeps its period");
+  CaseResult one =
+      planned("cia301/nmt/error-control", "heartbeat-period", "100 ms", "The heartbeat keeps its period");
   one.requirements = {"EC-HB-01", "EC-HB-02"};
   Finding finding;
   finding.verdict = Verdict::inconclusive;
@@ -163,35 +171,44 @@ RunResult sample_run() {
   run.host = "simulation";
   run.elapsed = 7s + 250ms;
   run.device = "Conforming drive";
-  run.properties = {{"dut.node_id", "03h"},           {"dut.vendor_id", "0000 0000h"},
-                    {"dut.1008", "Conforming drive"}, {"eds.file", "drive.eds"},
-                    {"can.interface", "vcan0"},       {"can.driver", "vcan"},
-                    {"run.seed", "1"}};
+  run.properties = {
+      {"dut.node_id", "03h"},    {"dut.vendor_id", "0000 0000h"}, {"dut.1008", "Conforming drive"},
+      {"eds.file", "drive.eds"}, {"can.interface", "vcan0"},      {"can.driver", "vcan"},
+      {"run.seed", "1"}};
   run.cases = {passing(), failing(), warning(), failing_bytes(), inconclusive()};
 
-  CaseResult skipped = planned("cia301/pdo/mapping", "too-long", "1A00h", "A mapping of more than 64 bits is refused");
+  CaseResult skipped =
+      planned("cia301/pdo/mapping", "too-long", "1A00h", "A mapping of more than 64 bits is refused");
   skipped.requirements = {"PDO-MAP-04"};
-  finish(skipped, Verdict::not_applicable, "object 1A00h is present: no, it is not in the EDS and was not found", 7s, 7s);
+  finish(skipped, Verdict::not_applicable,
+         "object 1A00h is present: no, it is not in the EDS and was not found", 7s, 7s);
   run.cases.push_back(skipped);
 
-  CaseResult not_run = planned("cia301/pdo/mapping", "order", "", "Mapped objects come in the order of the mapping");
+  CaseResult not_run =
+      planned("cia301/pdo/mapping", "order", "", "Mapped objects come in the order of the mapping");
   not_run.requirements = {"PDO-MAP-05"};
   run.cases.push_back(not_run);
 
   const std::string od = "Pre-defined error field (1003h)";
   run.requirements = {
-      {"EC-HB-01", "CiA 301 v4.2.0, 7.2.8.3.2", "mandatory", "Error control", "The heartbeat is produced cyclically."},
-      {"EC-HB-02", "CiA 301 v4.2.0, 7.2.8.3.2", "recommended", "Error control", "The period is kept within its tolerance."},
+      {"EC-HB-01", "CiA 301 v4.2.0, 7.2.8.3.2", "mandatory", "Error control",
+       "The heartbeat is produced cyclically."},
+      {"EC-HB-02", "CiA 301 v4.2.0, 7.2.8.3.2", "recommended", "Error control",
+       "The period is kept within its tolerance."},
       {"EC-HB-09", "CiA 301 v4.2.0, 7.2.8.3.2", "mandatory", "Error control",
        "Only one error control method is active at a time:\n  while the producer heartbeat time is not zero, remote frames\n"
        "  on the identifier of the heartbeat are not answered."},
-      {"OD-1000-01", "CiA 301 v4.2.0, 7.5.2.1", "mandatory", "Device type (1000h)", "The device type is readable."},
+      {"OD-1000-01", "CiA 301 v4.2.0, 7.5.2.1", "mandatory", "Device type (1000h)",
+       "The device type is readable."},
       {"OD-1003-06", "CiA 301 v4.2.0, 7.5.2.4", "conditional", od,
        "Writing any other value than 00h to sub-index 00h is refused."},
-      {"OD-1003-07", "CiA 301 v4.2.0, 7.5.2.4", "conditional", od, "A refused non-zero write leaves the history as it was."},
+      {"OD-1003-07", "CiA 301 v4.2.0, 7.5.2.4", "conditional", od,
+       "A refused non-zero write leaves the history as it was."},
       {"OD-1003-08", "CiA 301 v4.2.0, 7.5.2.4", "conditional", od, "The error fields are read-only."},
-      {"PDO-MAP-04", "CiA 301 v4.2.0, 7.5.2.36", "conditional", "PDO mapping", "A mapping longer than a PDO is refused."},
-      {"PDO-MAP-05", "CiA 301 v4.2.0, 7.5.2.36", "conditional", "PDO mapping", "The order of the entries is kept."},
+      {"PDO-MAP-04", "CiA 301 v4.2.0, 7.5.2.36", "conditional", "PDO mapping",
+       "A mapping longer than a PDO is refused."},
+      {"PDO-MAP-05", "CiA 301 v4.2.0, 7.5.2.36", "conditional", "PDO mapping",
+       "The order of the entries is kept."},
   };
   run.notes = {"1 case changed the device and everything was restored"};
   return run;
@@ -231,7 +248,8 @@ RunResult hostile_run(const std::string& text) {
 }
 
 std::string hostile_text() {
-  std::string text = "]]> <b>&amp;\"'</b> <!-- -- --> \x1B[31mred\x1B[0m \u202Egnp.exe\n::error::x ##vso[task.complete] ";
+  std::string text =
+      "]]> <b>&amp;\"'</b> <!-- -- --> \x1B[31mred\x1B[0m \u202Egnp.exe\n::error::x ##vso[task.complete] ";
   for (int byte = 0; byte < 256; ++byte) text += static_cast<char>(byte);
   text += "\xED\xA0\x80 \xEF\xBF\xBE \xEF\xBF\xBF \xF4\x90\x80\x80 \xC3";
   return text;

@@ -62,10 +62,12 @@ TEST_CASE("A failing case names rule, clause, graded set, bytes, frames and plac
   CHECK(std::string(failure.attribute("type").value()) == "conditional");
   const std::string message = failure.attribute("message").value();
   const std::string text = failure.text().get();
-  CHECK(message == "OD-1003-06: download 1003h:00 = 02h -> confirmed, expected abort 0609 0030h (invalid value)");
+  CHECK(message ==
+        "OD-1003-06: download 1003h:00 = 02h -> confirmed, expected abort 0609 0030h (invalid value)");
   CHECK(text.starts_with(message + "\n"));
-  for (const char* part : {"CiA 301 v4.2.0, 7.5.2.4", "Writing any other value", "abort 0609 0031h (value too high)",
-                           "60 03 10 00 00 00 00 00", "=> (0000000002.002840) vcan0 583#6003100000000000 <"}) {
+  for (const char* part :
+       {"CiA 301 v4.2.0, 7.5.2.4", "Writing any other value", "abort 0609 0031h (value too high)",
+        "60 03 10 00 00 00 00 00", "=> (0000000002.002840) vcan0 583#6003100000000000 <"}) {
     INFO(part);
     CHECK(text.find(part) != std::string::npos);
   }
@@ -82,7 +84,8 @@ TEST_CASE("A warning passes and is told in system-out") {
 
 TEST_CASE("What was not judged is an error with its kind, what does not apply is skipped") {
   const Document document(testing::sample_run());
-  CHECK(std::string(document.find("heartbeat-period").child("error").attribute("type").value()) == "inconclusive");
+  CHECK(std::string(document.find("heartbeat-period").child("error").attribute("type").value()) ==
+        "inconclusive");
   CHECK(std::string(document.find("order").child("error").attribute("type").value()) == "not-run");
   CHECK(document.find("too-long[1A00h]").child("skipped"));
   const Document broken(one_case(Verdict::error));
@@ -94,10 +97,12 @@ TEST_CASE("The type of a failure is the weightiest level that was violated") {
   run.cases.erase(run.cases.begin());
   run.cases.front().judgements.push_back({"EC-HB-09", Verdict::fail, {}, 1});
   const Document document(run);
-  CHECK(std::string(document.find("non-zero-write").child("failure").attribute("type").value()) == "mandatory");
+  CHECK(std::string(document.find("non-zero-write").child("failure").attribute("type").value()) ==
+        "mandatory");
   run.requirements.clear();
   const Document unknown(run);
-  CHECK(std::string(unknown.find("non-zero-write").child("failure").attribute("type").value()) == "unclassified");
+  CHECK(std::string(unknown.find("non-zero-write").child("failure").attribute("type").value()) ==
+        "unclassified");
 }
 
 TEST_CASE("The numbers on suites and root agree with the cases") {
@@ -106,7 +111,8 @@ TEST_CASE("The numbers on suites and root agree with the cases") {
   CHECK(document.root().attribute("failures").as_int() == 2);
   CHECK(document.root().attribute("errors").as_int() == 2);
   int tests = 0;
-  for (const pugi::xml_node suite : document.root().children("testsuite")) tests += suite.attribute("tests").as_int();
+  for (const pugi::xml_node suite : document.root().children("testsuite"))
+    tests += suite.attribute("tests").as_int();
   CHECK(tests == 7);
 }
 
@@ -121,8 +127,10 @@ TEST_CASE("Facts stand on every suite and never on a case") {
 TEST_CASE("A run that stopped early reports every planned case as not run, with the cause") {
   const Document document(testing::aborted_run());
   const pugi::xml_node error = document.find("segmented").child("error");
-  CHECK(std::string(error.attribute("message").value()) == "not run: nothing was ever heard from node 05h on can0");
-  CHECK(std::string(document.root().child("testsuite").attribute("timestamp").value()) == "2026-11-21T23:55:01Z");
+  CHECK(std::string(error.attribute("message").value()) ==
+        "not run: nothing was ever heard from node 05h on can0");
+  CHECK(std::string(document.root().child("testsuite").attribute("timestamp").value()) ==
+        "2026-11-21T23:55:01Z");
 }
 
 TEST_CASE("A run without cases is an error and not an empty report") {
@@ -132,7 +140,8 @@ TEST_CASE("A run without cases is an error and not an empty report") {
   CHECK(nothing.find("run").child("error"));
   run.aborted = "no such interface: can7";
   const Document aborted(run);
-  CHECK(std::string(aborted.find("run").child("error").attribute("message").value()) == "no such interface: can7");
+  CHECK(std::string(aborted.find("run").child("error").attribute("message").value()) ==
+        "no such interface: can7");
 }
 
 TEST_CASE("Cases of the same name are told apart") {
@@ -163,17 +172,21 @@ TEST_CASE("Prefixes keep devices apart and paths relative to the repository") {
   const Document document(testing::sample_run(), {"drive-a", "suites/"});
   const pugi::xml_node node = document.find("non-zero-write");
   CHECK(std::string(node.attribute("classname").value()) == "drive-a.cia301.dictionary.1003-error-history");
-  CHECK(std::string(node.child("failure").text().get()).ends_with("\nsuites/cia301/dictionary/1003-error-history.yaml:14:19"));
-  CHECK(std::string(node.parent().attribute("file").value()) == "suites/cia301/dictionary/1003-error-history.yaml");
+  CHECK(std::string(node.child("failure").text().get())
+            .ends_with("\nsuites/cia301/dictionary/1003-error-history.yaml:14:19"));
+  CHECK(std::string(node.parent().attribute("file").value()) ==
+        "suites/cia301/dictionary/1003-error-history.yaml");
 }
 
 TEST_CASE("Whatever a device sends comes back from the XML as its printable form") {
   const std::string hostile = testing::hostile_text();
   const Document document(testing::hostile_run(hostile));
   const pugi::xml_node properties = document.root().child("testsuite").child("properties");
-  CHECK(properties.find_child_by_attribute("name", "dut.1008").attribute("value").value() == printable(hostile));
+  CHECK(properties.find_child_by_attribute("name", "dut.1008").attribute("value").value() ==
+        printable(hostile));
   // XML 1.0 allows tab and line feed of the control characters; carriage returns and the rest never appear.
-  CHECK(std::ranges::none_of(document.text, [](char c) { return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7F; }));
+  CHECK(std::ranges::none_of(document.text,
+                             [](char c) { return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7F; }));
   CHECK(document.text.find("&#") == std::string::npos);
   // The end of a CDATA section is forbidden in text; in attributes it is not.
   CHECK(document.text.find("]]&gt; &lt;b&gt;") != std::string::npos);
@@ -186,7 +199,8 @@ TEST_CASE("Every single byte survives as valid XML") {
     run.properties = {{"dut.1008", run.device}};
     const Document document(run);
     const pugi::xml_node properties = document.root().child("testsuite").child("properties");
-    CHECK(properties.find_child_by_attribute("name", "dut.1008").attribute("value").value() == printable(run.device));
+    CHECK(properties.find_child_by_attribute("name", "dut.1008").attribute("value").value() ==
+          printable(run.device));
   }
 }
 

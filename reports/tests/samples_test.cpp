@@ -43,7 +43,8 @@ TEST_CASE("Every format writes its sample") {
   for (const Format& format : formats()) {
     const std::string end = std::string(format.name) + std::string(format.suffix);
     compare_with_sample("run." + end, format.write(testing::sample_run(), capture));
-    compare_with_sample("hostile." + end, format.write(testing::hostile_run(testing::hostile_text()), capture));
+    compare_with_sample("hostile." + end,
+                        format.write(testing::hostile_run(testing::hostile_text()), capture));
     compare_with_sample("aborted." + end, format.write(testing::aborted_run(), capture));
   }
 }

@@ -70,9 +70,33 @@ TEST_CASE("Numbers are read in four forms") {
 }
 
 TEST_CASE("Numbers that YAML readers disagree on are refused") {
-  for (const char* bad : {"", "010", "00", "+1", "-1", "1_000", "1.0", "1e3", "0b1", "0o7", "1F", "h", "0x", "0X1F", "1FH",
-                          "0x1Fh", " 1", "1 ", "1 000", "0609 030h", "0609  0030h", "0609 0030", " 0609 0030h",
-                          "18446744073709551616", "10000000000000000h", "0x00000000000000000", "1\xC2\xB2"}) {
+  for (const char* bad : {"",
+                          "010",
+                          "00",
+                          "+1",
+                          "-1",
+                          "1_000",
+                          "1.0",
+                          "1e3",
+                          "0b1",
+                          "0o7",
+                          "1F",
+                          "h",
+                          "0x",
+                          "0X1F",
+                          "1FH",
+                          "0x1Fh",
+                          " 1",
+                          "1 ",
+                          "1 000",
+                          "0609 030h",
+                          "0609  0030h",
+                          "0609 0030",
+                          " 0609 0030h",
+                          "18446744073709551616",
+                          "10000000000000000h",
+                          "0x00000000000000000",
+                          "1\xC2\xB2"}) {
     INFO(bad);
     CHECK_FALSE(parse_number(bad).has_value());
   }
@@ -87,8 +111,8 @@ TEST_CASE("Multiplexers are read with and without sub-index") {
   CHECK(parse_multiplexer("1003h:0") == error_count);
   CHECK(parse_multiplexer("1018h:1Fh") == Multiplexer{Index{0x1018}, SubIndex{0x1F}});
   CHECK(parse_multiplexer("1018h:10") == Multiplexer{Index{0x1018}, SubIndex{0x10}});
-  for (const char* bad : {"", ":", "1003", "1003:00", "1003h:", "1003h:100", "10030h:00", "1003h:00:00", "1003h :00",
-                          "1003h: 00", "1003h:-1", "G003h:00", "1003h:0x"}) {
+  for (const char* bad : {"", ":", "1003", "1003:00", "1003h:", "1003h:100", "10030h:00", "1003h:00:00",
+                          "1003h :00", "1003h: 00", "1003h:-1", "G003h:00", "1003h:0x"}) {
     INFO(bad);
     CHECK_FALSE(parse_multiplexer(bad).has_value());
   }
@@ -107,15 +131,17 @@ TEST_CASE("Durations are read with a unit") {
   CHECK(parse_duration("0 ms") == Duration{0});
   CHECK(parse_duration("1440 min") == Duration{24h});
   CHECK(parse_duration("86400.000000000 s") == Duration{24h});
-  for (const char* bad : {"", "100", "ms", " 100 ms", "-1 s", "+1 s", "1,5 s", "1. s", ".5 s", "1.2.3 s", "1 h", "1 sec",
-                          "1 S", "1e3 ms", "0.0000000001 s", "0.5 ns", "1440.1 min", "86401 s", "99999999999999999999 ms"}) {
+  for (const char* bad :
+       {"", "100", "ms", " 100 ms", "-1 s", "+1 s", "1,5 s", "1. s", ".5 s", "1.2.3 s", "1 h", "1 sec", "1 S",
+        "1e3 ms", "0.0000000001 s", "0.5 ns", "1440.1 min", "86401 s", "99999999999999999999 ms"}) {
     INFO(bad);
     CHECK_FALSE(parse_duration(bad).has_value());
   }
 }
 
 TEST_CASE("Every duration we write is read back as the same duration") {
-  for (const std::int64_t count : {0L, 1L, 999L, 1000L, 1234L, 250000L, 5000000L, 1500000000L, 86400000000000L, 86399999999999L}) {
+  for (const std::int64_t count :
+       {0L, 1L, 999L, 1000L, 1234L, 250000L, 5000000L, 1500000000L, 86400000000000L, 86399999999999L}) {
     const Duration duration{count};
     CHECK(parse_duration(to_string(duration)) == duration);
   }
@@ -134,7 +160,7 @@ TEST_CASE("Text is trimmed, split, joined and lowered without a locale") {
 
 TEST_CASE("A typing slip finds the word that was meant") {
   constexpr std::array<std::string_view, 5> verbs{"upload", "download", "wait", "nmt", "expect-emcy"};
-  CHECK(did_you_mean("upolad", verbs) == "upload");    // swapped neighbours count one
+  CHECK(did_you_mean("upolad", verbs) == "upload");  // swapped neighbours count one
   CHECK(did_you_mean("downlod", verbs) == "download");
   CHECK(did_you_mean("UPLOAD", verbs) == "upload");
   CHECK(did_you_mean("nmtt", verbs) == "nmt");
@@ -158,7 +184,8 @@ TEST_CASE("One letter is not mistaken for another") {
 }
 
 TEST_CASE("Printable text stays as it is") {
-  CHECK(printable("Antrieb Süd µ-Controller 5\u20AC \U0001F600 <&>\"'") == "Antrieb Süd µ-Controller 5\u20AC \U0001F600 <&>\"'");
+  CHECK(printable("Antrieb Süd µ-Controller 5\u20AC \U0001F600 <&>\"'") ==
+        "Antrieb Süd µ-Controller 5\u20AC \U0001F600 <&>\"'");
   CHECK(printable("").empty());
 }
 
@@ -166,20 +193,22 @@ TEST_CASE("Control characters and invalid bytes appear as their bytes") {
   CHECK(printable(std::string_view("a\0b", 3)) == "a\\x00b");
   CHECK(printable("\x1B[31mred\x1B[0m") == "\\x1B[31mred\\x1B[0m");
   CHECK(printable("\x7F") == "\\x7F");
-  CHECK(printable("\xC2\x9B") == "\\xC2\\x9B");                    // C1 control sequence introducer
+  CHECK(printable("\xC2\x9B") == "\\xC2\\x9B");  // C1 control sequence introducer
   CHECK(printable("\xFF\xFE") == "\\xFF\\xFE");
-  CHECK(printable("\xC0\x80") == "\\xC0\\x80");                    // overlong NUL
-  CHECK(printable("\xE0\x80\xAF") == "\\xE0\\x80\\xAF");           // overlong slash
-  CHECK(printable("\xED\xA0\x80") == "\\xED\\xA0\\x80");           // surrogate D800
+  CHECK(printable("\xC0\x80") == "\\xC0\\x80");           // overlong NUL
+  CHECK(printable("\xE0\x80\xAF") == "\\xE0\\x80\\xAF");  // overlong slash
+  CHECK(printable("\xED\xA0\x80") == "\\xED\\xA0\\x80");  // surrogate D800
   CHECK(printable("\xEF\xBF\xBE\xEF\xBF\xBF") == "\\xEF\\xBF\\xBE\\xEF\\xBF\\xBF");
   CHECK(printable("\xF4\x90\x80\x80") == "\\xF4\\x90\\x80\\x80");  // above 10FFFF
   CHECK(printable("\xE2\x82") == "\\xE2\\x82");                    // cut off
-  CHECK(printable("\xE2\x82" "a") == "\\xE2\\x82" "a");
+  CHECK(printable("\xE2\x82"
+                  "a") == "\\xE2\\x82"
+                          "a");
 }
 
 TEST_CASE("Marks that reorder text are made visible") {
-  for (const char* mark : {"\u200E", "\u200F", "\u202A", "\u202B", "\u202C", "\u202D", "\u202E", "\u2066", "\u2067", "\u2068",
-                           "\u2069", "\u061C"}) {
+  for (const char* mark : {"\u200E", "\u200F", "\u202A", "\u202B", "\u202C", "\u202D", "\u202E", "\u2066",
+                           "\u2067", "\u2068", "\u2069", "\u061C"}) {
     CHECK(printable(mark).starts_with("\\x"));
   }
   CHECK(printable("\u202E") == "\\xE2\\x80\\xAE");

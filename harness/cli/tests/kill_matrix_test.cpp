@@ -33,7 +33,8 @@ const cli::KillMatrix& matrix() {
 
 /// Defects nobody catches yet, each with its reason: this list may only become shorter.
 std::set<std::string> known_survivors() {
-  const auto text = read_file(std::string(CONFORM_SOURCE_DIR) + "/harness/cli/tests/known_survivors.txt", 1U << 20U);
+  const auto text =
+      read_file(std::string(CONFORM_SOURCE_DIR) + "/harness/cli/tests/known_survivors.txt", 1U << 20U);
   REQUIRE(text.has_value());
   std::set<std::string> out;
   for (auto line : split(*text, '\n')) {

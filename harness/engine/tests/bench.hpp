@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scripted SDO server on the simulated bus: the device of the engine's tests, independent of the reference node.
+// A scripted SDO server on the simulated bus: the device of the engine's tests, independent of the reference
+// node.
 #pragma once
 
 #include <algorithm>
@@ -21,17 +22,22 @@
 
 namespace conform::engine::testing {
 
-/// Serves expedited SDO out of a map; every write is kept. `before` may swallow a request or answer it differently.
+/// Serves expedited SDO out of a map; every write is kept. `before` may swallow a request or answer it
+/// differently.
 class ScriptedDevice final : public can::Participant {
  public:
   using Intercept = std::function<bool(ScriptedDevice&, const can::Frame&, BusTime)>;
 
   std::map<std::uint32_t, std::vector<std::uint8_t>> entries{
-      {0x100000, {0x91, 0x01, 0x00, 0x00}}, {0x100100, {0x00}},       {0x101700, {0x00, 0x00}},
-      {0x101800, {0x01}},                   {0x101801, {1, 0, 0, 0}}, {0x101400, {0x81, 0, 0, 0}},
+      {0x100000, {0x91, 0x01, 0x00, 0x00}},
+      {0x100100, {0x00}},
+      {0x101700, {0x00, 0x00}},
+      {0x101800, {0x01}},
+      {0x101801, {1, 0, 0, 0}},
+      {0x101400, {0x81, 0, 0, 0}},
   };
-  std::vector<std::string> writes;   ///< "1017h = E8 03"
-  std::vector<std::uint8_t> nmt;     ///< command specifiers received
+  std::vector<std::string> writes;  ///< "1017h = E8 03"
+  std::vector<std::uint8_t> nmt;    ///< command specifiers received
   Intercept before;
   bool dead = false;
 
@@ -55,7 +61,8 @@ class ScriptedDevice final : public can::Participant {
   void serve(const can::Frame& frame) {
     const auto command = frame.data[0];
     if (command == 0x80) return;
-    const auto key = static_cast<std::uint32_t>((frame.data[2] << 16U) | (frame.data[1] << 8U) | frame.data[3]);
+    const auto key =
+        static_cast<std::uint32_t>((frame.data[2] << 16U) | (frame.data[1] << 8U) | frame.data[3]);
     const auto found = entries.find(key);
     if (found == entries.end()) return abort(frame, 0x06020000);
     if (command == 0x40) {
@@ -70,7 +77,8 @@ class ScriptedDevice final : public can::Participant {
     const auto size = 4U - ((command >> 2U) & 3U);
     if (size != found->second.size()) return abort(frame, 0x06070010);
     found->second.assign(frame.data.begin() + 4, frame.data.begin() + 4 + size);
-    writes.push_back(to_string(Index(static_cast<std::uint16_t>(key >> 8U))) + " = " + hex_bytes(found->second));
+    writes.push_back(to_string(Index(static_cast<std::uint16_t>(key >> 8U))) + " = " +
+                     hex_bytes(found->second));
     auto answer = frame;
     answer.id = 0x581;
     answer.data = {0x60, frame.data[1], frame.data[2], frame.data[3]};
@@ -94,7 +102,8 @@ class ScriptedDevice final : public can::Participant {
 inline const scenario::Catalogue& catalogue() {
   static const scenario::Catalogue loaded = [] {
     std::vector<std::string> problems;
-    auto out = scenario::Catalogue::load(std::string(CONFORM_SOURCE_DIR) + "/harness/engine/tests/suites", problems);
+    auto out =
+        scenario::Catalogue::load(std::string(CONFORM_SOURCE_DIR) + "/harness/engine/tests/suites", problems);
     CONFORM_CHECK(out.has_value() && problems.empty());
     return *out;
   }();
@@ -132,7 +141,8 @@ struct Outcome {
 };
 
 /// Runs `scenarios` against the device with node-ID 1 and short time-outs.
-inline Outcome play(can::SimulatedBus& bus, ScriptedDevice& device, const std::string& scenarios, RunOptions options = {},
+inline Outcome play(can::SimulatedBus& bus, ScriptedDevice& device, const std::string& scenarios,
+                    RunOptions options = {},
                     const device::Profile& profile = device::default_profile(NodeId(1))) {
   bus.attach(device, "scripted device");
   const auto suite = suite_of(scenarios);

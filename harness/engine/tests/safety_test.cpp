@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold whatever happens: values are put back, faults of the world are no verdicts, nothing is sent unasked.
+// What must hold whatever happens: values are put back, faults of the world are no verdicts, nothing is sent
+// unasked.
 #include <csignal>
 
 #include "bench.hpp"
@@ -60,8 +61,9 @@ TEST_CASE("a COB-ID is put back by switching it off, changing it and switching i
       - set_cob_id: {object: 1014h:00, to: 6A0h}
         checks: T-MUST
 )");
-  CHECK(device.writes == std::vector<std::string>{"1014h = 81 00 00 80", "1014h = A0 06 00 80", "1014h = A0 06 00 00",
-                                                  "1014h = A0 06 00 80", "1014h = 81 00 00 80", "1014h = 81 00 00 00"});
+  CHECK(device.writes == std::vector<std::string>{"1014h = 81 00 00 80", "1014h = A0 06 00 80",
+                                                  "1014h = A0 06 00 00", "1014h = A0 06 00 80",
+                                                  "1014h = 81 00 00 80", "1014h = 81 00 00 00"});
 }
 
 TEST_CASE("a download hidden in a conversation is put back as well") {
@@ -103,7 +105,8 @@ TEST_CASE("when nothing is heard every case is an error, none a failure, and the
   CHECK(result::exit_code(out.run) == 3);
 }
 
-TEST_CASE("a device that is there but answers no SDO request fails the basic rule, and nothing else is judged") {
+TEST_CASE(
+    "a device that is there but answers no SDO request fails the basic rule, and nothing else is judged") {
   ScriptedDevice device;
   device.before = [](ScriptedDevice&, const can::Frame&, BusTime) { return true; };
   const auto out = play(device, R"(
@@ -126,7 +129,8 @@ TEST_CASE("a device that is there but answers no SDO request fails the basic rul
   CHECK(result::exit_code(out.run) == 1);
 }
 
-TEST_CASE("a device whose SDO server stays dead after a request has failed that rule, and the rest is not judged") {
+TEST_CASE(
+    "a device whose SDO server stays dead after a request has failed that rule, and the rest is not judged") {
   ScriptedDevice device;
   bool dead = false;
   device.before = [&dead](ScriptedDevice&, const can::Frame& frame, BusTime) {
@@ -150,7 +154,8 @@ TEST_CASE("when the device vanishes half-way what was judged stays and the rest 
   ScriptedDevice device;
   device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
     // Gone with the second read of 1001h:00: discovery made the first.
-    const bool reads_1001 = frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && frame.data[3] == 0;
+    const bool reads_1001 =
+        frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && frame.data[3] == 0;
     if (reads_1001 && !self.writes.empty()) self.dead = true;
     if (reads_1001) self.writes.emplace_back("1001h was read");
     return self.dead;
@@ -242,7 +247,8 @@ TEST_CASE("a read-only run sends SDO uploads to the device and nothing else") {
   for (const auto& captured : out.capture.frames()) {
     if (captured.direction != can::Direction::transmitted) continue;
     CHECK(captured.frame.id == 0x601);
-    CHECK((captured.frame.data[0] == 0x40 || captured.frame.data[0] == 0x60 || captured.frame.data[0] == 0x70));
+    CHECK(
+        (captured.frame.data[0] == 0x40 || captured.frame.data[0] == 0x60 || captured.frame.data[0] == 0x70));
   }
   REQUIRE(out.run.cases.size() == 4);
   CHECK(out.run.cases[3].verdict == Verdict::not_applicable);
@@ -289,7 +295,8 @@ TEST_CASE("a stop request ends the run, puts values back and passes nothing unfi
         checks: T-OTHER
       - upload: {object: 1000h:00}
         checks: T-OTHER
-)", options);
+)",
+                        options);
   CHECK(out.run.signal == SIGINT);
   CHECK(result::exit_code(out.run) == 130);
   CHECK(out.only().verdict == Verdict::error);

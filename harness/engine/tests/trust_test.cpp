@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What would make a verdict or the device untrustworthy: half restores, dirty channels, blame for what was not reached.
+// What would make a verdict or the device untrustworthy: half restores, dirty channels, blame for what was
+// not reached.
 #include <csignal>
 
 #include "bench.hpp"
@@ -13,12 +14,14 @@ using result::Verdict;
 
 namespace {
 
-std::size_t count_of(const can::Capture& capture, const std::function<bool(const can::CapturedFrame&)>& match) {
+std::size_t count_of(const can::Capture& capture,
+                     const std::function<bool(const can::CapturedFrame&)>& match) {
   return static_cast<std::size_t>(std::ranges::count_if(capture.frames(), match));
 }
 
 bool is_abort_of_ours(const can::CapturedFrame& captured) {
-  return captured.direction == can::Direction::transmitted && captured.frame.id == 0x601 && captured.frame.data[0] == 0x80;
+  return captured.direction == can::Direction::transmitted && captured.frame.id == 0x601 &&
+         captured.frame.data[0] == 0x80;
 }
 
 /// A transport whose host is in trouble from the given request on.
@@ -35,6 +38,7 @@ class UnwellTransport final : public can::Transport {
   Result<std::optional<can::BusEvent>> receive(BusTime deadline) override { return inner_.receive(deadline); }
   can::BusHealth health() override { return health_; }
   can::TransportInfo info() const override { return inner_.info(); }
+
  private:
   can::Transport& inner_;
   std::uint8_t command_;
@@ -92,7 +96,8 @@ TEST_CASE("a stop request in the middle of restoring waits until the values are 
       - download: {object: 1017h:00, value: 1000}
       - upload: {object: 1000h:00}
         checks: T-MUST
-)", options);
+)",
+                        options);
   CHECK(stop == SIGINT);
   CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
   CHECK(out.run.signal == SIGINT);
@@ -118,7 +123,8 @@ TEST_CASE("a run stopped while the device is in Stopped puts values back all the
       - upload: {object: 1000h:00}
         checks: T-MUST
         expect: silence
-)", options);
+)",
+             options);
   CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
 }
 
@@ -144,7 +150,8 @@ TEST_CASE("a stopped case is cleaned up, because only the scenario knows what it
         checks: T-OTHER
     cleanup:
       - download: {object: 1010h:01, value: 1234 5678h}
-)", options);
+)",
+             options);
   CHECK(device.writes == std::vector<std::string>{"1010h = 73 61 76 65", "1010h = 78 56 34 12"});
 }
 
@@ -217,7 +224,8 @@ TEST_CASE("a conversation does not take a late answer for its own") {
 
 TEST_CASE("other nodes are commanded by scenarios of the highest risk only") {
   const auto commands_others = [](const can::CapturedFrame& captured) {
-    return captured.frame.id == 0 && captured.direction == can::Direction::transmitted && captured.frame.data[1] != 1;
+    return captured.frame.id == 0 && captured.direction == can::Direction::transmitted &&
+           captured.frame.data[1] != 1;
   };
   const std::string broadcast = R"(
     steps:
@@ -246,7 +254,8 @@ TEST_CASE("a session of read-only risk uploads and sends nothing else") {
   session.begin_case(scenario::Risk::read_only);
   const Multiplexer entry{Index(0x1017), SubIndex(0)};
   CHECK(session.upload(entry, std::nullopt).has_value());
-  CHECK_FALSE(session.download(entry, {1, 0}, canopen::SdoDownload::Mode::automatic, std::nullopt).has_value());
+  CHECK_FALSE(
+      session.download(entry, {1, 0}, canopen::SdoDownload::Mode::automatic, std::nullopt).has_value());
   CHECK_FALSE(session.is_writable(entry).has_value());
   CHECK_FALSE(session.nmt(canopen::NmtCommand::start).has_value());
   CHECK_FALSE(session.send(can::data_frame(CanId(0x080), {})).has_value());
@@ -341,7 +350,8 @@ TEST_CASE("a range too long to walk over is not walked in part") {
     title: t
     steps:
       - let: {none: 0}
-      - over: {value: [)" + range + R"(]}
+      - over: {value: [)" +
+           range + R"(]}
         steps:
           - upload: {object: 1000h:00}
             checks: T-MUST
@@ -384,7 +394,8 @@ TEST_CASE("a failure seen before the device vanished stays, what its silence see
   ScriptedDevice device;
   int reads = 0;
   device.before = [&reads](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 2) self.dead = true;
+    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 2)
+      self.dead = true;
     return self.dead;
   };
   const auto out = play(device, R"(
@@ -422,7 +433,8 @@ TEST_CASE("a device whose heartbeats go on has not vanished when its SDO server 
     steps:
       - upload: {object: 1001h:00}
         checks: T-MUST
-)", options);
+)",
+                        options);
   CHECK(out.verdict_of("T-MUST") == Verdict::fail);
   CHECK(out.run.aborted.has_value());
   CHECK(result::exit_code(out.run) == 1);
@@ -430,7 +442,9 @@ TEST_CASE("a device whose heartbeats go on has not vanished when its SDO server 
 
 TEST_CASE("silence about an entry is not absence, and excuses from nothing") {
   ScriptedDevice device;
-  device.before = [](ScriptedDevice&, const can::Frame& frame, BusTime) { return frame.data[1] == 0x45 && frame.data[2] == 0x23; };
+  device.before = [](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    return frame.data[1] == 0x45 && frame.data[2] == 0x23;
+  };
   const auto out = play(device, R"(
   - id: a
     title: t
@@ -491,7 +505,8 @@ TEST_CASE("a flooded bus ends the run before the memory does, and values are put
   ScriptedDevice device;
   bus.attach(device, "scripted device");
   Recorder recorder(bus.transport(), nullptr, 10);
-  for (int i = 0; i < 5; ++i) CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
+  for (int i = 0; i < 5; ++i)
+    CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
   const auto waited = recorder.wait_until(recorder.now() + 10ms);
   REQUIRE(waited.has_value() == (recorder.capture().size() < 10));
   const auto sent = recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0}));
@@ -508,7 +523,9 @@ TEST_CASE("a cyclic frame that the host sends late is told, the first one is not
     explicit LateTransport(can::Transport& inner) : inner_(inner) {}
     BusTime now() const override { return inner_.now(); }
     Result<void> send(const can::Frame& frame) override { return inner_.send(frame); }
-    Result<std::optional<can::BusEvent>> receive(BusTime deadline) override { return inner_.receive(deadline + late); }
+    Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+      return inner_.receive(deadline + late);
+    }
     can::BusHealth health() override { return inner_.health(); }
     can::TransportInfo info() const override { return inner_.info(); }
     Duration late{};

@@ -131,7 +131,8 @@ TEST_CASE("values walked over in one step are told in one finding that names the
 )");
   const auto& findings = out.only().judgements.front().findings;
   REQUIRE(findings.size() == 1);
-  CHECK(findings.front().actual.starts_with("5 of 5 values: 01h: confirmed; 02h: confirmed; 1F4h: confirmed"));
+  CHECK(
+      findings.front().actual.starts_with("5 of 5 values: 01h: confirmed; 02h: confirmed; 1F4h: confirmed"));
   CHECK(out.only().judgements.front().expectations == 5);
 }
 
@@ -227,7 +228,8 @@ TEST_CASE("the next conversation line sees frames that came before it was reache
   CHECK(out.verdict_of("T-MUST") == Verdict::pass);
 }
 
-// Seen on a real socket: a TPDO that left the device between two requests of the step before was called "too early".
+// Seen on a real socket: a TPDO that left the device between two requests of the step before was called "too
+// early".
 TEST_CASE("a frame that comes while the step before is still asking is in time") {
   ScriptedDevice device;
   device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {

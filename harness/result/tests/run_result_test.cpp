@@ -45,8 +45,8 @@ TEST_CASE("A planned case that never ran counts as an error") {
 }
 
 TEST_CASE("Counts add up to the number of cases") {
-  const RunResult run = run_of({Verdict::pass, Verdict::pass, Verdict::warn, Verdict::fail, Verdict::inconclusive,
-                                Verdict::not_applicable, Verdict::error});
+  const RunResult run = run_of({Verdict::pass, Verdict::pass, Verdict::warn, Verdict::fail,
+                                Verdict::inconclusive, Verdict::not_applicable, Verdict::error});
   const Counts counts = run.counts();
   CHECK(counts.pass == 2);
   CHECK(counts.warn == 1);
@@ -98,7 +98,8 @@ TEST_CASE("A run ended by a signal reports the signal") {
 
 TEST_CASE("A requirement is found by its id") {
   RunResult run;
-  run.requirements.push_back({"OD-1003-06", "CiA 301 v4.2.0, 7.5.2.4", "mandatory", "Error history", "Clearing."});
+  run.requirements.push_back(
+      {"OD-1003-06", "CiA 301 v4.2.0, 7.5.2.4", "mandatory", "Error history", "Clearing."});
   REQUIRE(run.requirement("OD-1003-06") != nullptr);
   CHECK(run.requirement("OD-1003-06")->clause == "CiA 301 v4.2.0, 7.5.2.4");
   CHECK(run.requirement("OD-1003-07") == nullptr);

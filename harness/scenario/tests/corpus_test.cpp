@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every file of corpus/bad with its complete diagnostics beside it, and every file of corpus/good with none. New expected
-// texts: canopen-conform lint --suites .. FILE, in corpus/bad, without the last line.
+// Every file of corpus/bad with its complete diagnostics beside it, and every file of corpus/good with none.
+// New expected texts: canopen-conform lint --suites .. FILE, in corpus/bad, without the last line.
 #include <algorithm>
 #include <filesystem>
 
@@ -32,7 +32,8 @@ std::vector<std::string> files_in(const std::string& folder) {
   return out;
 }
 
-std::string diagnostics_of(yaml::Document& document, const std::string& name, const scenario::Catalogue& known) {
+std::string diagnostics_of(yaml::Document& document, const std::string& name,
+                           const scenario::Catalogue& known) {
   if (document.root) {
     if (document.root->find("requirements") != nullptr) {
       (void)scenario::load_requirements(*document.root, document.diagnostics, name);
@@ -64,7 +65,8 @@ TEST_CASE("Every bad file gets exactly the diagnostics written beside it") {
     REQUIRE(document);
     const auto said = diagnostics_of(*document, "bad/" + file, known);
     CHECK(document->diagnostics.has_errors());
-    const auto expected = read_file(corpus + "/bad/" + file.substr(0, file.size() - 5) + ".txt", yaml::max_file_size);
+    const auto expected =
+        read_file(corpus + "/bad/" + file.substr(0, file.size() - 5) + ".txt", yaml::max_file_size);
     REQUIRE(expected);
     CHECK(said == *expected);
   }
@@ -103,12 +105,14 @@ TEST_CASE("A file that is too large is refused before it is read") {
 
 TEST_CASE("Deeply nested parentheses and negations end with a message, not with the stack") {
   for (const auto& text : {std::string(100'000, '('), std::string(100'000, '~'), std::string(999, '(')}) {
-    const auto said = diagnostics_of_text(scenario_of("      - download: {object: 1017h:00, value: \"" + text + "\"}\n"));
+    const auto said =
+        diagnostics_of_text(scenario_of("      - download: {object: 1017h:00, value: \"" + text + "\"}\n"));
     CHECK(said.find("error: ") != std::string::npos);
   }
   std::string negations;
   for (int i = 0; i < 20'000; ++i) negations += "not ";
-  CHECK(diagnostics_of_text(scenario_of("      - require: " + negations + "1003h is present\n")).find("error: ") != std::string::npos);
+  CHECK(diagnostics_of_text(scenario_of("      - require: " + negations + "1003h is present\n"))
+            .find("error: ") != std::string::npos);
 }
 
 TEST_CASE("Hundreds of mistakes are counted, but not all printed") {
@@ -122,7 +126,8 @@ TEST_CASE("Every prefix of a good file is read without a crash") {
   for (const auto& file : files_in("good")) {
     const auto text = read_file(corpus + "/good/" + file, yaml::max_file_size);
     REQUIRE(text);
-    for (std::size_t size = 0; size < text->size(); size += 7) (void)diagnostics_of_text(text->substr(0, size));
+    for (std::size_t size = 0; size < text->size(); size += 7)
+      (void)diagnostics_of_text(text->substr(0, size));
   }
 }
 

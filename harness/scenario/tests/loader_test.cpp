@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the loader makes of a file that has no mistakes, the catalogue with its aliases, and which scenarios a run takes.
+// What the loader makes of a file that has no mistakes, the catalogue with its aliases, and which scenarios a
+// run takes.
 #include "scenario/loader.hpp"
 
 #include "catch.hpp"
@@ -100,7 +101,8 @@ TEST_CASE("Every key of a scenario arrives in the model") {
 }
 
 TEST_CASE("Tiers of risk are words and back") {
-  for (const auto risk : {Risk::read_only, Risk::config, Risk::nvm, Risk::motion}) CHECK(parse_risk(to_string(risk)) == risk);
+  for (const auto risk : {Risk::read_only, Risk::config, Risk::nvm, Risk::motion})
+    CHECK(parse_risk(to_string(risk)) == risk);
   CHECK_FALSE(parse_risk("harmless"));
 }
 
@@ -135,7 +137,9 @@ TEST_CASE("A selection joins patterns, requirements and exclusions") {
   Scenario one;
   one.id = "cia301/nmt/states/stop";
   one.requirements = {"RULE-01"};
-  const auto takes = [&](Selection selection, std::string_view instance = "") { return selection.takes(one, instance, known); };
+  const auto takes = [&](Selection selection, std::string_view instance = "") {
+    return selection.takes(one, instance, known);
+  };
   CHECK(takes({}));
   CHECK(takes({{"cia301/nmt"}, {}, {}}));
   CHECK(takes({{"cia301/sdo", "*/stop"}, {}, {}}));

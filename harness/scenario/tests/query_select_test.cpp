@@ -37,7 +37,8 @@ device::Dictionary dictionary() {
   limited.low = Bytes{0x00, 0x80};
   limited.high = Bytes{0xFF, 0x00};
   limited.default_value = Bytes{0, 0};
-  limited.declared_default = limited.claimed = limited.pdo_mappable = limited.may_change = limited.safe = true;
+  limited.declared_default = limited.claimed = limited.pdo_mappable = limited.may_change = limited.safe =
+      true;
   out.add(limited);
   auto domain = entry(0x2001, 0, DataType::domain, Access::wo);
   domain.command = true;

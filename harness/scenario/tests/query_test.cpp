@@ -24,7 +24,8 @@ TEST_CASE("A query may ask for an exact number of bytes") {
 }
 
 TEST_CASE("A query that does not say how many bytes an entry holds is refused") {
-  for (const char* text : {"entries with holding bytes", "entries with holding 9..3 bytes", "entries with holding 4"}) {
+  for (const char* text :
+       {"entries with holding bytes", "entries with holding 9..3 bytes", "entries with holding 4"}) {
     const auto query = Query::parse(text);
     REQUIRE_FALSE(query.has_value());
     CHECK(query.error().what.find("holding") != std::string::npos);

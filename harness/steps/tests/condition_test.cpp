@@ -38,14 +38,16 @@ FakeSession device() {
 TEST_CASE("Conditions about an entry ask the device and its description") {
   auto session = device();
   for (const char* text :
-       {"1003h is present", "object 1003h is present", "1003h:00 is present", "1010h is absent", "1010h is not present",
-        "object 1010h is absent", "1003h is claimed", "1010h is not claimed", "1003h:00 is readable", "1003h:00 is writable",
-        "1005h:00 is not writable", "1003h:00 is rw", "1003h:00 is not const", "$object may change by itself", "$object may change",
+       {"1003h is present", "object 1003h is present", "1003h:00 is present", "1010h is absent",
+        "1010h is not present", "object 1010h is absent", "1003h is claimed", "1010h is not claimed",
+        "1003h:00 is readable", "1003h:00 is writable", "1005h:00 is not writable", "1003h:00 is rw",
+        "1003h:00 is not const", "$object may change by itself", "$object may change",
         "1003h:00 has a default", "$object is present"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
-  for (const char* text : {"1003h:01 is present", "1003h is absent", "1005h:00 is rw", "1005h:00 has a default"}) {
+  for (const char* text :
+       {"1003h:01 is present", "1003h is absent", "1005h:00 is rw", "1005h:00 has a default"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "no");
   }
@@ -53,10 +55,11 @@ TEST_CASE("Conditions about an entry ask the device and its description") {
 
 TEST_CASE("Comparisons are written in words or signs") {
   auto session = device();
-  for (const char* text : {"value of 1003h:00 is 2", "value of 1003h:00 is not 0", "value of 1003h:00 is at least 2",
-                           "value of 1003h:00 is at most 2", "$count is above 2", "$count is below 4", "bit 30 of 1005h:00 is 1",
-                           "$count = 3", "$count >= 3", "$count <= 3", "$count > 2", "$count < 4", "($count & 1) is 1",
-                           "$count + 1 is 4", "value of 1003h:00 is default of 1003h:00 + 2"}) {
+  for (const char* text :
+       {"value of 1003h:00 is 2", "value of 1003h:00 is not 0", "value of 1003h:00 is at least 2",
+        "value of 1003h:00 is at most 2", "$count is above 2", "$count is below 4", "bit 30 of 1005h:00 is 1",
+        "$count = 3", "$count >= 3", "$count <= 3", "$count > 2", "$count < 4", "($count & 1) is 1",
+        "$count + 1 is 4", "value of 1003h:00 is default of 1003h:00 + 2"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -66,9 +69,11 @@ TEST_CASE("Comparisons are written in words or signs") {
 
 TEST_CASE("Conditions about device and bench are phrases") {
   auto session = device();
-  for (const char* text : {"device claims sync producer", "error trigger is known", "an error trigger is known", "2 error triggers are known",
-                           "not device claims emcy", "not interface can send RTR", "not factory defaults are active",
-                           "not device description is given", "not all objects are tried", "not store fault is known"}) {
+  for (const char* text :
+       {"device claims sync producer", "error trigger is known", "an error trigger is known",
+        "2 error triggers are known", "not device claims emcy", "not interface can send RTR",
+        "not factory defaults are active", "not device description is given", "not all objects are tried",
+        "not store fault is known"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -94,8 +99,10 @@ TEST_CASE("'and' binds before 'or', and parentheses before both") {
 TEST_CASE("A condition that cannot be read says why") {
   auto session = device();
   CHECK(answer("", session) == "refused: a value is missing");
-  CHECK(answer("object 1003h is presemt", session) == "refused: unknown property 'presemt' (did you mean 'present'?)");
-  CHECK(answer("object 1003h", session) == "refused: 'object' must be followed by an object and 'is present', 'is writable', ...");
+  CHECK(answer("object 1003h is presemt", session) ==
+        "refused: unknown property 'presemt' (did you mean 'present'?)");
+  CHECK(answer("object 1003h", session) ==
+        "refused: 'object' must be followed by an object and 'is present', 'is writable', ...");
   CHECK(answer("device claims hartbeat producer", session) ==
         "refused: unknown feature 'hartbeat producer' (did you mean 'heartbeat producer'?)");
   CHECK(answer("1003h is present 1014h is present", session) ==
@@ -120,7 +127,8 @@ TEST_CASE("A condition tells its names and whether its answer may write") {
 
 TEST_CASE("Every form of the reference page can be read") {
   for (const auto form : condition_forms()) {
-    if (form.find(" A") != std::string_view::npos || form.front() == 'A') continue;  // "A and B, ..." is about joining
+    if (form.find(" A") != std::string_view::npos || form.front() == 'A')
+      continue;  // "A and B, ..." is about joining
     CAPTURE(std::string(form));
     CHECK(Condition::parse(form));
   }

@@ -25,13 +25,15 @@ std::string problem(std::string_view text) {
   (void)parse_conversation(text, problems);
   REQUIRE(problems.size() == 1);
   const auto& only = problems.front();
-  return std::to_string(only.line) + ":" + std::to_string(only.column) + "+" + std::to_string(only.length) + " " + only.what;
+  return std::to_string(only.line) + ":" + std::to_string(only.column) + "+" + std::to_string(only.length) +
+         " " + only.what;
 }
 
 std::string built(std::string_view text, FakeSession& session) {
   const auto frame = build_frame(line(text), session, name_entry);
   if (!frame) return "error: " + frame.error().what;
-  return to_string(CanId(frame->id)) + (frame->remote ? " RTR" : "") + (frame->extended ? " EXT" : "") + " " + hex_bytes(frame->bytes());
+  return to_string(CanId(frame->id)) + (frame->remote ? " RTR" : "") + (frame->extended ? " EXT" : "") + " " +
+         hex_bytes(frame->bytes());
 }
 
 Comparison compared(std::string_view text, const Bytes& bytes, FakeSession& session) {
@@ -44,7 +46,8 @@ Comparison compared(std::string_view text, const Bytes& bytes) {
 
 TEST_CASE("Lines are sent, must come, or ask for silence") {
   std::vector<Problem> problems;
-  const auto lines = parse_conversation("> 600+N: 40 {m} ..   # upload\n\n< 7E5h: xx within 200 ms\nsilence 580+N for T_QUIET\n", problems);
+  const auto lines = parse_conversation(
+      "> 600+N: 40 {m} ..   # upload\n\n< 7E5h: xx within 200 ms\nsilence 580+N for T_QUIET\n", problems);
   REQUIRE(problems.empty());
   REQUIRE(lines.size() == 3);
   CHECK(lines[0].kind == Line::Kind::send);
@@ -56,7 +59,8 @@ TEST_CASE("Lines are sent, must come, or ask for silence") {
   CHECK(lines[1].time->text() == "200 ms");
   CHECK(lines[1].number == 2);
   CHECK(lines[2].kind == Line::Kind::silence);
-  CHECK(lines[2].time->resolve(device::default_profile(NodeId(5))) == device::default_profile(NodeId(5)).quiet_time);
+  CHECK(lines[2].time->resolve(device::default_profile(NodeId(5))) ==
+        device::default_profile(NodeId(5)).quiet_time);
 }
 
 TEST_CASE("A line to send becomes a frame") {
@@ -86,7 +90,8 @@ TEST_CASE("Bytes that came are compared one after the other, and the first wrong
   CHECK(compared("< 580+N: 41 ..", {0x41, 1, 2, 3}).equal);
   CHECK(compared("< 580+N: N", {5}).equal);
   CHECK(compared("< 580+N: N", {6}).reason == "byte 0 is not the node-ID");
-  CHECK(compared("< 580+N: 41 {m} ..", {0x41, 0x09, 0x10, 0}).reason == "the multiplexer is not that of 1008h:00");
+  CHECK(compared("< 580+N: 41 {m} ..", {0x41, 0x09, 0x10, 0}).reason ==
+        "the multiplexer is not that of 1008h:00");
 }
 
 TEST_CASE("A frame that is too short or too long is wrong where it ends") {

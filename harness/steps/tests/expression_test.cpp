@@ -86,8 +86,10 @@ TEST_CASE("What is no expression is refused with the word that is wrong") {
   CHECK(worth("(1") == "refused: ')' is missing");
   CHECK(worth("1 2") == "refused: '2' is not expected here");
   CHECK(worth("$") == "refused: a name is missing after '$'");
-  CHECK(worth("010") == "refused: '010' is not a number, a $name, N or current (write 17, 1Fh, 0x1F or 0609 0030h)");
-  CHECK(worth("many") == "refused: 'many' is not a number, a $name, N or current (write 17, 1Fh, 0x1F or 0609 0030h)");
+  CHECK(worth("010") ==
+        "refused: '010' is not a number, a $name, N or current (write 17, 1Fh, 0x1F or 0609 0030h)");
+  CHECK(worth("many") ==
+        "refused: 'many' is not a number, a $name, N or current (write 17, 1Fh, 0x1F or 0609 0030h)");
   CHECK(worth("bit 64 of 1005h:00") == "refused: 'bit' needs a number from 0 to 63");
   CHECK(worth("value of") == "refused: '' is not an object (write 1003h:00, $object or 1003h:$count)");
   CHECK(worth(std::string(2000, '(')) == "refused: a text of 2000 characters (write at most 1000)");
@@ -107,7 +109,8 @@ TEST_CASE("Names, the current value and entries are looked up when the expressio
   CHECK(worth("bit 1 of 1003h:00", session) == "01h");
   CHECK(worth("bit 0 of 1003h:00", session) == "00h");
   CHECK(worth("$name", session) == "41 41 41 41 41 41 41 41 41");
-  CHECK(worth("$name + 1", session) == "error: '41 41 41 41 41 41 41 41 41' is not a number of up to 64 bits");
+  CHECK(worth("$name + 1", session) ==
+        "error: '41 41 41 41 41 41 41 41 41' is not a number of up to 64 bits");
   CHECK(worth("$other", session) == "error: $other has no value here");
   CHECK(worth("value of 1001h:00", session) == "error: 1001h:00 cannot be read");
   CHECK(worth("low limit of 1003h:00", session) == "error: nothing is known of 1003h:00");
@@ -144,8 +147,10 @@ TEST_CASE("Objects are written out or named, with sub-indices in hexadecimal or 
   CHECK(object("1018h:$big", session) == "error: sub-index 256 is above FFh");
   CHECK(object("$big", session) == "0100h:00");
   CHECK(object("$other", session) == "error: $other has no value here");
-  CHECK(object("1003", session) == "refused: '1003' is not an object (write 1003h:00, $object or 1003h:$count)");
-  CHECK(object("1003h:100", session) == "refused: '100' is not a sub-index (write two hexadecimal digits: 1003h:0A)");
+  CHECK(object("1003", session) ==
+        "refused: '1003' is not an object (write 1003h:00, $object or 1003h:$count)");
+  CHECK(object("1003h:100", session) ==
+        "refused: '100' is not a sub-index (write two hexadecimal digits: 1003h:0A)");
   CHECK(object("$:1", session) == "refused: a name is missing after '$'");
   CHECK(ObjectReference::parse("1003h:00")->literal() == error_count);
   CHECK_FALSE(ObjectReference::parse("$object")->literal());
@@ -154,7 +159,9 @@ TEST_CASE("Objects are written out or named, with sub-indices in hexadecimal or 
 TEST_CASE("A range includes its ends, and either may be open") {
   FakeSession session;
   session.names["most"] = Value::of_number(10);
-  const auto holds = [&](std::string_view text, std::uint64_t value) { return *Range::parse(text)->holds(value, session); };
+  const auto holds = [&](std::string_view text, std::uint64_t value) {
+    return *Range::parse(text)->holds(value, session);
+  };
   CHECK(holds("1..240", 1));
   CHECK(holds("1..240", 240));
   CHECK_FALSE(holds("1..240", 0));

@@ -43,7 +43,8 @@ class FakeSession final : public Session {
   }
   [[nodiscard]] Result<Value> declared(Multiplexer object, Declared what) override {
     const auto found = defaults.find(object);
-    if (what != Declared::default_value || found == defaults.end()) return fail("nothing is known of " + to_string(object));
+    if (what != Declared::default_value || found == defaults.end())
+      return fail("nothing is known of " + to_string(object));
     return Value::of_bytes(found->second);
   }
 
@@ -82,8 +83,11 @@ class FakeSession final : public Session {
   [[nodiscard]] const device::Dictionary& dictionary() const override { return known; }
   [[nodiscard]] const can::Capture& capture() const override { return trace; }
   [[nodiscard]] BusTime now() const override { return time; }
-  [[nodiscard]] Result<SdoAnswer> upload(Multiplexer, std::optional<Duration>) override { return fail("no bus"); }
-  [[nodiscard]] Result<SdoAnswer> download(Multiplexer, Bytes, canopen::SdoDownload::Mode, std::optional<Duration>) override {
+  [[nodiscard]] Result<SdoAnswer> upload(Multiplexer, std::optional<Duration>) override {
+    return fail("no bus");
+  }
+  [[nodiscard]] Result<SdoAnswer> download(Multiplexer, Bytes, canopen::SdoDownload::Mode,
+                                           std::optional<Duration>) override {
     return fail("no bus");
   }
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer) const override { return std::nullopt; }
@@ -95,7 +99,8 @@ class FakeSession final : public Session {
   [[nodiscard]] Result<void> will_change(Multiplexer) override { return {}; }
   void sdo_channel_dirty() override {}
   void sdo_answer_may_be_late() override {}
-  [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match, BusTime deadline) override {
+  [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match,
+                                                              BusTime deadline) override {
     for (auto i = from; i < trace.size(); ++i) {
       if (trace.frames()[i].time <= deadline && match(trace.frames()[i])) return std::optional(i);
     }
@@ -112,7 +117,9 @@ class FakeSession final : public Session {
   void consume(std::size_t index) override { used_ = std::min(index + 1, trace.size()); }
   [[nodiscard]] CanId emcy_can_id() const override { return CanId(0x85); }
   void label(std::string_view, std::size_t) override {}
-  void set(std::string name, Value value) override { names.insert_or_assign(std::move(name), std::move(value)); }
+  void set(std::string name, Value value) override {
+    names.insert_or_assign(std::move(name), std::move(value));
+  }
   void produce(Production) override {}
   void stop_producing(std::string_view) override {}
   void device_was_reset(bool) override {}

@@ -70,17 +70,18 @@ bool fits(const std::string& text, const Actual& actual) {
 TEST_CASE("A misspelt outcome is named at its place, with what was meant") {
   std::string said;
   (void)read("{abbort: 0609 0030h}", said);
-  CHECK(said ==
-        "x.yaml:1:10: error: unknown outcome 'abbort'; did you mean 'abort'?\n"
-        "    1 | expect: {abbort: 0609 0030h}\n"
-        "      |          ^~~~~~\n");
+  CHECK(said == "x.yaml:1:10: error: unknown outcome 'abbort'; did you mean 'abort'?\n"
+                "    1 | expect: {abbort: 0609 0030h}\n"
+                "      |          ^~~~~~\n");
   CHECK(mistake("unchangd") == "unknown outcome 'unchangd'; did you mean 'unchanged'?");
   CHECK(mistake("abort") == "'abort' needs a code; write abort 0609 0030h, or abort any");
   CHECK(mistake("abort 0609 0031") == "'0609 0031' is not an abort code; write 0609 0030h, or any");
-  CHECK(mistake("abort 0609 0099h") == "abort code 0609 0099h is reserved in CiA 301; see the table of abort codes, 7.2.4.3.17");
+  CHECK(mistake("abort 0609 0099h") ==
+        "abort code 0609 0099h is reserved in CiA 301; see the table of abort codes, 7.2.4.3.17");
   CHECK(mistake("{value: $befor}") == "unknown name $befor; did you mean $before?");
   CHECK(mistake("{count: 9-11}") == "'9-11' is not a range; write 9..11, 90 ms..110 ms or 10");
-  CHECK(mistake("{size: small..}") == "'small' is not a number, a $name, N or current; write 4, 1.. or declared");
+  CHECK(mistake("{size: small..}") ==
+        "'small' is not a number, a $name, N or current; write 4, 1.. or declared");
 }
 
 TEST_CASE("Words match how a transfer ended") {
@@ -153,7 +154,9 @@ TEST_CASE("What is unchanged needs something to compare with") {
 TEST_CASE("Outcomes say in words what was due, in the notation of the entry") {
   FakeSession session;
   session.names["before"] = Value::of_bytes({0xE8, 0x03});
-  const auto words = [&](const std::string& text) { return read(text).front().words(session, canopen::DataType::unsigned16); };
+  const auto words = [&](const std::string& text) {
+    return read(text).front().words(session, canopen::DataType::unsigned16);
+  };
   CHECK(words("ok") == "success");
   CHECK(words("silence") == "no answer");
   CHECK(words("unchanged") == "the value it had before");
@@ -165,7 +168,8 @@ TEST_CASE("Outcomes say in words what was due, in the notation of the entry") {
   CHECK(words("{value: $before}").find("03E8h") != std::string::npos);
 }
 
-TEST_CASE("A graded set passes what is listed, warns and fails what is named, and takes the rest by the level") {
+TEST_CASE(
+    "A graded set passes what is listed, warns and fails what is named, and takes the rest by the level") {
   FakeSession session;
   Expectation expectation;
   expectation.pass = read("abort 0609 0030h");
