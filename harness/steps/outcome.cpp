@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
+#include "steps/step.hpp"
 
 namespace conform::steps {
 namespace {
@@ -140,28 +141,6 @@ bool parse_abort(std::string_view text, const yaml::Field& field, std::vector<Ou
   return true;
 }
 
-void check_names(const std::vector<std::string>& used, const yaml::Field& field, const NameCheck& names) {
-  for (const auto& name : used) {
-    if (name.starts_with("profile.") || std::ranges::find(names, name) != names.end()) continue;
-    std::vector<std::string_view> known(names.begin(), names.end());
-    const auto near = did_you_mean(name, known);
-    field.error("unknown name $" + name, near.empty() ? "names come from save, for_each, over and let"
-                                                      : "did you mean $" + std::string(near) + "?");
-  }
-}
-
-std::optional<Expression> read_expression(const yaml::Field& field, const NameCheck& names) {
-  const auto text = field.text();
-  if (!text) return std::nullopt;
-  auto expression = Expression::parse(*text);
-  if (!expression) {
-    field.error(expression.error().what, expression.error().hint);
-    return std::nullopt;
-  }
-  check_names(expression->names(), field, names);
-  return *expression;
-}
-
 /// "9..11", "90 ms..110 ms", "10": bounds of a measurement, times in nanoseconds.
 std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::Field& field) {
   const auto text = field.text();
@@ -232,9 +211,9 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
   const auto mask = fields.optional("mask");
   if (const auto value = fields.optional("value")) {
     Demand demand;
-    if (auto expression = read_expression(value, names)) demand.value = *expression;
+    if (auto expression = parse_expression_at(value, names)) demand.value = *expression;
     if (mask) {
-      if (auto expression = read_expression(mask, names)) demand.mask = *expression;
+      if (auto expression = parse_expression_at(mask, names)) demand.mask = *expression;
     }
     if (!demand.value.empty()) add(demand, "");
   } else if (mask) {
@@ -244,7 +223,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
     Demand demand;
     demand.kind = Demand::Kind::one_of;
     for (const auto& item : one_of.items()) {
-      if (auto expression = read_expression(item, names)) demand.values.push_back(*expression);
+      if (auto expression = parse_expression_at(item, names)) demand.values.push_back(*expression);
     }
     add(demand, "");
   }
@@ -254,8 +233,8 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
       if (!parsed) {
         range.error(parsed.error().what, parsed.error().hint);
       } else {
-        check_names(parsed->low.names(), range, names);
-        check_names(parsed->high.names(), range, names);
+        report_unknown_names(parsed->low.names(), range, names);
+        report_unknown_names(parsed->high.names(), range, names);
         Demand demand;
         demand.kind = Demand::Kind::range;
         demand.range = *parsed;

@@ -113,6 +113,10 @@ struct Verb {
 /// Ids at `checks`; "$name" stands for a word of the instance's row.
 [[nodiscard]] std::vector<std::string> parse_checks(const yaml::Field& field, const ParseContext& context);
 
+/// Names used at a field that nothing before it has given, with what was probably meant.
+void report_unknown_names(const std::vector<std::string>& used, const yaml::Field& field,
+                          const NameCheck& names);
+
 /// Reads an expression, an object or a condition at a field and reports what is wrong, unknown names
 /// included.
 [[nodiscard]] std::optional<Expression> parse_expression_at(const yaml::Field& field, const NameCheck& names);

@@ -12,17 +12,6 @@ namespace {
 constexpr std::string_view common_keys[] = {"checks", "expect", "warn",   "fail",  "as",
                                             "when",   "unless", "either", "steps", "note"};
 
-void report_unknown_names(const std::vector<std::string>& used, const yaml::Field& field,
-                          const NameCheck& names) {
-  for (const auto& name : used) {
-    if (name.starts_with("profile.") || std::ranges::find(names, name) != names.end()) continue;
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    const auto near = did_you_mean(name, known);
-    field.error("unknown name $" + name, near.empty() ? "names come from save, for_each, over and let"
-                                                      : "did you mean $" + std::string(near) + "?");
-  }
-}
-
 std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) {
   Walk walk;
   if (!value.node()->is_mapping() || value.node()->entries().size() != 1) {
@@ -252,74 +241,6 @@ std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context) {
   for (const auto& item : list.items()) {
     if (auto step = parse_step(item, context)) out.push_back(std::move(*step));
   }
-  return out;
-}
-
-std::optional<Expression> parse_expression_at(const yaml::Field& field, const NameCheck& names) {
-  const auto text = field.text();
-  if (!text) return std::nullopt;
-  auto expression = Expression::parse(*text);
-  if (!expression) {
-    field.error(expression.error().what, expression.error().hint);
-    return std::nullopt;
-  }
-  report_unknown_names(expression->names(), field, names);
-  return *expression;
-}
-
-std::optional<ObjectReference> parse_object_at(const yaml::Field& field, const NameCheck& names) {
-  const auto text = field.text();
-  if (!text) return std::nullopt;
-  auto object = ObjectReference::parse(*text);
-  if (!object) {
-    field.error(object.error().what, object.error().hint);
-    return std::nullopt;
-  }
-  report_unknown_names(object->names(), field, names);
-  return *object;
-}
-
-std::optional<Condition> parse_condition_at(const yaml::Field& field, const NameCheck& names) {
-  const auto text = field.text();
-  if (!text) return std::nullopt;
-  auto condition = Condition::parse(*text);
-  if (!condition) {
-    field.error(condition.error().what, condition.error().hint);
-    return std::nullopt;
-  }
-  report_unknown_names(condition->names(), field, names);
-  return *condition;
-}
-
-Duration TimeReference::resolve(const device::Profile& profile) const {
-  return profile_name.empty() ? fixed : profile.duration(profile_name).value_or(fixed);
-}
-
-std::string TimeReference::text() const {
-  return profile_name.empty() ? to_string(fixed) : "$profile." + profile_name;
-}
-
-std::optional<TimeReference> parse_time_at(const yaml::Field& field) {
-  const auto text = field.text();
-  if (!text) return std::nullopt;
-  TimeReference out;
-  const auto name =
-      text->starts_with("$profile.") ? text->substr(9) : (text->starts_with("T_") ? *text : std::string());
-  if (!name.empty()) {
-    if (!device::Profile{}.duration(name)) {
-      field.error("unknown time '" + *text + "'",
-                  "$profile.boot_time, $profile.sdo_timeout, $profile.store_timeout, T_QUIET, ...");
-      return std::nullopt;
-    }
-    out.profile_name = name;
-    return out;
-  }
-  const auto time = parse_duration(*text);
-  if (!time) {
-    field.error("'" + *text + "' is not a duration", "write 100 ms, 1.5 s or $profile.boot_time");
-    return std::nullopt;
-  }
-  out.fixed = *time;
   return out;
 }
 
