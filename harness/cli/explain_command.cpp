@@ -45,10 +45,11 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   out += scenarios.empty() ? "\n  No scenario decides it yet.\n" : "\n  Decided by\n" + scenarios;
   std::string defects;
   for (const auto& defect : refnode::defects()) {
-    for (const auto id : defect.violates) {
-      if (suites.catalogue.canonical(id) == requirement.id)
-        defects += fmt::format("    {}: {}\n", defect.id, defect.summary);
-    }
+    // Several of the ids a row names may be one rule by now.
+    const bool violates = std::ranges::any_of(defect.violates, [&](std::string_view id) {
+      return suites.catalogue.canonical(id) == requirement.id;
+    });
+    if (violates) defects += fmt::format("    {}: {}\n", defect.id, defect.summary);
   }
   if (!defects.empty()) out += "\n  Defects of the reference node that violate it\n" + defects;
   return out;
