@@ -58,6 +58,7 @@ struct Entry {
   bool claimed = false;     ///< the EDS or the profile says that it is there
   bool declared_default = false;  ///< the default is the description's, not only the standard's
   bool safe = false;              ///< the profile allows tests to write it
+  bool untouchable = false;       ///< the profile forbids every write to it
 
   [[nodiscard]] Presence presence() const {
     if (category == Category::mandatory) return Presence::claimed_mandatory;

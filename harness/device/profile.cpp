@@ -104,6 +104,9 @@ Dictionary dictionary_of(const Profile& profile) {
   for (const Multiplexer mux : profile.safe_objects) {
     if (Entry* entry = dictionary.find(mux)) entry->safe = !profile.is_untouchable(mux);
   }
+  for (const Multiplexer mux : profile.untouchable) {
+    if (Entry* entry = dictionary.find(mux)) entry->untouchable = true;
+  }
   return dictionary;
 }
 

@@ -51,6 +51,13 @@ std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device
   } else {
     const auto query = scenario::Query::parse(scenario.for_each->query);
     auto objects = query ? query->select(dictionary) : std::vector<Multiplexer>();
+    // What the profile forbids to write is left out of every walk that may write.
+    if (scenario.risk > scenario::Risk::read_only) {
+      std::erase_if(objects, [&dictionary](Multiplexer object) {
+        const auto* entry = dictionary.find(object);
+        return entry != nullptr && entry->untouchable;
+      });
+    }
     if (objects.empty()) add("").not_applicable = "the device has no " + scenario.for_each->query;
     if (scenario.sample > 0 && !options.all_objects)
       objects = sample(std::move(objects), scenario.sample, options.seed);

@@ -125,6 +125,7 @@ Result<bool> RunSession::is_readable(Multiplexer object) {
 }
 
 Result<bool> RunSession::is_writable(Multiplexer object) {
+  if (profile_.is_untouchable(object)) return false;
   auto present = is_present(object, false);
   if (!present || !*present) return present;
   const auto* found = entry(object);
@@ -196,6 +197,9 @@ Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Du
 }
 
 Result<void> RunSession::will_change(Multiplexer object) {
+  if (profile_.is_untouchable(object)) {
+    return fail(to_string(object) + " must not be written: untouchable in the device profile", "scenario");
+  }
   const auto* found = entry(object);
   if (found != nullptr && !found->readable()) return {};
   // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is

@@ -51,6 +51,35 @@ TEST_CASE("a changed value is put back after the case") {
   CHECK(out.run.notes.empty());
 }
 
+TEST_CASE("an entry the profile calls untouchable is never written, whatever a scenario says") {
+  auto profile = device::default_profile(NodeId(1));
+  profile.untouchable.push_back({Index(0x1017), SubIndex(0)});
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  const auto out = play(bus, device, change_1017 + R"(
+  - id: walk
+    title: t
+    risk: config
+    for_each: {entry: entries with index 1017h}
+    steps:
+      - download: {object: $entry, value: 5}
+        checks: T-MUST
+  - id: condition
+    title: t
+    risk: config
+    when: 1017h:00 is writable
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+)",
+                        {}, profile);
+  CHECK(device.writes.empty());
+  REQUIRE(out.run.cases.size() == 3);
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[1].verdict == Verdict::not_applicable);
+  CHECK(out.run.cases[2].verdict == Verdict::not_applicable);
+}
+
 TEST_CASE("a COB-ID is put back by switching it off, changing it and switching it on") {
   ScriptedDevice device;
   (void)play(device, R"(
