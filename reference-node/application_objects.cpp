@@ -36,7 +36,7 @@ void add_channels(Device& device, std::uint16_t inputs, std::uint16_t outputs, s
 
 }  // namespace
 
-void add_application_objects(Device& device, std::function<void()> changed) {
+void add_application_objects(Device& device, const std::function<void()>& changed) {
   ObjectDictionary& od = device.dictionary;
   add_channels(device, digital_inputs, digital_outputs, digital_channels, DataType::unsigned8, changed);
   add_channels(device, analog_inputs, analog_outputs, analog_channels, DataType::integer16, changed);

@@ -10,7 +10,7 @@
 namespace refnode {
 
 /// `changed` is called after an output, and with it an input, has a new value.
-void add_application_objects(Device& device, std::function<void()> changed);
+void add_application_objects(Device& device, const std::function<void()>& changed);
 /// Copies all outputs to the inputs, after power-on values have been loaded.
 void mirror_outputs(ObjectDictionary& dictionary);
 

@@ -136,8 +136,8 @@ Accepted PdoParameters::check_mapping_count(ByteView bytes) const {
     return fault.mapping_count_unchecked ? Accepted{} : refuse(abort_code::mapping_too_long);
   }
   std::size_t bits = 0;
-  for (std::uint8_t sub = 1; sub <= count; ++sub) {
-    const std::uint64_t value = device_->dictionary.number(mapping_, sub);
+  for (std::uint64_t entry = 1; entry <= count; ++entry) {
+    const std::uint64_t value = device_->dictionary.number(mapping_, static_cast<std::uint8_t>(entry));
     if (value == 0) return refuse(abort_code::not_mappable);
     if (const Accepted good = mappable(unpack(value)); !good) return good;
     bits += unpack(value).bits;

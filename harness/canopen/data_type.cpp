@@ -296,7 +296,7 @@ Result<Bytes> encode_integer(DataType type, std::uint64_t value) {
 std::string print(DataType type, ByteView bytes) {
   const Row& row = row_of(type);
   if (row.size != 0 && bytes.size() != row.size) {
-    const std::string remark = fmt::format("({}, {} has {})", count_of(bytes.size()), row.name, row.size);
+    std::string remark = fmt::format("({}, {} has {})", count_of(bytes.size()), row.name, row.size);
     if (bytes.empty()) return remark;
     return hex_bytes(bytes.first(std::min(bytes.size(), max_printed))) +
            (bytes.size() > max_printed ? " .. " : " ") + remark;

@@ -174,7 +174,7 @@ class Reader {
   /// Like Field::one_of, but without printing thirty words.
   static std::optional<std::string> one_feature(const Field& item,
                                                 const std::vector<std::string_view>& words) {
-    const auto word = item.text();
+    auto word = item.text();
     if (!word) return std::nullopt;
     if (is_feature(*word)) return word;
     std::string hint = yaml::suggestion(*word, words);

@@ -24,8 +24,10 @@ class CaseRunner {
   [[nodiscard]] Result<void> run(const PlannedCase& planned, result::CaseResult& out);
   /// Whether the last case came as far as its steps, so that there is something to clean up.
   [[nodiscard]] bool entered_steps() const { return entered_steps_; }
-  /// The cleanup of a case that was stopped; faults end it.
-  void clean_up(const scenario::Scenario& scenario) { (void)run_cleanup(scenario.cleanup); }
+  /// The cleanup of a case that was stopped; a fault of the environment ends it.
+  [[nodiscard]] Result<void> clean_up(const scenario::Scenario& scenario) {
+    return run_cleanup(scenario.cleanup);
+  }
 
  private:
   enum class Flow : std::uint8_t { go_on, stop };

@@ -392,7 +392,11 @@ class Run {
       out_.notes.push_back("the SDO channel may not be idle: " + idle.error().text());
     }
     // What is stored in the device only the scenario can put back.
-    if (planned != nullptr) runner_.clean_up(*planned->scenario);
+    if (planned != nullptr) {
+      if (auto done = runner_.clean_up(*planned->scenario); !done) {
+        out_.notes.push_back("the cleanup of the stopped case did not end: " + done.error().text());
+      }
+    }
     // First the state: in Stopped no SDO would be answered.
     leave_pre_operational_behind();
     auto changes = session_.take_journal();

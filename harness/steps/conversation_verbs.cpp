@@ -96,7 +96,7 @@ class Talk final : public Action {
       const auto frame = session.capture().frames()[**found].frame;
       auto compared = compare(line, frame, session, *object);
       session.consume(**found);
-      out.decisive = **found;
+      out.decisive = *found;
       if (!compared.equal) return mismatch(session, line, **found, compared.reason, compared.first_wrong);
       for (auto& remark : compared.tolerated) out.tolerated.push_back(std::move(remark));
       for (auto& [name, bytes] : compared.names) session.set(name, Value::of_bytes(std::move(bytes)));

@@ -180,7 +180,7 @@ class Produce final : public Action {
         },
         session.now() + std::chrono::milliseconds(500));
     if (!echo) return std::unexpected(echo.error());
-    if (*echo) out.decisive = **echo;
+    if (*echo) out.decisive = *echo;
     return out;
   }
 

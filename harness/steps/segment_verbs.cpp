@@ -120,7 +120,7 @@ class Segments final : public Action {
       return std::optional<Bytes>();
     }
     session.consume(**found);
-    out.decisive = **found;
+    out.decisive = *found;
     const auto bytes = session.capture().frames()[**found].frame.bytes();
     if (const auto abort = canopen::decode_abort(bytes)) {
       out.kind = Actual::Kind::aborted;

@@ -19,7 +19,7 @@ DictionaryEdit type_entry(std::uint16_t index, std::uint64_t bits, Access access
 }
 
 /// A complex data type entry with the types of its elements.
-DictionaryEdit structure(std::uint16_t index, std::uint64_t count, std::vector<std::uint16_t> elements,
+DictionaryEdit structure(std::uint16_t index, std::uint64_t count, const std::vector<std::uint16_t>& elements,
                          DataType coding = u16) {
   return [=](ObjectDictionary& od, std::uint8_t) {
     auto& entries = od.objects()[index].entries;
