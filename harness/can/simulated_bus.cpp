@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/random.hpp"
 #include "base/text.hpp"
 #include "can/frame_time.hpp"
 
@@ -98,16 +99,10 @@ void SimulatedBus::break_harness(BusTime at, Error error) {
   schedule({.at = at, .node = 0, .error_class = 0, .broken = std::move(error)});
 }
 
-// splitmix64: the same numbers with every compiler and library.
 Duration SimulatedBus::turnaround() {
   const auto least = options_.node_turnaround.least;
   const auto span = static_cast<std::uint64_t>((options_.node_turnaround.most - least).count());
-  random_state_ += 0x9E3779B97F4A7C15U;
-  std::uint64_t z = random_state_;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-  z ^= z >> 31U;
-  return least + Duration(static_cast<Duration::rep>(z % (span + 1U)));
+  return least + Duration(static_cast<Duration::rep>(next_random(random_state_) % (span + 1U)));
 }
 
 void SimulatedBus::fault(const Node& node, const std::string& what) {

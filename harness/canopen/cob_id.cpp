@@ -65,6 +65,10 @@ CobId deactivated(CobIdKind kind, CobId value) {
   return CobId{value.value() | mask};
 }
 
+std::array<CobId, 3> change_sequence(CobIdKind kind, CobId from, CobId to) {
+  return {deactivated(kind, from), deactivated(kind, to), to};
+}
+
 ConnectionSet connection_set(NodeId node) {
   const std::uint32_t n = node.value();
   CONFORM_CHECK(n >= 1 && n <= 127);

@@ -12,6 +12,7 @@
 //   18xxh:01 TPDO            0: valid            0: RTR allowed     frame   CAN-ID
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -45,6 +46,8 @@ enum class CobIdKind : std::uint8_t { sync, time, emcy, emcy_consumer, sdo, rpdo
 /// `value` with the service switched off, everything else kept: the first of the three writes that change a
 /// COB-ID.
 [[nodiscard]] CobId deactivated(CobIdKind kind, CobId value);
+/// The writes that change a COB-ID: off, change, on. Bits 0-29 are locked while the service is active.
+[[nodiscard]] std::array<CobId, 3> change_sequence(CobIdKind kind, CobId from, CobId to);
 
 /// CAN-IDs of the pre-defined connection set for one node.
 struct ConnectionSet {

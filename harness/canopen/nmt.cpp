@@ -82,4 +82,9 @@ std::optional<ErrorControl> decode_error_control(const can::Frame& frame, NodeId
   return out;
 }
 
+bool is_boot_up(const can::Frame& frame, NodeId node) {
+  const auto message = decode_error_control(frame, node);
+  return message && frame.dlc == 1 && message->is_boot_up();
+}
+
 }  // namespace conform::canopen

@@ -57,5 +57,7 @@ struct ErrorControl {
 /// Decodes any data frame on 700h + `node` with at least one byte; nullopt for others. Check `dlc` apart: 1
 /// is legal.
 [[nodiscard]] std::optional<ErrorControl> decode_error_control(const can::Frame& frame, NodeId node);
+/// The boot-up message of `node`, of the one byte it must have.
+[[nodiscard]] bool is_boot_up(const can::Frame& frame, NodeId node);
 
 }  // namespace conform::canopen

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "canopen/nmt.hpp"
 #include "engine/case_runner.hpp"
 #include "engine/discovery.hpp"
 #include "engine/restore.hpp"
@@ -215,12 +216,11 @@ class Run {
     const auto from = recorder_.capture().size();
     auto sent = session_.command(command);
     if (!sent) return std::unexpected(sent.error());
-    const auto id = 0x700U + profile_.node.value();
     auto booted = recorder_.find(
         from,
-        [id](const can::CapturedFrame& captured) {
-          return captured.direction == can::Direction::received && captured.frame.is_data(CanId(id)) &&
-                 captured.frame.size() == 1 && captured.frame.data[0] == 0;
+        [this](const can::CapturedFrame& captured) {
+          return captured.direction == can::Direction::received &&
+                 canopen::is_boot_up(captured.frame, profile_.node);
         },
         recorder_.now() + profile_.boot_time);
     if (!booted) return std::unexpected(booted.error());
@@ -398,7 +398,7 @@ class Run {
       }
     }
     // First the state: in Stopped no SDO would be answered.
-    leave_pre_operational_behind();
+    leave_in_pre_operational();
     auto changes = session_.take_journal();
     if (changes.empty()) return;
     auto report = restore(session_, changes);
@@ -417,7 +417,7 @@ class Run {
   }
 
   /// The state a device is left in; that it could not be commanded is said, not judged.
-  void leave_pre_operational_behind() {
+  void leave_in_pre_operational() {
     if (!may(scenario::Risk::config)) return;
     if (auto done = enter_pre_operational(); !done) {
       out_.notes.push_back("the device may not be in Pre-operational: " + done.error().text());
@@ -429,7 +429,7 @@ class Run {
     if (out_.aborted) return;
     {
       const StopHeld held(recorder_);
-      leave_pre_operational_behind();
+      leave_in_pre_operational();
     }
     auto now = snapshot(session_);
     if (!now) return;

@@ -4,20 +4,12 @@
 #include <algorithm>
 #include <set>
 
+#include "base/random.hpp"
 #include "base/text.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {
 namespace {
-
-/// splitmix64: the same numbers with every compiler and library.
-std::uint64_t next_random(std::uint64_t& state) {
-  state += 0x9E3779B97F4A7C15ULL;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  z = (z ^ (z >> 27U)) * 0x94D049BB133111EBULL;
-  return z ^ (z >> 31U);
-}
 
 /// `count` of the items, chosen by the seed, in their old order.
 std::vector<Multiplexer> sample(std::vector<Multiplexer> items, std::size_t count, std::uint64_t seed) {

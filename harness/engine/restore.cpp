@@ -36,8 +36,7 @@ class Restorer {
     const CobId current(static_cast<std::uint32_t>(load_le(now)));
     const CobId target(static_cast<std::uint32_t>(load_le(before)));
     Result<bool> last = true;
-    for (const auto value :
-         {canopen::deactivated(kind, current), canopen::deactivated(kind, target), target}) {
+    for (const auto value : canopen::change_sequence(kind, current, target)) {
       last = write(object, to_le(value.value(), 4));
       if (!last) return last;
     }

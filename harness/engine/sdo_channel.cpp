@@ -16,6 +16,12 @@ namespace {
 /// follows.
 constexpr Duration after_conversation = std::chrono::milliseconds(20);
 
+auto is_response(CanId id) {
+  return [id](const can::CapturedFrame& captured) {
+    return captured.direction == can::Direction::received && captured.frame.is_data(id);
+  };
+}
+
 }  // namespace
 
 Result<void> SdoChannel::make_idle() {
@@ -35,9 +41,7 @@ Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object,
   if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
   const auto set = canopen::connection_set(node_);
   const auto limit = timeout.value_or(timeout_);
-  const auto response = [id = set.sdo_response](const can::CapturedFrame& captured) {
-    return captured.direction == can::Direction::received && captured.frame.is_data(id);
-  };
+  const auto response = is_response(set.sdo_response);
   auto request = transfer.first_request();
   bool first = true;
   steps::SdoAnswer out;
@@ -96,9 +100,7 @@ Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) 
   const auto set = canopen::connection_set(node_);
   auto sent = recorder_.send(can::data_frame(set.sdo_request, canopen::encode_upload_request(object)));
   if (!sent) return std::unexpected(sent.error());
-  const auto response = [id = set.sdo_response](const can::CapturedFrame& captured) {
-    return captured.direction == can::Direction::received && captured.frame.is_data(id);
-  };
+  const auto response = is_response(set.sdo_response);
   auto found = recorder_.find(*sent + 1, response, recorder_.capture().frames()[*sent].time + timeout_);
   if (!found) return std::unexpected(found.error());
   dirty(!*found);

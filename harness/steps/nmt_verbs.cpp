@@ -11,9 +11,7 @@ namespace {
 using canopen::NmtCommand;
 
 bool is_boot_up(const can::CapturedFrame& captured, NodeId node) {
-  return captured.direction == can::Direction::received &&
-         captured.frame.is_data(canopen::connection_set(node).error_control) && captured.frame.dlc == 1 &&
-         captured.frame.data[0] == 0;
+  return captured.direction == can::Direction::received && canopen::is_boot_up(captured.frame, node);
 }
 
 /// Waits for the boot-up message that the window of the running step may show.

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
+#include "canopen/nmt.hpp"
 #include "steps/step.hpp"
 
 namespace conform::steps {
@@ -163,13 +164,6 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::F
   return std::pair(*low, *high);
 }
 
-struct StateWord {
-  std::string_view word;
-  std::uint64_t code;
-};
-constexpr StateWord state_words[] = {
-    {"stopped", 0x04}, {"operational", 0x05}, {"pre-operational", 0x7F}, {"boot-up", 0x00}};
-
 constexpr std::string_view measures[] = {
     "count",         "period",     "shortest", "longest",    "first", "register", "latency", "segments",
     "wrong_toggles", "difference", "unmarked", "empty_last", "bits",  "absent",   "longer",  "shorter"};
@@ -288,14 +282,14 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
   }
   if (const auto state = fields.optional("state")) {
     if (const auto word = state.text()) {
-      const auto found = std::ranges::find(state_words, std::string_view(*word), &StateWord::word);
-      if (found == std::end(state_words)) {
+      const auto code = canopen::parse_nmt_state(*word);
+      if (!code) {
         state.error("unknown NMT state '" + *word + "'", "pre-operational, operational, stopped or boot-up");
       } else {
         Demand demand;
         demand.kind = Demand::Kind::measured;
         demand.measure = "state";
-        demand.least = demand.most = found->code;
+        demand.least = demand.most = static_cast<std::uint64_t>(*code);
         add(demand, "state " + *word);
       }
     }

@@ -231,7 +231,7 @@ class SetCobId final : public Action {
     }
     const CobId old(static_cast<std::uint32_t>(load_le(before->data)));
     const CobId target(static_cast<std::uint32_t>(*to));
-    for (const auto value : {canopen::deactivated(*kind, old), canopen::deactivated(*kind, target), target}) {
+    for (const auto value : canopen::change_sequence(*kind, old, target)) {
       auto answer = session.download(*object, to_le(value.value(), 4), canopen::SdoDownload::Mode::automatic,
                                      std::nullopt);
       if (!answer) return std::unexpected(answer.error());
