@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer target: no text may crash, hang or exhaust the loader of scenario, requirement and profile files.
-// Seeds: the corpus of the tests (fuzz_load_scenarios COPY_OF_CORPUS harness/scenario/tests/corpus/good).
+// Its seeds are the corpus of the tests.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
