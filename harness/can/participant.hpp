@@ -24,6 +24,10 @@ class Participant {
   virtual void attach(Sender sender, BusTime now) = 0;
   /// A frame of another participant has been received completely at `now`.
   virtual void on_frame(const Frame& frame, BusTime now) = 0;
+  /// A frame handed to the sender has left the transmit queue; called once for each, in their order, and
+  /// never from inside the sender. On a socket the kernel's queue, which is short, counts as the wire. A
+  /// frame that was lost on the way may stay without this call.
+  virtual void on_transmitted(BusTime /*now*/) {}
   /// Time has reached next_wakeup(), or passed it.
   virtual void on_time(BusTime now) = 0;
   /// When on_time() is wanted next; nullopt: only frames matter.

@@ -207,6 +207,10 @@ std::optional<BusEvent> SimulatedBus::deliver() {
   ++frame_count_;
   const bool own = done.sender == 0;
   const bool lost = !dropped_.empty() && std::ranges::find(dropped_, frame_count_) != dropped_.end();
+  if (Participant* sender = nodes_[done.sender].participant) {
+    sender->on_transmitted(now_);
+    wakeups_stale_ = true;
+  }
   if (!lost) {
     for (std::size_t i = 1; i < nodes_.size(); ++i) {
       Participant* participant = nodes_[i].participant;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "can/socketcan_transport.hpp"
 
@@ -33,9 +34,11 @@ void StopFlag::request() noexcept {
 Result<LoopStatistics> run_participant(Participant& participant, Transport& transport, const StopFlag& stop) {
   LoopStatistics statistics;
   BusTime current = transport.now();
+  std::uint64_t unconfirmed = 0;
   participant.attach(
       [&](const Frame& frame) {
         // A device goes on when a frame of its cannot be sent; a broken interface shows in receive() below.
+        ++unconfirmed;
         if (transport.send(frame)) {
           ++statistics.sent;
         } else {
@@ -60,7 +63,14 @@ Result<LoopStatistics> run_participant(Participant& participant, Transport& tran
       participant.on_time(current);
       wakeup = participant.next_wakeup();
     }
-    const BusTime deadline = std::min(wakeup.value_or(BusTime::max()), current + longest_wait);
+    // Who sends on being confirmed must not keep the loop from receiving: look for a frame after each round.
+    if (unconfirmed > 0) {
+      for (auto count = std::exchange(unconfirmed, 0); count > 0; --count)
+        participant.on_transmitted(current);
+      wakeup = participant.next_wakeup();
+    }
+    BusTime deadline = std::min(wakeup.value_or(BusTime::max()), current + longest_wait);
+    if (unconfirmed > 0) deadline = current;
     const auto received = transport.receive(deadline);
     if (!received) return std::unexpected(received.error());
     const std::optional<BusEvent>& event = *received;

@@ -15,6 +15,7 @@ class ScriptedParticipant final : public Participant {
  public:
   std::function<void(ScriptedParticipant&, const Frame&, BusTime)> when_frame;
   std::function<void(ScriptedParticipant&, BusTime)> when_time;
+  std::function<void(ScriptedParticipant&, BusTime)> when_transmitted;
   std::optional<BusTime> wakeup;
   std::vector<std::pair<Frame, BusTime>> heard;
 
@@ -25,6 +26,9 @@ class ScriptedParticipant final : public Participant {
   void on_frame(const Frame& frame, BusTime now) override {
     heard.emplace_back(frame, now);
     if (when_frame) when_frame(*this, frame, now);
+  }
+  void on_transmitted(BusTime now) override {
+    if (when_transmitted) when_transmitted(*this, now);
   }
   void on_time(BusTime now) override {
     if (when_time) {

@@ -105,6 +105,23 @@ TEST_CASE("frames of one sender keep their order, whatever their identifiers") {
   CHECK(must_receive(bus.transport(), zero + 1s).frame.id == 0x081);
 }
 
+TEST_CASE("a participant that sends on being confirmed keeps the wire full") {
+  SimulatedBus bus({.bit_rate = 1'000'000});
+  ScriptedParticipant node;
+  int left = 2;
+  node.when_transmitted = [&](ScriptedParticipant& self, BusTime) {
+    if (left-- > 0) self.send(sync_frame);
+  };
+  bus.attach(node);
+  node.send(sync_frame);
+  auto& harness = bus.transport();
+  for (int frame = 0; frame < 3; ++frame) {
+    CHECK(must_receive(harness, zero + 1s).time == zero + 48us + frame * 51us);
+  }
+  CHECK(silent_until(harness, zero + 1s));
+  CHECK(left == -1);
+}
+
 TEST_CASE("a frame that becomes ready while the wire is busy takes part in the next arbitration") {
   SimulatedBus bus({.bit_rate = 125'000});
   ScriptedParticipant slow;

@@ -210,6 +210,29 @@ TEST_CASE("the loop sends what the participant wants at its time and stops when 
   for (int i = 0; i < 3; ++i) CHECK(receive_ok(*ours, ours->now() + 1s)->frame.id == 0x705);
 }
 
+TEST_CASE("the loop confirms what was sent and still listens in between") {
+  const Pair pair = make_pair_of_sockets();
+  const auto ours = must_wrap(pair.ours);
+  const auto theirs = must_wrap(pair.theirs);
+  REQUIRE(ours->send(data_frame(CanId(0x605), {})));
+  StopFlag stop;
+  ScriptedParticipant node;
+  node.wakeup = BusTime{};
+  node.when_time = [](ScriptedParticipant& self, BusTime) {
+    self.wakeup.reset();
+    self.send(data_frame(CanId(0x585), {}));
+  };
+  // Would send for ever; only a received frame ends it.
+  node.when_transmitted = [](ScriptedParticipant& self, BusTime) {
+    if (self.heard.empty()) self.send(data_frame(CanId(0x585), {}));
+  };
+  node.when_frame = [&](ScriptedParticipant&, const Frame&, BusTime) { stop.request(); };
+  const auto ended = run_participant(node, *theirs, stop);
+  REQUIRE(ended.has_value());
+  CHECK(ended->received == 1);
+  CHECK(ended->sent >= 1);
+}
+
 TEST_CASE("an impossible or missing interface is explained with the command to type") {
   CHECK_FALSE(interface_facts("").has_value());
   CHECK_FALSE(interface_facts("a/b").has_value());
