@@ -15,18 +15,27 @@ constexpr Multiplexer device_name{Index{0x1008}, SubIndex{0}};
 constexpr Multiplexer error_count{Index{0x1003}, SubIndex{0}};
 constexpr Multiplexer heartbeat_time{Index{0x1017}, SubIndex{0}};
 
-template <typename Transfer>
-SdoBytes next(Transfer& transfer, ByteView response) {
-  const auto step = transfer.on_response(response);
-  REQUIRE(std::holds_alternative<SdoBytes>(step));
-  return std::get<SdoBytes>(step);
+/// What the client sends now; there must be something.
+SdoBytes send(SdoClient& transfer) {
+  const auto frame = transfer.next(0);
+  REQUIRE(frame);
+  return frame->bytes;
 }
 
-template <typename Transfer>
-TransferResult end(Transfer& transfer, ByteView response) {
-  const auto step = transfer.on_response(response);
-  REQUIRE(std::holds_alternative<TransferResult>(step));
-  return std::get<TransferResult>(step);
+/// The next request, after the one that is due has gone out and been answered.
+SdoBytes next(SdoClient& transfer, ByteView response) {
+  static_cast<void>(transfer.next(0));
+  CHECK(transfer.on_frame(response, 0));
+  REQUIRE_FALSE(transfer.ended());
+  return send(transfer);
+}
+
+TransferResult end(SdoClient& transfer, ByteView response) {
+  static_cast<void>(transfer.next(0));
+  CHECK(transfer.on_frame(response, 0));
+  REQUIRE(transfer.ended());
+  CHECK_FALSE(transfer.next(0).has_value());
+  return transfer.take();
 }
 
 TransferResult upload_end(Multiplexer mux, ByteView response) {
@@ -45,7 +54,7 @@ SdoUpload segmented(std::uint8_t size) {
 
 TEST_CASE("An expedited upload takes one response") {
   SdoUpload upload(heartbeat_time);
-  CHECK(upload.first_request() == SdoBytes{0x40, 0x17, 0x10, 0x00});
+  CHECK(send(upload) == SdoBytes{0x40, 0x17, 0x10, 0x00});
   const auto result = end(upload, SdoBytes{0x4B, 0x17, 0x10, 0x00, 0xE8, 0x03});
   CHECK(result.kind == Kind::confirmed);
   CHECK(result.data == Bytes{0xE8, 0x03});
@@ -68,7 +77,7 @@ TEST_CASE("A segmented upload alternates the toggle bit and joins the segments")
   SdoUpload upload(device_name);
   CHECK(next(upload, SdoBytes{0x41, 0x08, 0x10, 0x00, 9}) == SdoBytes{0x60});
   CHECK(next(upload, SdoBytes{0x00, 'c', 'o', 'n', 'f', 'o', 'r', 'm'}) == SdoBytes{0x70});
-  CHECK(upload.received().size() == 7);
+  CHECK(upload.result().data.size() == 7);
   const auto result = end(upload, SdoBytes{0x1B, 'e', 'r'});
   CHECK(result.kind == Kind::confirmed);
   CHECK(result.data == Bytes{'c', 'o', 'n', 'f', 'o', 'r', 'm', 'e', 'r'});
@@ -157,7 +166,7 @@ TEST_CASE("Fewer or more bytes than announced are violations") {
 TEST_CASE("Memory is bounded and never follows the announced size") {
   SdoUpload huge(device_name);
   static_cast<void>(next(huge, SdoBytes{0x41, 0x08, 0x10, 0x00, 0xFF, 0xFF, 0xFF, 0xFF}));
-  CHECK(huge.received().capacity() < 1024);
+  CHECK(huge.result().data.capacity() < 1024);
   SdoUpload upload(device_name, 10);
   static_cast<void>(next(upload, SdoBytes{0x40, 0x08, 0x10, 0x00}));
   static_cast<void>(next(upload, SdoBytes{0x00, 1, 2, 3, 4, 5, 6, 7}));
@@ -172,14 +181,15 @@ TEST_CASE("A server cannot hold the client with empty segments") {
   static_cast<void>(next(upload, SdoBytes{0x40, 0x08, 0x10, 0x00}));
   int frames = 0;
   for (;;) {
-    const auto step = upload.on_response(SdoBytes{static_cast<std::uint8_t>(frames % 2 == 0 ? 0x0E : 0x1E)});
+    upload.on_frame(SdoBytes{static_cast<std::uint8_t>(frames % 2 == 0 ? 0x0E : 0x1E)}, 0);
     ++frames;
     REQUIRE(frames < 100);
-    if (const auto* result = std::get_if<TransferResult>(&step)) {
-      CHECK(result->kind == Kind::violation);
-      CHECK(result->detail == "delivers 16 segments without data one after the other");
+    if (upload.ended()) {
+      CHECK(upload.result().kind == Kind::violation);
+      CHECK(upload.result().detail == "delivers 16 segments without data one after the other");
       break;
     }
+    REQUIRE(upload.next(0));
   }
 }
 
@@ -202,7 +212,7 @@ TEST_CASE("Reserved and unused bits are remarks and do not end a transfer") {
 
 TEST_CASE("Up to four bytes are downloaded expedited") {
   SdoDownload download(heartbeat_time, Bytes{0xE8, 0x03});
-  CHECK(download.first_request() == SdoBytes{0x2B, 0x17, 0x10, 0x00, 0xE8, 0x03});
+  CHECK(send(download) == SdoBytes{0x2B, 0x17, 0x10, 0x00, 0xE8, 0x03});
   const auto result = end(download, SdoBytes{0x60, 0x17, 0x10, 0x00});
   CHECK(result.kind == Kind::confirmed);
   CHECK(result.expedited);
@@ -211,24 +221,42 @@ TEST_CASE("Up to four bytes are downloaded expedited") {
 
 TEST_CASE("More than four bytes are downloaded in segments") {
   SdoDownload download(device_name, Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9});
-  CHECK(download.first_request() == SdoBytes{0x21, 0x08, 0x10, 0x00, 9});
+  CHECK(send(download) == SdoBytes{0x21, 0x08, 0x10, 0x00, 9});
   CHECK(next(download, SdoBytes{0x60, 0x08, 0x10, 0x00}) == SdoBytes{0x00, 1, 2, 3, 4, 5, 6, 7});
   CHECK(next(download, SdoBytes{0x20}) == SdoBytes{0x1B, 8, 9});
   CHECK(end(download, SdoBytes{0x30}).kind == Kind::confirmed);
 }
 
 TEST_CASE("The form of a download can be forced") {
-  CHECK(SdoDownload(heartbeat_time, {1, 2}, SdoDownload::Mode::expedited_unsized).first_request() ==
-        SdoBytes{0x22, 0x17, 0x10, 0x00, 1, 2});
+  SdoDownload open(heartbeat_time, {1, 2}, SdoDownload::Mode::expedited_unsized);
+  CHECK(send(open) == SdoBytes{0x22, 0x17, 0x10, 0x00, 1, 2});
   SdoDownload sized(heartbeat_time, {1, 2}, SdoDownload::Mode::segmented);
-  CHECK(sized.first_request() == SdoBytes{0x21, 0x17, 0x10, 0x00, 2});
+  CHECK(send(sized) == SdoBytes{0x21, 0x17, 0x10, 0x00, 2});
   CHECK(next(sized, SdoBytes{0x60, 0x17, 0x10, 0x00}) == SdoBytes{0x0B, 1, 2});
   SdoDownload unsized_download(heartbeat_time, {1, 2}, SdoDownload::Mode::segmented_unsized);
-  CHECK(unsized_download.first_request() == SdoBytes{0x20, 0x17, 0x10, 0x00});
+  CHECK(send(unsized_download) == SdoBytes{0x20, 0x17, 0x10, 0x00});
   SdoDownload empty(device_name, {});
-  CHECK(empty.first_request() == SdoBytes{0x21, 0x08, 0x10, 0x00});
+  CHECK(send(empty) == SdoBytes{0x21, 0x08, 0x10, 0x00});
   CHECK(next(empty, SdoBytes{0x60, 0x08, 0x10, 0x00}) == SdoBytes{0x0F});
   CHECK(end(empty, SdoBytes{0x20}).kind == Kind::confirmed);
+}
+
+TEST_CASE("A frame that came before the request is no answer to it") {
+  SdoUpload upload(heartbeat_time);
+  static_cast<void>(send(upload));
+  CHECK_FALSE(upload.on_frame(SdoBytes{0x4B, 0x17, 0x10, 0x00, 0xE8, 0x03}, 1));
+  CHECK_FALSE(upload.ended());
+  CHECK(upload.on_frame(SdoBytes{0x4B, 0x17, 0x10, 0x00, 0xE8, 0x03}, 0));
+  CHECK(upload.ended());
+}
+
+TEST_CASE("Silence ends a transfer, and the server is told") {
+  SdoDownload download(heartbeat_time, {1, 2});
+  static_cast<void>(send(download));
+  download.on_silence();
+  REQUIRE(download.ended());
+  CHECK(download.result().kind == Kind::silence);
+  CHECK(download.result().reply == abort::timed_out);
 }
 
 TEST_CASE("Deviations of the server end a download as violations") {
@@ -279,10 +307,11 @@ TEST_CASE("Whatever a server answers, a transfer ends or asks for more within it
     int frames = 0;
     for (bool open = true; open; ++frames) {
       REQUIRE(frames < 2000);
-      const auto step = upload.on_response(ByteView(answer).first(next() % 50 == 0 ? next() % 9 : 8));
-      open = std::holds_alternative<SdoBytes>(step);
+      REQUIRE(upload.next(0));
+      upload.on_frame(ByteView(answer).first(next() % 50 == 0 ? next() % 9 : 8), 0);
+      open = !upload.ended();
       if (!open) {
-        const auto& result = std::get<TransferResult>(step);
+        const auto& result = upload.result();
         CHECK(result.data.size() <= 100);
         CHECK((result.kind == Kind::violation) == !result.detail.empty());
         break;
