@@ -10,7 +10,11 @@ namespace refnode::abort_code {
 using conform::AbortCode;
 
 inline constexpr AbortCode toggle_not_alternated{0x05030000};
+inline constexpr AbortCode time_out{0x05040000};
 inline constexpr AbortCode command_unknown{0x05040001};
+inline constexpr AbortCode block_size_invalid{0x05040002};
+inline constexpr AbortCode sequence_invalid{0x05040003};
+inline constexpr AbortCode crc_wrong{0x05040004};
 inline constexpr AbortCode unsupported_access{0x06010000};
 inline constexpr AbortCode write_only{0x06010001};
 inline constexpr AbortCode read_only{0x06010002};

@@ -5,6 +5,9 @@
 
 #include <cstdint>
 
+#include "sdo_block_faults.hpp"
+#include "sdo_faults.hpp"
+
 namespace refnode {
 
 /// How the rules of one COB-ID parameter are broken.
@@ -54,6 +57,12 @@ struct StoreFaults {
   bool effective_at_once = false;           ///< 1011h: defaults are valid before the reset
 };
 
+/// How additional SDO servers misbehave.
+struct SdoChannelFaults {
+  bool second_cob_id_not_needed = false;  ///< valid with the first COB-ID alone
+  bool transfer_shared = false;           ///< all servers work on one transfer
+};
+
 struct Behaviour {
   // Object dictionary
   bool accepts_long_values = false;         ///< surplus bytes of a download are cut off
@@ -84,6 +93,10 @@ struct Behaviour {
   bool long_numbers_truncated = false;    ///< numbers of more than four bytes are sent expedited
   bool accepts_extended_frames = false;   ///< 29-bit identifiers are taken for 11-bit ones
   bool accepts_remote_frames = false;     ///< remote frames are taken for data frames
+  SdoFaults sdo;
+
+  SdoBlockFaults block;
+  SdoChannelFaults sdo_channels;
 
   // NMT slave
   bool nmt_broadcast_ignored = false;
@@ -168,6 +181,9 @@ struct Behaviour {
   CobIdFaults emergency_cob_id;
   CobIdFaults rpdo_cob_id;
   CobIdFaults tpdo_cob_id;
+  CobIdFaults sdo_server_cob_id;
+  CobIdFaults sdo_client_cob_id;
+  bool dynamic_sdo_stored = false;  ///< also COB-IDs with bit 30 set are kept in non-volatile memory
   bool time_reserved_bits_kept = false;
 
   // PDO

@@ -5,7 +5,7 @@ namespace refnode {
 
 namespace {
 
-constexpr std::uint32_t bit31 = 0x80000000;  // EMCY, PDO: not valid; TIME: consume
+constexpr std::uint32_t bit31 = 0x80000000;  // EMCY, PDO, SDO: not valid; TIME: consume
 constexpr std::uint32_t bit30 = 0x40000000;  // SYNC: generate; TIME: produce; EMCY: reserved; TPDO: no RTR
 constexpr std::uint32_t bit29 = 0x20000000;  // 29-bit identifier
 constexpr std::uint32_t can_id_mask = 0x000007FF;
@@ -41,9 +41,24 @@ const CobIdFaults& CobIdRules::faults() const {
     case CobIdUse::time: return device_->behaviour.time_cob_id;
     case CobIdUse::emergency: return device_->behaviour.emergency_cob_id;
     case CobIdUse::rpdo: return device_->behaviour.rpdo_cob_id;
+    case CobIdUse::sdo_server: return device_->behaviour.sdo_server_cob_id;
+    case CobIdUse::sdo_client: return device_->behaviour.sdo_client_cob_id;
     case CobIdUse::tpdo: break;
   }
   return device_->behaviour.tpdo_cob_id;
+}
+
+const CobIdChoices& CobIdRules::choices() const {
+  switch (use_) {
+    case CobIdUse::sync: return device_->choices.sync_cob_id;
+    case CobIdUse::time: return device_->choices.time_cob_id;
+    case CobIdUse::emergency: return device_->choices.emergency_cob_id;
+    case CobIdUse::rpdo: return device_->choices.rpdo_cob_id;
+    case CobIdUse::sdo_server:
+    case CobIdUse::sdo_client: return device_->choices.sdo_cob_id;
+    case CobIdUse::tpdo: break;
+  }
+  return device_->choices.tpdo_cob_id;
 }
 
 std::uint32_t CobIdRules::value() const {
@@ -69,22 +84,30 @@ Accepted CobIdRules::check(ByteView bytes) const {
   const auto wanted = static_cast<std::uint32_t>(conform::load_le(bytes));
   const std::uint32_t present = value();
   const CobIdFaults& fault = faults();
-  const auto refusal = refuse(abort_code::invalid_value);
+  const CobIdChoices& choice = choices();
 
-  if (wanted == present) return fault.rewrite_refused ? Accepted(refusal) : Accepted{};
-  if ((wanted & bit29) != 0 && !fault.frame_bit_accepted) return refusal;
+  if (wanted == present) return fault.rewrite_refused ? refuse(abort_code::invalid_value) : Accepted{};
+  if ((wanted & bit29) != 0 && !fault.frame_bit_accepted) return refuse(choice.frame_bit);
   const bool bit30_refused = use_ == CobIdUse::sync || use_ == CobIdUse::time || use_ == CobIdUse::emergency;
-  if (bit30_refused && (wanted & bit30) != 0 && !fault.bit30_accepted) return refusal;
-  if (use_ == CobIdUse::sync && (wanted & bit31) != 0 && fault.bit31_refused) return refusal;
-  if ((wanted & bit29) == 0 && (wanted & upper_id_bits) != 0 && !fault.upper_bits_accepted) return refusal;
+  if (bit30_refused && (wanted & bit30) != 0 && !fault.bit30_accepted) return refuse(choice.fixed_bit);
+  const bool remote_refused = use_ == CobIdUse::tpdo && !device_->choices.tpdo.any_remote;
+  if (remote_refused && (wanted & bit30) == 0) return refuse(choice.fixed_bit);
+  if (use_ == CobIdUse::sync && (wanted & bit31) != 0 && fault.bit31_refused)
+    return refuse(abort_code::invalid_value);
+  if ((wanted & bit29) == 0 && (wanted & upper_id_bits) != 0 && !fault.upper_bits_accepted)
+    return refuse(choice.upper_bits);
   const bool moved = ((wanted ^ present) & ~(bit31 | bit30)) != 0;
-  if (moved && fault.change_refused) return refusal;
-  if (moved && locked(present) && locked(wanted) && !fault.lock_missing) return refusal;
-  if (active(wanted) && restricted_can_id(wanted & can_id_mask) && !fault.restricted_accepted) return refusal;
+  if (moved && (fault.change_refused || choice.only_valid_bit)) return refuse(choice.locked);
+  const bool lockable = locked(wanted) || choice.locked_by_former_value;
+  if (moved && locked(present) && lockable && !fault.lock_missing) return refuse(choice.locked);
+  const bool looked_at = active(wanted) || choice.restricted_always;
+  if (looked_at && restricted_can_id(wanted & can_id_mask) && !fault.restricted_accepted)
+    return refuse(choice.restricted);
   return {};
 }
 
 bool CobIdRules::valid() const {
+  if (device_->dictionary.entry(index_, sub_) == nullptr) return false;
   if (use_ == CobIdUse::sync) return true;
   const CobIdFaults& fault = faults();
   if (fault.valid_bit_ignored) return true;

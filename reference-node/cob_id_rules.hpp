@@ -9,7 +9,7 @@
 
 namespace refnode {
 
-enum class CobIdUse : std::uint8_t { sync, time, emergency, rpdo, tpdo };
+enum class CobIdUse : std::uint8_t { sync, time, emergency, rpdo, tpdo, sdo_server, sdo_client };
 
 class CobIdRules {
  public:
@@ -30,6 +30,7 @@ class CobIdRules {
   [[nodiscard]] bool locked(std::uint32_t value) const;
   [[nodiscard]] bool active(std::uint32_t value) const;
   [[nodiscard]] const CobIdFaults& faults() const;
+  [[nodiscard]] const CobIdChoices& choices() const;
 
   Device* device_;
   CobIdUse use_;

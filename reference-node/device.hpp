@@ -9,18 +9,20 @@
 
 #include "base/strong.hpp"
 #include "behaviour.hpp"
+#include "choices.hpp"
 #include "object_dictionary.hpp"
 #include "outbox.hpp"
 
 namespace refnode {
 
 struct Device {
-  explicit Device(std::uint8_t id) : node_id(id), dictionary(behaviour) {}
+  explicit Device(std::uint8_t id) : node_id(id), dictionary(behaviour, choices) {}
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
   std::uint8_t node_id;
   Behaviour behaviour;
+  Choices choices;
   ObjectDictionary dictionary;
   Outbox outbox;
   NmtState state = NmtState::initialising;

@@ -69,6 +69,7 @@ std::uint8_t Emergency::error_register() const {
   if (behaviour.error_register_without_generic) bits &= 0xFEU;
   if (behaviour.error_register_bit6_set && bits != 0) bits |= 0x40U;
   if (behaviour.communication_bit_missing) bits &= static_cast<std::uint8_t>(~0x10U);
+  if (device_->choices.register_generic_only && bits != 0) bits = 0x01;
   if (bits == 0 && behaviour.error_register_sticks && raised_) bits = 0x01;
   return bits;
 }
@@ -90,6 +91,7 @@ void Emergency::clear(const ErrorCause& cause) {
   // With further causes left the standard allows a message, but asks for none.
   if (!causes_.empty()) {
     if (device_->behaviour.error_reset_too_early) report({0, 0, 0, cause.source});
+    if (device_->choices.error_reset_for_each) report({0, error_register(), 0, cause.source});
     return;
   }
   if (device_->behaviour.records_error_reset) record(0, cause.source, 0);
@@ -112,14 +114,15 @@ void Emergency::record(std::uint16_t code, std::uint8_t source, std::uint8_t det
   if (behaviour.history_code_in_upper_half) field = static_cast<std::uint32_t>(code) << 16U;
   if (behaviour.history_code_byte_swapped) field = ((code & 0xFFU) << 8U) | (code >> 8U);
   if (behaviour.history_overwrites) history_.clear();
-  if (behaviour.history_full_drops_newest && history_.size() == history_depth) return;
+  const std::size_t depth = device_->choices.history_depth;
+  if (behaviour.history_full_drops_newest && history_.size() == depth) return;
   if (behaviour.history_oldest_first) {
     history_.push_back(field);
-    if (history_.size() > history_depth) history_.pop_front();
+    if (history_.size() > depth) history_.pop_front();
     return;
   }
   history_.push_front(field);
-  if (history_.size() > history_depth && !behaviour.history_count_exceeds_depth) history_.pop_back();
+  if (history_.size() > depth && !behaviour.history_count_exceeds_depth) history_.pop_back();
 }
 
 std::uint8_t Emergency::recorded() const {
@@ -130,7 +133,7 @@ std::uint8_t Emergency::recorded() const {
 Upload Emergency::read_history(std::uint8_t sub) const {
   if (sub > history_.size()) {
     if (device_->behaviour.history_empty_reads_zero) return Bytes(4, 0);
-    return refuse(abort_code::no_data);
+    return refuse(sub == 1 ? device_->choices.nothing_recorded : device_->choices.history_unused_field);
   }
   return conform::to_le(history_[sub - 1U], 4);
 }
@@ -172,7 +175,10 @@ void Emergency::report(const Message& message) {
     // Only the latest is of interest afterwards, and an error reset only if the error had been reported.
     pending_.clear();
     if (message.code == 0 && !reported_) return;
+    if (device_->choices.emergency_dropped_in_stopped) return;
   }
+  if (device_->choices.emergency_dropped_in_stopped && message.code == 0 && !reported_ && pending_.empty())
+    return;
   pending_.push_back(message);
   if (pending_.size() > pending_limit) pending_.pop_front();
   flush();

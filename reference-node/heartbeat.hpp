@@ -31,6 +31,7 @@ class HeartbeatProducer {
   Device* device_;
   std::optional<BusTime> next_;
   bool toggle_ = false;  ///< used by a defect only
+  bool late_ = false;    ///< used by a variant only
 };
 
 class HeartbeatConsumer {
@@ -47,7 +48,7 @@ class HeartbeatConsumer {
   void on_written(std::uint8_t sub);
   void on_reset();
   /// A data frame of one byte on 701h..77Fh.
-  void on_heartbeat(std::uint8_t node);
+  void on_heartbeat(std::uint8_t node, std::uint8_t state);
   void on_time();
   [[nodiscard]] std::optional<BusTime> next_wakeup() const;
 
@@ -58,6 +59,7 @@ class HeartbeatConsumer {
   };
   [[nodiscard]] std::uint8_t node_of(std::uint64_t value) const;
   [[nodiscard]] Duration time_of(std::uint64_t value) const;
+  void lose(std::uint8_t sub);
   [[nodiscard]] bool monitored(std::uint64_t value) const;
   [[nodiscard]] std::uint64_t value_of(std::uint8_t sub) const {
     return device_->dictionary.number(0x1016, sub);

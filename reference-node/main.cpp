@@ -15,6 +15,7 @@
 #include "eds_text.hpp"
 #include "node.hpp"
 #include "storage.hpp"
+#include "variants/variant.hpp"
 
 namespace {
 
@@ -41,6 +42,7 @@ class Announced final : public conform::can::Participant {
   void on_frame(const conform::can::Frame& frame, conform::BusTime now) override {
     inner_->on_frame(frame, now);
   }
+  void on_transmitted(conform::BusTime now) override { inner_->on_transmitted(now); }
   void on_time(conform::BusTime now) override { inner_->on_time(now); }
   [[nodiscard]] std::optional<conform::BusTime> next_wakeup() const override { return inner_->next_wakeup(); }
 
@@ -54,6 +56,11 @@ void list_defects() {
     std::vector<std::string> ids(row.violates.begin(), row.violates.end());
     fmt::print("{}\n    {}\n    violates {}\n", row.id, row.summary, conform::join(ids, ", "));
   }
+}
+
+void list_variants() {
+  for (const refnode::Variant& row : refnode::variants())
+    fmt::print("{}\n    {}\n    legal by {}\n", row.id, row.summary, row.legal);
 }
 
 int complain(const conform::Error& error, int code) {
@@ -70,12 +77,15 @@ int main(int argc, char** argv) {
   int node_id = 1;
   refnode::Options options;
   bool list = false;
+  bool list_legal = false;
   bool print_eds = false;
   app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0");
   app.add_option("-n,--node", node_id, "node-ID, 1 to 127")->check(CLI::Range(1, 127))->capture_default_str();
   app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
+  app.add_option("--variant", options.variants, "legal variant to switch on; may be repeated");
   app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
   app.add_flag("--list-defects", list, "print all defects and what they violate");
+  app.add_flag("--list-variants", list_legal, "print all legal variants and why they are legal");
   app.add_flag("--eds", print_eds, "print the device description (EDS) of the conformant node");
   app.set_version_flag("--version", "canopen-refnode " CONFORM_VERSION);
   try {
@@ -85,6 +95,10 @@ int main(int argc, char** argv) {
   }
   if (list) {
     list_defects();
+    return 0;
+  }
+  if (list_legal) {
+    list_variants();
     return 0;
   }
   if (print_eds) {
@@ -101,8 +115,9 @@ int main(int argc, char** argv) {
     if (!storage) return complain(storage.error(), exit_environment);
     options.storage = *storage;
   }
-  const std::string behaviour =
+  std::string behaviour =
       options.defects.empty() ? "conformant" : "with " + conform::join(options.defects, ", ");
+  if (!options.variants.empty()) behaviour += ", as " + conform::join(options.variants, ", ");
   const auto node = refnode::Node::create(options);
   if (!node) return complain(node.error(), exit_usage);
 

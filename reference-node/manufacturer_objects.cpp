@@ -10,6 +10,11 @@ namespace {
 // The longest DOMAIN: enough to need a size above 16 bits.
 constexpr std::size_t domain_capacity = 100'000;
 
+// A buffer for whole programs. Its content fills more than one sub-block, and no two of its segments are
+// equal.
+constexpr std::size_t large_buffer_capacity = 4U * 1024 * 1024;
+constexpr std::size_t large_buffer_content = 1000;
+
 Entry limited(Entry entry, std::int64_t low, std::int64_t high) {
   entry.low = low;
   entry.high = high;
@@ -94,6 +99,12 @@ void add_sample_objects(Device& device) {
     od.add_sub(0x2005, static_cast<std::uint8_t>(length + 1), text_entry("String", Access::ro, text));
   }
   od.add_variable(0x2006, text_entry("Writable name", Access::rw, "reference node", 32));
+  Bytes large_content(large_buffer_content);
+  for (std::size_t i = 0; i < large_content.size(); ++i)
+    large_content[i] = static_cast<std::uint8_t>(i / 7 + i);
+  od.add_variable(0x2008, bytes_entry("Large buffer", domain, Access::rw, std::move(large_content),
+                                      large_buffer_capacity))
+      .storable = false;
   od.add_variable(0x2007, integer_entry("Scratch value", unsigned32, Access::rw, 0));
 }
 

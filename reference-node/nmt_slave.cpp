@@ -5,12 +5,6 @@ namespace refnode {
 
 namespace {
 
-using namespace std::chrono_literals;
-
-// What the imagined start-up code needs.
-constexpr Duration node_start_up = 20ms;
-constexpr Duration communication_start_up = 5ms;
-
 constexpr std::uint8_t command_start = 0x01;
 constexpr std::uint8_t command_stop = 0x02;
 constexpr std::uint8_t command_pre_operational = 0x80;
@@ -84,7 +78,9 @@ void NmtSlave::start_reset(Reset reset) {
   }
   device_->state = NmtState::initialising;
   if (on_reset) on_reset(reset);
-  boot_due_ = device_->now + (reset == Reset::node ? node_start_up : communication_start_up);
+  const Choices& choices = device_->choices;
+  const int start_up = reset == Reset::node ? choices.node_start_up_ms : choices.communication_start_up_ms;
+  boot_due_ = device_->now + std::chrono::milliseconds(start_up);
 }
 
 void NmtSlave::enter(NmtState state) {

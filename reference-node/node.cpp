@@ -14,9 +14,11 @@
 #include "nmt_slave.hpp"
 #include "parameter_store.hpp"
 #include "pdo.hpp"
-#include "sdo_server.hpp"
+#include "sdo_parameters.hpp"
+#include "sdo_servers.hpp"
 #include "standard_objects.hpp"
 #include "sync_time.hpp"
+#include "variants/variant.hpp"
 
 namespace refnode {
 
@@ -28,8 +30,6 @@ struct Node::Impl {
   void change_state(NmtState from);
   void run_timers();
   void dispatch(const Frame& frame);
-  [[nodiscard]] bool serves_sdo() const;
-  [[nodiscard]] bool is_sdo_request(std::uint32_t id) const;
 
   Device device;
   Emergency emergency;
@@ -41,7 +41,7 @@ struct Node::Impl {
   TransmitPdo tpdo;
   ParameterStore store;
   NmtSlave nmt;
-  SdoServer sdo;
+  SdoServers sdo;
 };
 
 Node::Impl::Impl(const Options& options)
@@ -55,15 +55,19 @@ Node::Impl::Impl(const Options& options)
       tpdo(device),
       store(device, options.storage),
       nmt(device),
-      sdo(device, options.turnaround) {
+      sdo(device) {
+  device.choices = options.choices;
   nmt.on_reset = [this](Reset kind) { reset(kind); };
   nmt.on_boot_up = [this] { boot_up(); };
   nmt.on_change = [this](NmtState from) { change_state(from); };
-  // Without 1029h the default error behaviour applies: a lost producer ends Operational (CiA 301, 7.5.2.32).
+  // Without 1029h (a variant has it) the default error behaviour applies: a lost producer ends Operational
+  // (CiA 301, 7.5.2.32).
   consumer.on_loss = [this] {
-    const bool leaves =
-        device.state == NmtState::operational && !device.behaviour.consumer_loss_keeps_operational;
-    if (leaves) nmt.enter(NmtState::pre_operational);
+    if (device.behaviour.consumer_loss_keeps_operational) return;
+    // 1029h:01: 00h ends Operational, 01h changes nothing, 02h stops the node.
+    const std::uint64_t reaction = device.dictionary.number(0x1029, 1);
+    if (reaction == 0 && device.state == NmtState::operational) nmt.enter(NmtState::pre_operational);
+    if (reaction == 2) nmt.enter(NmtState::stopped);
   };
   sync.on_sync = [this] {
     rpdo.on_sync();
@@ -77,6 +81,7 @@ Node::Impl::Impl(const Options& options)
     if (!rpdo.applying()) tpdo.on_application_change();
   });
   rpdo.on_applied = [this] { tpdo.on_application_change(); };
+  add_sdo_client(device);
   add_sample_objects(device);
   add_error_trigger(device, emergency);
 }
@@ -99,7 +104,9 @@ void Node::Impl::boot_up() {
 }
 
 void Node::Impl::change_state(NmtState) {
-  if (device.state == NmtState::stopped) sdo.reset();
+  const Behaviour& faults = device.behaviour;
+  const bool transfers_stay = faults.block.goes_on_in_stopped || faults.sdo.blocked_after_stopped;
+  if (device.state == NmtState::stopped && !transfers_stay) sdo.reset();
   producer.on_state_change();
   rpdo.on_state_change();
   tpdo.on_state_change();
@@ -113,25 +120,8 @@ void Node::Impl::run_timers() {
   producer.on_time();
   rpdo.on_time();
   tpdo.on_time();
+  sdo.on_time();
   device.outbox.on_time(device.now);
-}
-
-bool Node::Impl::serves_sdo() const {
-  switch (device.state) {
-    case NmtState::initialising: return device.behaviour.sdo_served_before_boot_up;
-    case NmtState::stopped: return device.behaviour.sdo_served_in_stopped;
-    case NmtState::pre_operational:
-    case NmtState::operational: return true;
-  }
-  return false;
-}
-
-bool Node::Impl::is_sdo_request(std::uint32_t id) const {
-  const Behaviour& behaviour = device.behaviour;
-  if (behaviour.answers_foreign_node_ids && id >= 0x601 && id <= 0x67F) return true;
-  if (behaviour.answers_broadcast && id == 0x600) return true;
-  if (behaviour.answers_on_response_id && id == 0x580U + device.node_id) return true;
-  return id == 0x600U + device.node_id;
 }
 
 void Node::Impl::dispatch(const Frame& received) {
@@ -145,19 +135,45 @@ void Node::Impl::dispatch(const Frame& received) {
     return;
   }
 
+  if (device.behaviour.sdo.misread) device.behaviour.sdo.misread(frame, device.node_id);
   if (frame.id == 0x000) return nmt.on_command(frame);
-  if (is_sdo_request(frame.id)) {
-    if (serves_sdo()) sdo.on_request(frame);
-    return;
-  }
+  if (sdo.on_frame(frame)) return;
   if (device.state == NmtState::initialising) return;
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {
-    return consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U));
+    return consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U), frame.data[0]);
   }
   if (device.state == NmtState::stopped) return;
   if (sync.on_frame(frame) || time.on_frame(frame)) return;
   rpdo.on_frame(frame);
 }
+
+namespace {
+
+conform::Result<void> apply_variants(const Options& options, Device& device) {
+  std::vector<const Variant*> used;
+  for (const std::string& id : options.variants) {
+    const Variant* variant = find_variant(id);
+    if (variant == nullptr) {
+      std::vector<std::string_view> known;
+      for (const Variant& row : variants()) known.push_back(row.id);
+      const std::string_view near = conform::did_you_mean(id, known);
+      return conform::fail(
+          "there is no variant '" + conform::printable(id) + "'", {},
+          near.empty() ? "--list-variants prints all of them" : "did you mean '" + std::string(near) + "'?");
+    }
+    for (const Variant* other : used) {
+      if (!compatible(*variant, *other)) {
+        return conform::fail("variants '" + std::string(other->id) + "' and '" + id + "' exclude each other");
+      }
+    }
+    used.push_back(variant);
+    VariantTarget target{device.dictionary, device.choices, device.outbox, options.node_id};
+    variant->how(target);
+  }
+  return {};
+}
+
+}  // namespace
 
 Node::Node(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Node::~Node() = default;
@@ -169,6 +185,7 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
   }
   if (!options.storage) options.storage = std::make_shared<MemoryStorage>();
   auto impl = std::make_unique<Impl>(options);
+  if (auto done = apply_variants(options, impl->device); !done) return std::unexpected(done.error());
   std::vector<std::string_view> used;
   for (const std::string& id : options.defects) {
     const Defect* defect = find_defect(id);
@@ -207,18 +224,27 @@ void Node::on_frame(const conform::can::Frame& frame, conform::BusTime now) {
   impl_->device.now = std::max(impl_->device.now, now);
   impl_->run_timers();
   impl_->dispatch(frame);
+  impl_->sdo.send_segments();
+}
+
+void Node::on_transmitted(conform::BusTime now) {
+  impl_->device.now = std::max(impl_->device.now, now);
+  impl_->device.outbox.on_transmitted(impl_->device.now);
+  impl_->sdo.on_transmitted();
+  impl_->sdo.send_segments();
 }
 
 void Node::on_time(conform::BusTime now) {
   impl_->device.now = std::max(impl_->device.now, now);
   impl_->run_timers();
+  impl_->sdo.send_segments();
 }
 
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.emergency.next_wakeup(),
                    impl.producer.next_wakeup(), impl.rpdo.next_wakeup(), impl.tpdo.next_wakeup(),
-                   impl.device.outbox.next_wakeup()});
+                   impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

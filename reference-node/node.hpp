@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/time.hpp"
 #include "can/participant.hpp"
+#include "choices.hpp"
 #include "defects/defect.hpp"
 #include "object_dictionary.hpp"
 #include "storage.hpp"
@@ -19,20 +20,23 @@
 namespace refnode {
 
 struct Options {
-  std::uint8_t node_id = 1;          ///< 1..127
-  std::vector<std::string> defects;  ///< ids of defects()
-  std::shared_ptr<Storage> storage;  ///< non-volatile memory; empty: fresh memory that lives with the node
-  conform::Duration turnaround{};    ///< time from an SDO request to the response
+  std::uint8_t node_id = 1;             ///< 1..127
+  std::vector<std::string> defects{};   ///< ids of defects()
+  std::shared_ptr<Storage> storage{};   ///< non-volatile memory; empty: fresh memory that lives with the node
+  Choices choices{};                    ///< what the standard leaves open
+  std::vector<std::string> variants{};  ///< ids of variants(), compatible with each other
 };
 
 class Node final : public conform::can::Participant {
  public:
-  /// Fails with a hint on a node-ID out of range, an unknown or repeated defect.
+  /// Fails with a hint on a node-ID out of range, an unknown or repeated defect, unknown variants or variants
+  /// that exclude each other.
   [[nodiscard]] static conform::Result<std::unique_ptr<Node>> create(Options options);
   ~Node() override;
 
   void attach(Sender sender, conform::BusTime now) override;
   void on_frame(const conform::can::Frame& frame, conform::BusTime now) override;
+  void on_transmitted(conform::BusTime now) override;
   void on_time(conform::BusTime now) override;
   [[nodiscard]] std::optional<conform::BusTime> next_wakeup() const override;
 

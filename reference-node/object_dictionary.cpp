@@ -5,6 +5,7 @@
 
 #include "base/check.hpp"
 #include "behaviour.hpp"
+#include "choices.hpp"
 
 namespace refnode {
 
@@ -173,13 +174,13 @@ Upload ObjectDictionary::upload(Multiplexer mux) const {
 Accepted ObjectDictionary::check_size(const Entry& found, std::size_t size) const {
   const std::size_t fixed = fixed_size(found.type);
   if (fixed == 0) {
-    if (size > found.max_size) return refuse(abort_code::length_too_high);
+    if (size > found.max_size) return refuse(choices_->value_too_long);
     // UNICODE_STRING is made of 16-bit characters.
     if (found.type == DataType::unicode_string && size % 2 != 0) return refuse(abort_code::length_mismatch);
     return {};
   }
-  if (size > fixed && !behaviour_->accepts_long_values) return refuse(abort_code::length_too_high);
-  if (size < fixed && !behaviour_->accepts_short_values) return refuse(abort_code::length_too_low);
+  if (size > fixed && !behaviour_->accepts_long_values) return refuse(choices_->value_too_long);
+  if (size < fixed && !behaviour_->accepts_short_values) return refuse(choices_->value_too_short);
   return {};
 }
 
@@ -190,8 +191,8 @@ Accepted ObjectDictionary::check_limits(const Entry& found, ByteView bytes) cons
     const std::int64_t sign = std::int64_t{1} << (bytes.size() * 8 - 1);
     value = (value ^ sign) - sign;
   }
-  if (found.high && value > *found.high) return refuse(abort_code::value_too_high);
-  if (found.low && value < *found.low) return refuse(abort_code::value_too_low);
+  if (found.high && value > *found.high) return refuse(choices_->value_above_limit);
+  if (found.low && value < *found.low) return refuse(choices_->value_below_limit);
   return {};
 }
 
@@ -210,7 +211,7 @@ Accepted ObjectDictionary::download(Multiplexer mux, ByteView bytes) {
   if (const std::size_t fixed = fixed_size(found.type); fixed != 0) value.resize(fixed);
 
   Accepted valid = check_limits(found, value);
-  if (!valid && behaviour_->clamps_to_high_limit && valid.error() == abort_code::value_too_high) {
+  if (!valid && behaviour_->clamps_to_high_limit && valid.error() == choices_->value_above_limit) {
     value = conform::to_le(static_cast<std::uint64_t>(*found.high), value.size());
     valid = {};
   }

@@ -25,6 +25,7 @@ using conform::ByteView;
 using conform::Multiplexer;
 
 struct Behaviour;
+struct Choices;
 
 /// Numbers of CiA 301, 7.4.7.1.
 enum class DataType : std::uint16_t {
@@ -78,9 +79,10 @@ struct Entry {
   std::size_t max_size = 0;  ///< longest value of a type of variable length
   bool rx_mappable = false;
   bool tx_mappable = false;
-  bool command = false;          ///< a write triggers `check` and is not kept (1010h, 1011h, 2F00h)
-  bool storable = true;          ///< taken into the storage image if it is rw and no command
-  std::function<Upload()> read;  ///< replaces `value` on an upload
+  bool command = false;                  ///< a write triggers `check` and is not kept (1010h, 1011h, 2F00h)
+  bool storable = true;                  ///< taken into the storage image if it is rw and no command
+  std::function<bool()> not_stored_now;  ///< true: left out of the storage image for the present
+  std::function<Upload()> read;          ///< replaces `value` on an upload
   std::function<Accepted(ByteView)> check;  ///< last word before a value is taken
   std::function<void()> written;            ///< after a value has been taken
 
@@ -105,7 +107,8 @@ struct Object {
 
 class ObjectDictionary {
  public:
-  explicit ObjectDictionary(const Behaviour& behaviour) : behaviour_(&behaviour) {}
+  ObjectDictionary(const Behaviour& behaviour, const Choices& choices)
+      : behaviour_(&behaviour), choices_(&choices) {}
 
   Entry& add_variable(std::uint16_t index, Entry entry);
   /// An array or record without entries; sub-index 00h is const and counts up with add_sub().
@@ -141,6 +144,7 @@ class ObjectDictionary {
   [[nodiscard]] Accepted check_limits(const Entry& entry, ByteView bytes) const;
 
   const Behaviour* behaviour_;
+  const Choices* choices_;
   std::map<std::uint16_t, Object> objects_;
 };
 

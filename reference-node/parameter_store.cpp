@@ -65,12 +65,18 @@ ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
   failing.storable = false;
 }
 
-Image ParameterStore::image_of(Group group) const {
+Image ParameterStore::image_of(Group group, const Image& former) const {
   Image image;
   for (const auto& [index, object] : device_->dictionary.objects()) {
     if (group_of(conform::Index(index)) != group) continue;
     for (const auto& [sub, entry] : object.entries) {
-      if (is_parameter(entry)) image[{conform::Index(index), conform::SubIndex(sub)}] = entry.value;
+      if (!is_parameter(entry)) continue;
+      const Multiplexer mux{conform::Index(index), conform::SubIndex(sub)};
+      if (!entry.not_stored_now || !entry.not_stored_now()) {
+        image[mux] = entry.value;
+      } else if (const auto kept = former.find(mux); kept != former.end()) {
+        image[mux] = kept->second;
+      }
     }
   }
   return image;
@@ -90,13 +96,15 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
   const StoreFaults& fault = device_->behaviour.store;
   const bool good = matches("save", signature, fault);
   if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature)
-    return refuse(abort_code::cannot_store);
+    return refuse(device_->choices.wrong_signature);
+  if (good && device_->choices.storing_needs_pre_operational && device_->state == NmtState::operational)
+    return refuse(abort_code::device_state);
   if (!fault.without_effect) {
     Images images = storage_->images();
-    for (const Group group : groups_of(sub, fault)) images[group] = image_of(group);
+    for (const Group group : groups_of(sub, fault)) images[group] = image_of(group, images[group]);
     if (auto kept = keep(std::move(images), fault); !kept) return kept;
   }
-  if (!good && !fault.signature_unchecked) return refuse(abort_code::cannot_store);
+  if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
   return {};
 }
 
@@ -104,7 +112,7 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
   const StoreFaults& fault = device_->behaviour.restore;
   const bool good = matches("load", signature, fault);
   if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature)
-    return refuse(abort_code::cannot_store);
+    return refuse(device_->choices.wrong_signature);
   if (!fault.without_effect) {
     // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
     Images images = storage_->images();
@@ -114,7 +122,7 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
       for (const Group group : groups_of(sub, fault)) load(group);
     }
   }
-  if (!good && !fault.signature_unchecked) return refuse(abort_code::cannot_store);
+  if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
   return {};
 }
 
@@ -140,7 +148,11 @@ void ParameterStore::load(Group group) {
   for (auto& [index, object] : device_->dictionary.objects()) {
     if (group_of(conform::Index(index)) != group) continue;
     for (auto& [sub, entry] : object.entries) {
-      if (!is_parameter(entry)) continue;
+      if (!is_parameter(entry)) {
+        // What is never stored begins with its default as well.
+        if (entry.access == Access::rw && !entry.command) entry.value = entry.default_value;
+        continue;
+      }
       entry.value = entry.default_value;
       if (!usable) continue;
       const auto value = stored->second.find({conform::Index(index), conform::SubIndex(sub)});

@@ -26,7 +26,8 @@ class ParameterStore {
   [[nodiscard]] Accepted restore(std::uint8_t sub, ByteView signature);
   [[nodiscard]] std::vector<Group> groups_to_save(std::uint8_t sub) const;
   [[nodiscard]] std::vector<Group> groups_to_restore(std::uint8_t sub) const;
-  [[nodiscard]] Image image_of(Group group) const;
+  /// The values to store; what is not stored now keeps the value of `former`.
+  [[nodiscard]] Image image_of(Group group, const Image& former) const;
   void load(Group group);
   [[nodiscard]] bool keeps(Group group, bool whole_node) const;
 

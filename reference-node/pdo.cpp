@@ -33,6 +33,12 @@ bool ReceivePdo::on_frame(const Frame& frame) {
     emergency_->clear(too_short);
   }
   if (frame.size() > size && behaviour.long_rpdo_dropped) return true;
+  const ErrorCause too_long{0x8220, Emergency::rpdo_source, 1};
+  if (frame.size() <= size) {
+    emergency_->clear(too_long);
+  } else if (device_->choices.long_rpdo_reported) {
+    emergency_->raise(too_long, frame.size());
+  }
 
   const Duration limit = parameters_.event_timer();
   deadline_.reset();
@@ -165,7 +171,12 @@ bool TransmitPdo::on_remote(const Frame& frame) {
   return true;
 }
 
-void TransmitPdo::on_state_change() { restart(); }
+void TransmitPdo::on_state_change() {
+  restart();
+  if (!device_->choices.tpdo.initial_event || !enabled()) return;
+  event_ = true;
+  if (event_driven()) transmit(content());
+}
 
 void TransmitPdo::restart() {
   event_ = false;
@@ -174,6 +185,9 @@ void TransmitPdo::restart() {
   inhibited_until_.reset();
   timer_.reset();
   if (!enabled()) return;
+  const std::uint8_t type = parameters_.transmission_type();
+  const bool first = device_->choices.tpdo.sends_at_first_sync && type >= 1 && type <= last_synchronous_type;
+  if (first) syncs_ = type - 1U;
   reported_ = content();
   start_event_timer();
 }

@@ -64,6 +64,10 @@ const PdoFaults& PdoParameters::faults() const {
   return direction_ == PdoDirection::receive ? device_->behaviour.rpdo : device_->behaviour.tpdo;
 }
 
+const PdoChoices& PdoParameters::choices() const {
+  return direction_ == PdoDirection::receive ? device_->choices.rpdo : device_->choices.tpdo;
+}
+
 std::uint8_t PdoParameters::transmission_type() const {
   return static_cast<std::uint8_t>(device_->dictionary.number(communication_, type_sub, 0xFF));
 }
@@ -84,14 +88,16 @@ Duration PdoParameters::event_timer() const {
 Accepted PdoParameters::check_type(ByteView bytes) const {
   const std::uint64_t type = conform::load_le(bytes);
   const bool remote = type == 0xFC || type == 0xFD;
-  const bool supported = type <= 0xF0 || type >= 0xFE || (remote && direction_ == PdoDirection::transmit);
+  const PdoChoices& choice = choices();
+  const bool supported = (type <= 0xF0 && choice.synchronous_types) || (type >= 0xFE && choice.event_types) ||
+                         (remote && direction_ == PdoDirection::transmit && choice.remote_types);
   if (!supported && !faults().reserved_type_accepted) return refuse(abort_code::invalid_value);
   return {};
 }
 
 Accepted PdoParameters::check_locked(std::uint8_t sub, ByteView bytes) const {
   const bool changed = conform::load_le(bytes) != device_->dictionary.number(communication_, sub);
-  if (changed && cob_id_.valid() && !faults().inhibit_lock_missing) return refuse(abort_code::invalid_value);
+  if (changed && cob_id_.valid() && !faults().inhibit_lock_missing) return refuse(choices().inhibit_locked);
   return {};
 }
 
@@ -103,16 +109,17 @@ PdoParameters::Mapped PdoParameters::unpack(std::uint64_t value) {
 
 Accepted PdoParameters::mappable(const Mapped& mapped) const {
   const PdoFaults& fault = faults();
+  const PdoChoices& choice = choices();
   if (direction_ == PdoDirection::receive && mapped.sub == 0 && dummy_size(mapped.index) != 0) {
-    if (mapped.bits != dummy_size(mapped.index) * 8) return refuse(abort_code::not_mappable);
+    if (mapped.bits != dummy_size(mapped.index) * 8) return refuse(choice.wrong_length);
     return {};
   }
   const Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);
-  if (entry == nullptr) return fault.absent_object_mapped ? Accepted{} : refuse(abort_code::no_object);
+  if (entry == nullptr) return fault.absent_object_mapped ? Accepted{} : refuse(choice.absent_object);
   const bool allowed = direction_ == PdoDirection::receive ? entry->rx_mappable : entry->tx_mappable;
-  if (!allowed && !fault.unmappable_object_mapped) return refuse(abort_code::not_mappable);
+  if (!allowed && !fault.unmappable_object_mapped) return refuse(choice.unmappable_object);
   if (mapped.bits != entry->value.size() * 8 && !fault.mapping_length_unchecked)
-    return refuse(abort_code::not_mappable);
+    return refuse(choice.wrong_length);
   return {};
 }
 
@@ -122,8 +129,9 @@ Accepted PdoParameters::check_mapping_entry(std::uint8_t sub, ByteView bytes) co
   // The procedure is: PDO not valid, sub-index 00h := 00h, then the entries.
   const bool enabled = device_->dictionary.number(mapping_, 0) != 0;
   if ((enabled || cob_id_.valid()) && !faults().mapping_writable_while_enabled)
-    return refuse(abort_code::unsupported_access);
+    return refuse(choices().out_of_order);
   if (value == 0) return {};  // an unused entry
+  if (choices().checked_at_count) return {};
   return mappable(unpack(value));
 }
 
@@ -131,9 +139,9 @@ Accepted PdoParameters::check_mapping_count(ByteView bytes) const {
   const std::uint64_t count = conform::load_le(bytes);
   const PdoFaults& fault = faults();
   if (count == device_->dictionary.number(mapping_, 0)) return {};
-  if (cob_id_.valid() && !fault.mapping_writable_while_valid) return refuse(abort_code::unsupported_access);
+  if (cob_id_.valid() && !fault.mapping_writable_while_valid) return refuse(choices().out_of_order);
   if (count > mapping_entries) {
-    return fault.mapping_count_unchecked ? Accepted{} : refuse(abort_code::mapping_too_long);
+    return fault.mapping_count_unchecked ? Accepted{} : refuse(choices().too_many);
   }
   std::size_t bits = 0;
   for (std::uint64_t entry = 1; entry <= count; ++entry) {
@@ -142,7 +150,7 @@ Accepted PdoParameters::check_mapping_count(ByteView bytes) const {
     if (const Accepted good = mappable(unpack(value)); !good) return good;
     bits += unpack(value).bits;
   }
-  if (bits > 64 && !fault.overlong_mapping_accepted) return refuse(abort_code::mapping_too_long);
+  if (bits > 64 && !fault.overlong_mapping_accepted) return refuse(choices().too_long);
   return {};
 }
 

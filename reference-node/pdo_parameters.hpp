@@ -47,6 +47,7 @@ class PdoParameters {
   [[nodiscard]] Accepted mappable(const Mapped& mapped) const;
   [[nodiscard]] static Mapped unpack(std::uint64_t value);
   [[nodiscard]] const PdoFaults& faults() const;
+  [[nodiscard]] const PdoChoices& choices() const;
 
   Device* device_;
   PdoDirection direction_;

@@ -1,46 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default SDO server (CiA 301, 7.2.4): expedited and segmented transfers on 600h + node-ID / 580h +
-// node-ID. Block transfer is not offered: its command specifiers are refused as unknown (0504 0001h).
+// One SDO server (CiA 301, 7.2.4): takes the requests of its channel, begins transfers and hands their frames
+// on. Passive: it reacts to frames and time and owns nothing but the state of one transfer.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "device.hpp"
+#include "sdo_block_download.hpp"
+#include "sdo_block_upload.hpp"
+#include "sdo_frames.hpp"
+#include "sdo_segmented.hpp"
+#include "segment_pacer.hpp"
 
 namespace refnode {
 
 class SdoServer {
  public:
-  SdoServer(Device& device, Duration turnaround) : device_(&device), turnaround_(turnaround) {}
+  /// `channel`: 0 is the default server, 1 the one of 1201h and so on.
+  SdoServer(Device& device, std::uint8_t channel) : device_(&device), channel_(channel) {}
 
-  /// A data frame on the request CAN-ID, in a state that serves SDO.
-  void on_request(const Frame& frame);
+  /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
+  void on_request(const Frame& frame, std::uint32_t response_id);
   /// Drops a running transfer without a word.
-  void reset() { transfer_.reset(); }
+  void reset() { transfer_ = std::monostate{}; }
+
+  void on_time();
+  void on_transmitted() { pacer_.on_transmitted(device_->now); }
+  /// Sends one segment of a block upload if it is time; false when there is none to send now.
+  bool send_segment();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
 
  private:
-  struct Transfer {
-    bool upload = true;
-    Multiplexer mux;
-    Bytes data;                            ///< upload: everything; download: received so far
-    std::size_t position = 0;              ///< upload: next byte to send
-    std::optional<std::size_t> announced;  ///< download: size of the initiate
-    bool toggle = false;                   ///< toggle bit expected next
-  };
-  using Reply = std::optional<std::array<std::uint8_t, 8>>;
+  using Transfer =
+      std::variant<std::monostate, SegmentedUpload, SegmentedDownload, BlockUpload, BlockDownload>;
 
-  Reply initiate_upload(SdoExchange& exchange);
-  Reply upload_segment(SdoExchange& exchange);
-  Reply initiate_download(SdoExchange& exchange);
-  Reply download_segment(SdoExchange& exchange);
-  Reply abort(SdoExchange& exchange, AbortCode code);
+  [[nodiscard]] SdoReply serve(SdoExchange& exchange);
+  [[nodiscard]] SdoReply initiate_upload(SdoExchange& exchange);
+  [[nodiscard]] SdoReply upload_response(SdoExchange& exchange, Bytes data);
+  [[nodiscard]] SdoReply initiate_download(SdoExchange& exchange);
+  [[nodiscard]] SdoReply block_upload(SdoExchange& exchange);
+  [[nodiscard]] SdoReply initiate_block_upload(SdoExchange& exchange);
+  [[nodiscard]] SdoReply block_download(SdoExchange& exchange);
+  [[nodiscard]] SdoReply initiate_block_download(SdoExchange& exchange);
+  [[nodiscard]] SdoReply block_segment(SdoExchange& exchange, BlockDownload& transfer);
+  /// Whether an abort of the client leaves the transfer as it is: never in a conformant server.
+  [[nodiscard]] bool ignores_abort() const;
+  /// A request that belongs to no transfer, or to another kind than the one that is running.
+  [[nodiscard]] SdoReply out_of_place(SdoExchange& exchange) const;
+
+  [[nodiscard]] bool busy() const { return !std::holds_alternative<std::monostate>(transfer_); }
+  [[nodiscard]] std::optional<Multiplexer> running_mux() const;
+  [[nodiscard]] bool transfer_finished() const;
+  void conclude(SdoExchange& exchange, const SdoReply& reply);
+  void send(const SdoExchange& exchange, const std::optional<SdoData>& data, Duration delay);
 
   Device* device_;
-  Duration turnaround_;
-  std::optional<Transfer> transfer_;
-  std::array<std::uint8_t, 8> last_request_{};  ///< used by a defect only
+  std::uint8_t channel_;
+  std::uint32_t response_id_ = 0;
+  Transfer transfer_;
+  BusTime active_at_{};  ///< last frame of the running transfer, in either direction
+  SegmentPacer pacer_;
+  SdoData last_request_{};  ///< used by a defect only
 };
 
 }  // namespace refnode

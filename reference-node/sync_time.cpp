@@ -13,11 +13,14 @@ SyncConsumer::SyncConsumer(Device& device, Emergency& emergency)
 }
 
 bool SyncConsumer::on_frame(const Frame& frame) {
-  if (frame.id != cob_id_.can_id()) return false;
+  if (!cob_id_.valid() || frame.id != cob_id_.can_id()) return false;
   // Without 1019h a SYNC has no data; one with data is reported and used all the same.
   const ErrorCause wrong_length{0x8240, Emergency::sync_source, 0};
   if (frame.size() != 0) {
-    if (!device_->behaviour.sync_length_not_reported) emergency_->raise(wrong_length, frame.size());
+    const bool reported =
+        !device_->behaviour.sync_length_not_reported && device_->choices.wrong_sync_reported;
+    if (reported) emergency_->raise(wrong_length, frame.size());
+    if (!device_->choices.wrong_sync_used) return true;
   } else {
     emergency_->clear(wrong_length);
   }

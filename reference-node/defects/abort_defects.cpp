@@ -120,6 +120,19 @@ DefectTable existence_rows() {
        "Variables answer on every sub-index",
        {"OD-GEN-09", "SDO-UPL-08"},
        behave(&Behaviour::variables_ignore_sub_index)},
+      {"array-elements-shifted",
+       "Reading an element of 2004h gives the element before it",
+       {"OD-DSC-03", "SDO-DNL-03"},
+       [](ObjectDictionary& od, std::uint8_t) {
+         for (std::uint8_t sub = 4; sub > 1; --sub) {
+           const Entry* before = od.entry(0x2004, static_cast<std::uint8_t>(sub - 1));
+           od.entry(0x2004, sub)->read = [before]() -> Upload { return before->value; };
+         }
+       }},
+      {"1800-event-timer-silent",
+       "Reading 1800h:05 gets no answer",
+       {"OD-GEN-17", "SDO-UPL-03", "OD-1800-20"},
+       silent([](const SdoExchange& e) { return upload(e) && e.index() == 0x1800 && e.sub() == 5; })},
       {"optional-object-silent",
        "Reading absent optional objects 1020h-1029h gets no answer",
        {"OD-GEN-12"},

@@ -38,6 +38,12 @@ using DefectTable = std::vector<Defect>;
 
 // The tables, one per file.
 [[nodiscard]] DefectTable sdo_defects();
+[[nodiscard]] DefectTable sdo_expedited_defects();
+[[nodiscard]] DefectTable sdo_segment_defects();
+[[nodiscard]] DefectTable sdo_request_defects();
+[[nodiscard]] DefectTable sdo_block_upload_defects();
+[[nodiscard]] DefectTable sdo_block_download_defects();
+[[nodiscard]] DefectTable sdo_channel_defects();
 [[nodiscard]] DefectTable abort_defects();
 [[nodiscard]] DefectTable dictionary_defects();
 [[nodiscard]] DefectTable history_defects();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of the SDO server: frames, addressing, states, expedited and segmented transfers.
+// Defects of the SDO server as a channel: frames, addressing, states, load, aborts and unknown commands.
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 
+#include "defects/sdo_exchanges.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -12,38 +13,14 @@ using namespace defect;
 
 namespace {
 
-using Data = std::array<std::uint8_t, 8>;
-
-bool always(const SdoExchange&) { return true; }
-bool upload_initiated(const SdoExchange& e) { return e.step == SdoStep::upload_initiate && !e.aborted; }
-bool download_initiated(const SdoExchange& e) { return e.step == SdoStep::download_initiate && !e.aborted; }
-bool upload_segment_sent(const SdoExchange& e) { return e.step == SdoStep::upload_segment && !e.aborted; }
-bool download_segment_taken(const SdoExchange& e) {
-  return e.step == SdoStep::download_segment && !e.aborted;
+Filter deaf_after_boot_up(Duration time) {
+  // Not after power-on, or the run ends before it has begun.
+  return [time, ready = BusTime{}, boot_ups = 0](const FilterContext& context,
+                                                 std::vector<Outgoing>& frames) mutable {
+    if (context.service == Service::boot_up && ++boot_ups > 1) ready = context.now + time;
+    if (context.service == Service::sdo && context.now < ready) frames.clear();
+  };
 }
-bool segmented_download_initiated(const SdoExchange& e) {
-  return download_initiated(e) && (e.request[0] & 0x02U) == 0;
-}
-bool unsized_expedited_download(const SdoExchange& e) {
-  return download_initiated(e) && (e.request[0] & 0x03U) == 0x02U;
-}
-bool last_download_segment(const SdoExchange& e) {
-  return download_segment_taken(e) && (e.request[0] & 0x01U) != 0;
-}
-bool segment_without_transfer(const SdoExchange& e) {
-  return e.step == SdoStep::upload_segment && e.aborted == abort_code::command_unknown;
-}
-bool download_segment_without_transfer(const SdoExchange& e) {
-  return e.step == SdoStep::download_segment && e.aborted == abort_code::command_unknown;
-}
-bool unknown_command(const SdoExchange& e) {
-  return e.step == SdoStep::other && e.aborted == abort_code::command_unknown;
-}
-bool aborted(const SdoExchange& e) { return e.aborted.has_value(); }
-
-// 010x nnes with e = 1: how many bytes carry data.
-std::size_t expedited_size(const Data& data) { return 4U - ((data[0] >> 2U) & 0x03U); }
-bool is_expedited_upload(const Data& data) { return (data[0] & 0xE2U) == 0x42U; }
 
 DefectTable frame_rows() {
   return {
@@ -123,6 +100,17 @@ DefectTable frame_rows() {
        "SDO requests are served in Stopped",
        {"SDO-GEN-15", "NMT-FSA-23", "SDO-SUP-19"},
        behave(&Behaviour::sdo_served_in_stopped)},
+      {"sdo-refused-in-stopped",
+       "SDO requests in Stopped are aborted with 0800 0022h instead of staying unanswered",
+       {"SDO-GEN-15", "NMT-FSA-23"},
+       BehaviourSwitch([](Behaviour& behaviour) {
+         behaviour.sdo_served_in_stopped = true;
+         behaviour.sdo.refuses_in_stopped = true;
+       })},
+      {"sdo-served-after-stopped",
+       "The last SDO request that came in Stopped is answered as soon as the node leaves it",
+       {"SDO-GEN-15"},
+       BehaviourSwitch([](Behaviour& behaviour) { behaviour.sdo.serves_after_stopped = true; })},
       {"sdo-served-before-bootup",
        "SDO requests are served before the boot-up message",
        {"SDO-GEN-16", "NMT-BOOT-05"},
@@ -140,153 +128,47 @@ DefectTable frame_rows() {
        Filter([count = 0](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
          if (context.service == Service::sdo && ++count % 100 == 0) frames.clear();
        })},
+      {"sdo-response-id-cut-to-8-bits",
+       "Only the lower 8 bits of the CAN-ID of responses are used",
+       {"SDO-GEN-01"},
+       reshape(Service::sdo, [](const FilterContext&, Frame& frame) { frame.id &= 0xFFU; })},
+      {"sdo-response-extended",
+       "Responses have a 29-bit identifier",
+       {"SDO-GEN-01", "SDO-GEN-02"},
+       reshape(Service::sdo, [](const FilterContext&, Frame& frame) { frame.extended = true; })},
+      {"sdo-not-ready-after-boot-up",
+       "After a reset SDO requests are answered from 200 ms after the boot-up message on",
+       {"SDO-GEN-17", "OD-RST-07"},
+       deaf_after_boot_up(std::chrono::milliseconds(200))},
+      {"sdo-not-ready-long-after-boot-up",
+       "After a reset SDO requests are answered from 1.5 s after the boot-up message on",
+       {"SDO-GEN-17", "OD-RST-07"},
+       deaf_after_boot_up(std::chrono::milliseconds(1500))},
+      {"sdo-second-request-gets-data-of-the-first",
+       "A request that comes while a response is being prepared is answered with the data of that response",
+       {"SDO-GEN-20"},
+       Filter([busy_until = BusTime{}, last = Data{}](const FilterContext& context,
+                                                      std::vector<Outgoing>& frames) mutable {
+         if (context.service != Service::sdo || frames.empty()) return;
+         Data& data = frames.front().frame.data;
+         if (context.now < busy_until) std::copy(last.begin() + 4, last.end(), data.begin() + 4);
+         last = data;
+         // The longer, the surer is the second request to come in between.
+         frames.front().delay += std::chrono::milliseconds(3);
+         busy_until = context.now + std::chrono::milliseconds(3);
+       })},
+      {"sdo-late-response",
+       "Every 150th response comes after 1.2 s",
+       {"SDO-GEN-19", "SDO-GEN-18"},
+       Filter([count = 0](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+         if (context.service != Service::sdo || ++count % 150 != 0) return;
+         for (Outgoing& outgoing : frames) outgoing.delay += std::chrono::milliseconds(1200);
+       })},
   };
 }
 
-DefectTable transfer_rows() {
+DefectTable command_rows() {
   return {
-      {"u8-sent-as-u32",
-       "Every expedited upload claims four bytes",
-       {"SDO-UPL-02", "SDO-UPL-03", "OD-GEN-10", "OD-LEN-04", "OD-1001-01"},
-       patch(upload_initiated,
-             [](const SdoExchange&, Data& data) {
-               if (is_expedited_upload(data)) data[0] = 0x43;
-             })},
-      {"upload-size-not-indicated",
-       "Expedited uploads never tell their size",
-       {"OD-LEN-04", "OD-GEN-10"},
-       patch(upload_initiated,
-             [](const SdoExchange&, Data& data) {
-               if (is_expedited_upload(data)) data[0] = 0x42;
-             })},
-      {"data-big-endian",
-       "Expedited uploads send numbers with the most significant byte first",
-       {"OD-ACC-04", "SDO-DNL-01", "OD-1000-07", "OD-1018-08", "OD-1017-03"},
-       patch(upload_initiated,
-             [](const SdoExchange&, Data& data) {
-               if (!is_expedited_upload(data)) return;
-               std::reverse(data.begin() + 4,
-                            data.begin() + 4 + static_cast<std::ptrdiff_t>(expedited_size(data)));
-             })},
-      {"u64-truncated-to-expedited",
-       "Numbers of five to eight bytes are sent expedited, cut to four",
-       {"SDO-UPL-05"},
-       behave(&Behaviour::long_numbers_truncated)},
-      {"stale-data-returned",
-       "An upload returns the data of the upload before it",
-       {"OD-GEN-13", "SDO-UPL-06"},
-       Filter([last = Data{}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
-         if (context.sdo == nullptr || !upload_initiated(*context.sdo)) return;
-         for (Outgoing& outgoing : frames) {
-           Data& data = outgoing.frame.data;
-           if (!is_expedited_upload(data)) continue;
-           const Data fresh = data;
-           std::copy_n(last.begin() + 4, 4, data.begin() + 4);
-           last = fresh;
-         }
-       })},
-      {"expedited-unsized-aborted-but-stored",
-       "An expedited download without size is aborted after it was stored",
-       {"SDO-DNL-05", "SDO-DNL-06", "SDO-DNL-20"},
-       respond(unsized_expedited_download, 0x80, 0x06070010)},
-      {"toggle-not-checked-upload",
-       "The toggle bit of upload segment requests is not checked",
-       {"SDO-SUP-05", "SDO-SUP-06"},
-       behave(&Behaviour::upload_toggle_unchecked)},
-      {"toggle-not-checked-download",
-       "The toggle bit of download segments is not checked",
-       {"SDO-SDN-04", "SDO-SDN-05"},
-       behave(&Behaviour::download_toggle_unchecked)},
-      {"wrong-abort-toggle",
-       "A toggle error is aborted with 0609 0030h instead of 0503 0000h",
-       {"SDO-SUP-05", "SDO-SUP-06", "SDO-SDN-04", "SDO-SDN-05"},
-       wrong_abort(abort_code::toggle_not_alternated, abort_code::invalid_value)},
-      {"toggle-not-alternating",
-       "Upload segments always carry toggle 0",
-       {"SDO-SUP-03", "SDO-SUP-01"},
-       patch(upload_segment_sent, [](const SdoExchange&, Data& data) { data[0] &= 0xEFU; })},
-      {"toggle-starts-with-1",
-       "Upload segments carry the inverted toggle bit",
-       {"SDO-SUP-03", "SDO-SUP-01"},
-       patch(upload_segment_sent, [](const SdoExchange&, Data& data) { data[0] ^= 0x10U; })},
-      {"segment-last-flag-missing",
-       "The last upload segment is not marked",
-       {"SDO-SUP-01", "SDO-SUP-04"},
-       patch(upload_segment_sent, [](const SdoExchange&, Data& data) { data[0] &= 0xFEU; })},
-      {"last-segment-n-wrong",
-       "The last upload segment claims seven bytes whatever it holds",
-       {"SDO-SUP-04", "SDO-SUP-01", "SDO-SUP-02"},
-       patch(upload_segment_sent, [](const SdoExchange&, Data& data) { data[0] &= 0xF1U; })},
-      {"size-indicated-wrong",
-       "The size told by a segmented upload is one too high",
-       {"SDO-SUP-02", "OD-1008-01"},
-       patch(upload_initiated,
-             [](const SdoExchange&, Data& data) {
-               if (data[0] == 0x41) ++data[4];
-             })},
-      {"segment-data-shifted",
-       "Upload segments start one byte late",
-       {"SDO-SUP-01"},
-       patch(upload_segment_sent,
-             [](const SdoExchange&, Data& data) {
-               std::rotate(data.begin() + 1, data.begin() + 2, data.end());
-             })},
-      {"segment-response-toggle-wrong",
-       "Download segments are always confirmed with toggle 0",
-       {"SDO-SDN-03"},
-       patch(download_segment_taken, [](const SdoExchange&, Data& data) { data[0] &= 0xEFU; })},
-      {"last-segment-confirmed-as-initiate",
-       "The last download segment is confirmed by an initiate response",
-       {"SDO-SDN-01", "SDO-SDN-03"},
-       respond(last_download_segment, 0x60, 0)},
-      {"abort-does-not-close-transfer",
-       "After a toggle abort the transfer goes on",
-       {"SDO-SUP-07"},
-       behave(&Behaviour::abort_keeps_transfer)},
-      {"segment-served-without-initiate",
-       "An upload segment request without transfer gets an empty last segment",
-       {"SDO-SUP-08", "SDO-SUP-09"},
-       respond(segment_without_transfer, 0x0F, 0)},
-      {"download-segment-served-without-initiate",
-       "A download segment without transfer is confirmed",
-       {"SDO-SDN-16", "SDO-SDN-26"},
-       respond(download_segment_without_transfer, 0x20, 0)},
-      {"transfer-not-closed-after-last-segment",
-       "After the last upload segment the transfer starts again",
-       {"SDO-SUP-09"},
-       behave(&Behaviour::transfer_stays_open_after_last)},
-      {"client-abort-ignored",
-       "A client abort does not end the transfer",
-       {"SDO-SUP-10", "SDO-SDN-19"},
-       behave(&Behaviour::ignores_client_abort)},
-      {"client-abort-answered",
-       "A client abort is answered with an abort",
-       {"SDO-ERR-03", "SDO-SUP-10", "SDO-SDN-19"},
-       behave(&Behaviour::answers_client_abort)},
-      {"new-initiate-wedges-server",
-       "While a segmented transfer is open no new one is served",
-       {"SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17"},
-       behave(&Behaviour::initiate_ignored_while_busy)},
-      {"transfer-survives-reset-comm",
-       "A segmented transfer goes on after reset communication",
-       {"SDO-SUP-20"},
-       behave(&Behaviour::transfer_survives_reset)},
-      {"segmented-download-not-supported",
-       "Segmented downloads are refused although objects of more than four bytes are rw",
-       {"SDO-SDN-01", "SDO-SDN-03"},
-       respond(segmented_download_initiated, 0x80, 0x05040001)},
-      {"segmented-ack-but-not-stored",
-       "Segmented downloads are confirmed and forgotten",
-       {"SDO-SDN-01", "SDO-SDN-03"},
-       behave(&Behaviour::segmented_download_not_stored)},
-      {"segmented-size-mismatch-accepted",
-       "Fewer bytes than announced are padded with zeros",
-       {"SDO-SDN-08"},
-       behave(&Behaviour::segment_shortfall_unchecked)},
-      {"segmented-surplus-accepted",
-       "More bytes than announced are taken and cut off",
-       {"SDO-SDN-09", "SDO-SDN-10", "SDO-SDN-27"},
-       behave(&Behaviour::segment_overflow_unchecked)},
       {"unknown-ccs-silent",
        "An unknown command specifier gets no answer",
        {"SDO-ERR-01", "SDO-ERR-02"},
@@ -311,6 +193,70 @@ DefectTable transfer_rows() {
        "A request of fewer than eight bytes is completed from the one before it",
        {"SDO-ERR-07", "SDO-ERR-06"},
        behave(&Behaviour::short_requests_completed)},
+      {"client-abort-ignored",
+       "A client abort does not end the transfer",
+       {"SDO-SUP-10", "SDO-SDN-19"},
+       behave(&Behaviour::ignores_client_abort)},
+      {"client-abort-answered",
+       "A client abort is answered with an abort",
+       {"SDO-ERR-03", "SDO-SUP-10", "SDO-SDN-19"},
+       behave(&Behaviour::answers_client_abort)},
+      {"unknown-ccs-served",
+       "Command specifier 7 is answered like an upload request",
+       {"SDO-ERR-01", "SDO-ERR-02"},
+       respond(unknown_command, 0x43, 0)},
+      {"unknown-ccs-echoed",
+       "A request with an unknown command specifier comes back as it was",
+       {"SDO-ERR-01", "SDO-ERR-02"},
+       patch(unknown_command, [](const SdoExchange& e, Data& data) { data = e.request; })},
+      {"abort-request-with-reserved-bits-hangs",
+       "A client abort with reserved bits set stops the server for good",
+       {"SDO-ERR-09"},
+       Filter([stopped = false](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+         if (context.service == Service::boot_up) stopped = false;
+         if (context.sdo == nullptr) return;
+         const std::uint8_t command = context.sdo->request[0];
+         if (command > 0x80 && command < 0xA0) stopped = true;
+         if (stopped) frames.clear();
+       })},
+      {"abort-mux-stale",
+       "Aborts carry the multiplexer of the request before",
+       {"SDO-ERR-04", "SDO-UPL-14", "OD-GEN-04"},
+       Filter([last = Data{}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+         if (context.sdo == nullptr) return;
+         if (context.sdo->aborted) {
+           for (Outgoing& outgoing : frames)
+             std::copy_n(last.begin() + 1, 3, outgoing.frame.data.begin() + 1);
+         }
+         last = context.sdo->request;
+       })},
+      {"segment-abort-mux-zero",
+       "Aborts of a running transfer carry the multiplexer 0000h:00",
+       {"SDO-ERR-04", "SDO-SUP-05", "SDO-SDN-04"},
+       patch(
+           [](const SdoExchange& e) {
+             return aborted(e) && (e.step == SdoStep::upload_segment || e.step == SdoStep::download_segment);
+           },
+           [](const SdoExchange&, Data& data) { data[1] = data[2] = data[3] = 0; })},
+      {"abort-repeated",
+       "Every abort is sent twice",
+       {"SDO-ERR-10", "SDO-GEN-04"},
+       Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+         if (context.sdo == nullptr || !aborted(*context.sdo) || frames.empty()) return;
+         frames.push_back(frames.back());
+       })},
+      {"abort-repeated-later",
+       "Every abort is sent again after 100 ms",
+       {"SDO-ERR-10", "SDO-GEN-04"},
+       Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+         if (context.sdo == nullptr || !aborted(*context.sdo) || frames.empty()) return;
+         frames.push_back(frames.back());
+         frames.back().delay += std::chrono::milliseconds(100);
+       })},
+      {"abort-code-always-general",
+       "Every abort says 0800 0000h, whatever the reason",
+       {"OD-GEN-04", "OD-GEN-07", "OD-ACC-01", "OD-LEN-01", "OD-RNG-01"},
+       patch(aborted, [](const SdoExchange&, Data& data) { store_code(data, abort_code::general_error); })},
   };
 }
 
@@ -318,9 +264,8 @@ DefectTable transfer_rows() {
 
 DefectTable sdo_defects() {
   DefectTable rows = frame_rows();
-  DefectTable transfers = transfer_rows();
-  rows.insert(rows.end(), std::make_move_iterator(transfers.begin()),
-              std::make_move_iterator(transfers.end()));
+  DefectTable others = command_rows();
+  rows.insert(rows.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
   return rows;
 }
 

@@ -21,11 +21,27 @@ using namespace std::chrono_literals;
 class Bench {
  public:
   explicit Bench(std::vector<std::string> defects = {}, std::shared_ptr<Storage> storage = {},
-                 std::uint8_t id = 5) {
-    auto made = Node::create({id, std::move(defects), std::move(storage), {}});
+                 std::uint8_t id = 5, const Choices& choices = {}) {
+    Options options;
+    options.node_id = id;
+    options.defects = std::move(defects);
+    options.storage = std::move(storage);
+    options.choices = choices;
+    auto made = Node::create(options);
     REQUIRE(made.has_value());
     node_ = std::move(*made);
-    node_->attach([this](const conform::can::Frame& frame) { sent_.push_back(text(frame)); }, now_);
+    node_->attach(
+        [this](const conform::can::Frame& frame) {
+          sent_.push_back(text(frame));
+          ++unconfirmed_;
+        },
+        now_);
+  }
+  /// A node whose SDO server makes these choices.
+  static Bench choosing(const SdoChoices& sdo) {
+    Choices choices;
+    choices.sdo = sdo;
+    return Bench({}, {}, 5, choices);
   }
   Bench(Bench&&) = delete;
 
@@ -37,6 +53,7 @@ class Bench {
       now_ = std::max(now_, *next);
       const std::size_t before = sent_.size();
       node_->on_time(now_);
+      confirm();
       for (std::size_t i = before; stamped && i < sent_.size(); ++i) sent_[i] = stamp() + sent_[i];
     }
     now_ = end;
@@ -45,7 +62,7 @@ class Bench {
   /// Sends frames to the node, one per line, and returns what it sent at once.
   std::vector<std::string> send(std::string_view lines) {
     for (const auto line : conform::split(lines, '\n')) {
-      if (!conform::trim(line).empty()) node_->on_frame(parse(line), now_);
+      if (!conform::trim(line).empty()) send(parse(line));
     }
     return take();
   }
@@ -55,7 +72,10 @@ class Bench {
     frame.extended = true;
     send(frame);
   }
-  void send(const conform::can::Frame& frame) { node_->on_frame(frame, now_); }
+  void send(const conform::can::Frame& frame) {
+    node_->on_frame(frame, now_);
+    confirm();
+  }
   /// The data of the one answer to an SDO request on 605h, or "" when there was none.
   std::string sdo(std::string_view bytes) {
     const auto answers = send("605: " + std::string(bytes));
@@ -68,6 +88,10 @@ class Bench {
   Node& node() { return *node_; }
 
  private:
+  // A bus without length: whatever was sent has left at once.
+  void confirm() {
+    for (; unconfirmed_ > 0; --unconfirmed_) node_->on_transmitted(now_);
+  }
   static conform::can::Frame parse(std::string_view line) {
     const auto colon = line.find(':');
     REQUIRE(colon != std::string_view::npos);
@@ -80,7 +104,7 @@ class Bench {
   static std::string text(const conform::can::Frame& frame) {
     std::string id = conform::hex(frame.id, 3);
     id.pop_back();
-    return conform::hex_bytes(frame.bytes()).insert(0, id + ": ");
+    return conform::hex_bytes(frame.bytes()).insert(0, (frame.extended ? "ext " : "") + id + ": ");
   }
   std::string stamp() const {
     return "@" +
@@ -91,6 +115,7 @@ class Bench {
 
   conform::BusTime now_{};
   std::vector<std::string> sent_;
+  int unconfirmed_ = 0;
   std::unique_ptr<Node> node_;
 };
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of additional SDO servers (1201h-127Fh) and of the parameters of SDO clients (1280h-12FFh).
+#include "defects/sdo_block_exchanges.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+bool on_additional_channel(const SdoExchange& e) { return e.channel != 0; }
+
+/// Any node-ID from 0 to 255.
+DictionaryEdit any_node_id(std::uint16_t index) {
+  return [index](ObjectDictionary& od, std::uint8_t) {
+    if (Entry* entry = od.entry(index, 3)) {
+      entry->low.reset();
+      entry->high.reset();
+    }
+  };
+}
+DictionaryEdit not_storable(std::uint16_t index) {
+  return [index](ObjectDictionary& od, std::uint8_t) {
+    for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
+      if (Entry* entry = od.entry(index, sub)) entry->storable = false;
+    }
+  };
+}
+/// What is written is the power-on value from then on.
+DictionaryEdit kept_at_reset(std::uint16_t index) {
+  return [index](ObjectDictionary& od, std::uint8_t) {
+    for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+      Entry* entry = od.entry(index, sub);
+      if (entry == nullptr) continue;
+      entry->written = [entry, before = entry->written] {
+        entry->default_value = entry->value;
+        if (before) before();
+      };
+    }
+  };
+}
+/// Only bit 31 can be changed, and the rest is refused with another code than the one of the standard.
+DictionaryEdit only_valid_bit(std::uint16_t index) {
+  return [index](ObjectDictionary& od, std::uint8_t) {
+    for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+      Entry* entry = od.entry(index, sub);
+      if (entry == nullptr) continue;
+      entry->check = [entry](ByteView bytes) -> Accepted {
+        const std::uint64_t changed = conform::load_le(bytes) ^ conform::load_le(entry->value);
+        if ((changed & 0x7FFF'FFFFU) != 0) return refuse(abort_code::value_too_high);
+        return {};
+      };
+    }
+  };
+}
+
+}  // namespace
+
+DefectTable sdo_channel_defects() {
+  using Faults = CobIdFaults;
+  return {
+      {"1201-absent", "The parameter of a claimed SDO server is missing", {"OD-1201-01"}, absent(0x1201)},
+      {"1201-sub0-out-of-range",
+       "The parameter of an SDO server has four entries",
+       {"OD-1201-01"},
+       preset(0x1201, 0, 4)},
+      {"1201-sub0-writable",
+       "The number of entries of an SDO server can be written",
+       {"OD-1201-02"},
+       access(0x1201, 0, Access::rw)},
+      {"1201-valid-by-default",
+       "An additional SDO server is valid by default",
+       {"OD-1201-03"},
+       both(preset(0x1201, 1, 0x640), preset(0x1201, 2, 0x5C0))},
+      {"1201-dynamic-by-default",
+       "The COB-IDs of an SDO server are dynamic by default",
+       {"OD-1201-03"},
+       both(preset(0x1201, 1, 0xC000'0000), preset(0x1201, 2, 0xC000'0000))},
+      {"1201-valid-bit-ignored",
+       "An additional SDO server is in use whatever bit 31 of its COB-IDs says",
+       {"OD-1201-04"},
+       behave(&Behaviour::sdo_server_cob_id, &Faults::valid_bit_ignored)},
+      {"1201-valid-bit-polarity-inverted",
+       "An additional SDO server is in use while bit 31 of its COB-IDs is 1",
+       {"OD-1201-04", "SDO-MUL-01", "OD-1201-05"},
+       behave(&Behaviour::sdo_server_cob_id, &Faults::valid_bit_inverted)},
+      {"1201-valid-with-one-cob-id",
+       "An additional SDO server is in use as soon as its first COB-ID is valid",
+       {"OD-1201-04"},
+       behave(&Behaviour::sdo_channels, &SdoChannelFaults::second_cob_id_not_needed)},
+      {"1201-lock-missing",
+       "The COB-IDs of a valid SDO server can be changed",
+       {"OD-1201-05"},
+       behave(&Behaviour::sdo_server_cob_id, &Faults::lock_missing)},
+      {"1201-frame-bit-accepted",
+       "Bit 29 of the COB-IDs of an SDO server can be set",
+       {"OD-1201-06"},
+       behave(&Behaviour::sdo_server_cob_id, &Faults::frame_bit_accepted)},
+      {"1201-node-id-unchecked",
+       "The node-ID of an SDO client may be anything",
+       {"OD-1201-07"},
+       any_node_id(0x1201)},
+      {"1201-dynamic-stored",
+       "Dynamic COB-IDs of an SDO server are stored",
+       {"OD-1201-08"},
+       behave(&Behaviour::dynamic_sdo_stored)},
+      {"additional-sdo-silent",
+       "Additional SDO servers never answer",
+       {"SDO-MUL-01", "OD-1201-04"},
+       silent(on_additional_channel)},
+      {"additional-sdo-answers-on-default-channel",
+       "Additional SDO servers answer on the CAN-ID of the default one",
+       {"SDO-MUL-01", "OD-1201-04"},
+       Filter([](const FilterContext& context, Frames& frames) {
+         if (context.sdo == nullptr || !on_additional_channel(*context.sdo)) return;
+         for (Outgoing& outgoing : frames) outgoing.frame.id = 0x580U + context.node_id;
+       })},
+      {"default-sdo-answers-on-all-channels",
+       "Answers of the default SDO server are sent on an additional channel as well",
+       {"SDO-MUL-01"},
+       Filter([used = std::uint32_t{0}](const FilterContext& context, Frames& frames) mutable {
+         if (context.sdo == nullptr || frames.empty()) return;
+         if (on_additional_channel(*context.sdo)) {
+           used = frames.front().frame.id;
+         } else if (used != 0) {
+           frames.push_back(Outgoing(frames.front()));
+           frames.back().frame.id = used;
+         }
+       })},
+      {"additional-sdo-shares-transfer",
+       "All SDO servers share the state of one transfer",
+       {"SDO-MUL-04"},
+       behave(&Behaviour::sdo_channels, &SdoChannelFaults::transfer_shared)},
+      {"additional-sdo-survives-reset",
+       "The COB-IDs of SDO servers keep their values at reset communication",
+       {"SDO-MUL-05"},
+       kept_at_reset(0x1201)},
+      {"1280-sub0-wrong",
+       "The parameter of an SDO client has two entries",
+       {"OD-1280-01"},
+       preset(0x1280, 0, 2)},
+      {"1280-sub3-missing",
+       "The parameter of an SDO client has no node-ID of the server",
+       {"OD-1280-01"},
+       absent_sub(0x1280, 3)},
+      {"1280-sub0-writable",
+       "The number of entries of an SDO client can be written",
+       {"OD-1280-01"},
+       access(0x1280, 0, Access::rw)},
+      {"1280-valid-by-default",
+       "An SDO client is valid by default",
+       {"OD-1280-02"},
+       both(preset(0x1280, 1, 0x640), preset(0x1280, 2, 0x5C0))},
+      {"1280-lock-missing",
+       "The COB-IDs of a valid SDO client can be changed",
+       {"OD-1280-03"},
+       behave(&Behaviour::sdo_client_cob_id, &Faults::lock_missing)},
+      {"1280-fixed-bits-wrong-abort",
+       "Only bit 31 of an SDO client can be changed, and the rest is refused as a value that is too high",
+       {"OD-1280-04"},
+       only_valid_bit(0x1280)},
+      {"1280-frame-bit-accepted",
+       "Bit 29 of the COB-IDs of an SDO client can be set",
+       {"OD-1280-05"},
+       behave(&Behaviour::sdo_client_cob_id, &Faults::frame_bit_accepted)},
+      {"1280-node-id-unchecked",
+       "The node-ID of an SDO server may be anything",
+       {"OD-1280-06"},
+       any_node_id(0x1280)},
+      {"1280-not-stored",
+       "The parameters of an SDO client are not stored",
+       {"SDO-MUL-07"},
+       not_storable(0x1280)},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects a device need not have, and access the standard leaves to the device.
+#include "variants/tools.hpp"
+
+namespace refnode {
+
+using namespace variant;
+
+namespace {
+
+/// Sub-index FFh of every array and record: bits 15-8 data type, 7-0 object code (CiA 301, 7.4.3, 7.5.2).
+void add_structure(VariantTarget& target) {
+  constexpr std::uint8_t array_code = 0x08;
+  constexpr std::uint8_t record_code = 0x09;
+  const auto record_type = [](std::uint16_t index) -> unsigned {
+    switch (index & 0xFE00U) {
+      case 0x1400:
+      case 0x1800: return 0x20;
+      case 0x1600:
+      case 0x1A00: return 0x21;
+      case 0x1200: return 0x22;
+      case 0x1000: return 0x23;
+      default: return 0x40;  // a structure of the manufacturer
+    }
+  };
+  for (auto& [index, object] : target.dictionary.objects()) {
+    if (object.kind == ObjectKind::variable) continue;
+    const auto first = object.entries.upper_bound(0);
+    const bool array = object.kind == ObjectKind::array && first != object.entries.end();
+    const unsigned type = array ? static_cast<unsigned>(first->second.type) : record_type(index);
+    const std::uint64_t value = (type << 8U) | (array ? array_code : record_code);
+    object.entries[0xFF] = integer_entry("Structure", DataType::unsigned32, Access::constant, value);
+  }
+}
+
+void add_types(VariantTarget& target) {
+  constexpr std::uint8_t bits[] = {1, 8, 16, 32, 8, 16, 32};
+  for (std::uint16_t type = 1; type <= 7; ++type) {
+    if (target.dictionary.objects().contains(type)) continue;
+    target.dictionary.add_variable(
+        type, integer_entry("Data type", DataType::unsigned32, Access::ro, bits[type - 1U]));
+  }
+}
+
+void remove_range(VariantTarget& target, std::uint16_t first, std::uint16_t last) {
+  std::erase_if(target.dictionary.objects(),
+                [=](const auto& object) { return object.first >= first && object.first <= last; });
+}
+
+void add_error_behaviour(VariantTarget& target) {
+  if (target.dictionary.objects().contains(0x1029)) return;
+  target.dictionary.add_complex(0x1029, "Error behaviour", ObjectKind::array);
+  Entry& entry = target.dictionary.add_sub(
+      0x1029, 1, integer_entry("Communication error", DataType::unsigned8, Access::rw, 0));
+  entry.low = 0;
+  entry.high = 2;
+}
+
+}  // namespace
+
+VariantTable object_variants() {
+  return {
+      {"1002-absent", "no manufacturer status register", "7.5.2.3: optional", absent({0x1002})},
+      {"1003-absent", "no error history", "7.5.2.4: optional", absent({0x1003}), "1003"},
+      {"1003-depth-1", "a history of one error", "7.5.2.4: 1 to 254 fields",
+       both(absent_from(0x1003, 2), choose([](Choices& c) { c.history_depth = 1; })), "1003"},
+      {"1003-depth-2", "a history of two errors", "7.5.2.4: 1 to 254 fields",
+       both(absent_from(0x1003, 3), choose([](Choices& c) { c.history_depth = 2; })), "1003"},
+      {"1003-depth-7", "a history of seven errors", "7.5.2.4: 1 to 254 fields",
+       both(absent_from(0x1003, 8), choose([](Choices& c) { c.history_depth = 7; })), "1003"},
+      {.id = "sync-absent",
+       .summary = "no SYNC: 1005h to 1007h absent, no synchronous PDO",
+       .legal = "7.5.2.5: 1005h is for devices that support SYNC",
+       .how = both(absent({0x1005, 0x1006, 0x1007}), choose([](Choices& c) {
+                     c.rpdo.synchronous_types = c.tpdo.synchronous_types = false;
+                     c.tpdo.remote_types = false;
+                   })),
+       .group = "sync",
+       .lacks = {"sync consumer"}},
+      {"1006-1007-absent", "neither cycle period nor window length",
+       "7.5.2.6, 7.5.2.7: for SYNC producers; optional", absent({0x1006, 0x1007})},
+      {"1007-absent", "no synchronous window", "7.5.2.7: optional", absent({0x1007})},
+      {"1008-absent", "no device name", "7.5.2.8: optional", absent({0x1008}), "1008"},
+      {"1009-absent", "no hardware version", "7.5.2.9: optional", absent({0x1009})},
+      {"100A-absent", "no software version", "7.5.2.10: optional", absent({0x100A})},
+      {"1008-three-letters", "a device name short enough for an expedited answer", "7.5.2.8: any length",
+       text(0x1008, "ref"), "1008"},
+      {"1008-seven-letters", "a device name of exactly one segment", "7.5.2.8: any length",
+       text(0x1008, "refnode"), "1008"},
+      {"1008-long", "a device name of 60 characters", "7.5.2.8: any length",
+       text(0x1008, "a name of sixty characters, which is longer than most others"), "1008"},
+      {"1008-ro", "names read-only in place of constant",
+       "7.4.5: alike for a client; a name may depend on the device",
+       both(access(0x1008, 0, Access::ro),
+            both(access(0x1009, 0, Access::ro), access(0x100A, 0, Access::ro)))},
+      {.id = "storage-absent",
+       .summary = "neither stores nor restores",
+       .legal = "7.5.2.13, 7.5.2.14: optional",
+       .how = absent({0x1010, 0x1011, 0x2F20}),
+       .group = "storage",
+       .lacks = {"store", "restore"}},
+      {.id = "1010-only",
+       .summary = "stores, but does not restore",
+       .legal = "7.5.2.14: 1011h is optional",
+       .how = absent({0x1011}),
+       .group = "storage",
+       .lacks = {"restore"}},
+      {"1010-sub-1-only", "stores and restores everything at once only", "OD-1010-05, OD-1011-05",
+       both(absent_from(0x1010, 2), absent_from(0x1011, 2)), "storage"},
+      {"1010-sub-2-absent", "stores and restores all, or the application parameters", "OD-1010-05: a gap",
+       both(gap(0x1010, 2), gap(0x1011, 2)), "storage"},
+      {.id = "1012-absent",
+       .summary = "does not know TIME",
+       .legal = "7.5.2.15: for devices that support TIME",
+       .how = absent({0x1012, 0x2F10}),
+       .group = "time",
+       .lacks = {"time consumer"}},
+      {.id = "emcy-absent",
+       .summary = "no EMCY: 1014h and 1015h absent",
+       .legal = "7.2.7.1: optional",
+       .how = absent({0x1014, 0x1015}),
+       .group = "emcy",
+       .lacks = {"emcy"}},
+      {"1015-absent", "no EMCY inhibit time", "7.5.2.18: optional", absent({0x1015}), "1015"},
+      {.id = "1016-absent",
+       .summary = "no heartbeat consumer",
+       .legal = "7.5.2.19: optional",
+       .how = absent({0x1016}),
+       .group = "1016",
+       .lacks = {"heartbeat consumer"}},
+      {"1016-one", "monitors one node", "7.5.2.19: 1 to 127", absent_from(0x1016, 2), "1016"},
+      {"1016-two", "monitors two nodes", "7.5.2.19: 1 to 127", absent_from(0x1016, 3), "1016"},
+      {"1018-vendor-only", "identity with the vendor-ID alone", "7.5.2.21: 02h to 04h are optional",
+       absent_from(0x1018, 2), "1018"},
+      {"1018-no-serial", "no serial number", "7.5.2.21: optional", absent_from(0x1018, 4), "1018"},
+      {"1018-gap", "a serial number, but no product code", "OD-1018-05: gaps are allowed", gap(0x1018, 2),
+       "1018"},
+      {"1018-const", "identity constant in place of read-only", "7.4.5: alike for a client",
+       access_all(0x1018, Access::ro, Access::constant)},
+      {"1000-const", "device type constant", "7.4.5: alike for a client",
+       access(0x1000, 0, Access::constant)},
+      {.id = "1029-present",
+       .summary = "error behaviour can be chosen",
+       .legal = "7.5.2.32: optional",
+       .how = add_error_behaviour,
+       .gains = {"error behaviour"}},
+      {"1200-absent", "the default SDO is not described", "OD-1200-01", absent({0x1200})},
+      {"1200-const", "1200h constant", "OD-1200-04", access_all(0x1200, Access::ro, Access::constant)},
+      {.id = "rpdo-absent",
+       .summary = "receives no PDO",
+       .legal = "7.5.2.35: if RPDOs are supported",
+       .how = absent({0x1400, 0x1600}),
+       .group = "rpdo",
+       .lacks = {"rpdo"}},
+      {.id = "tpdo-absent",
+       .summary = "transmits no PDO",
+       .legal = "7.5.2.37: if TPDOs are supported",
+       .how = absent({0x1800, 0x1A00}),
+       .group = "tpdo",
+       .lacks = {"tpdo", "remote frames"}},
+      {.id = "pdo-absent",
+       .summary = "no PDOs",
+       .legal = "7.5.2.35, 7.5.2.37: if PDOs are supported",
+       .how = absent({0x1400, 0x1600, 0x1800, 0x1A00}),
+       .group = "rpdo",
+       .excludes = {"tpdo"},
+       .lacks = {"rpdo", "tpdo", "variable mapping", "remote frames"}},
+      {"manufacturer-objects-absent", "no manufacturer-specific objects", "7.4.1: optional",
+       [](VariantTarget& target) { remove_range(target, 0x2000, 0x5FFF); }, "manufacturer"},
+      {"empty-entries-absent", "no object without content", "7.4.7: lengths are the device's own",
+       [](VariantTarget& target) { target.dictionary.remove_sub(0x2005, 1); }},
+      {"types-readable", "lengths of data types 0001h to 0007h can be read", "OD-TYP-01", add_types},
+      {"structure-readable", "sub-index FFh tells the structure of communication objects", "OD-OBJ-01",
+       add_structure, "structure"},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// The SDO server: what it offers, how it words its answers, and how long it takes.
+#include <algorithm>
+#include <vector>
+
+#include "variants/tools.hpp"
+
+namespace refnode {
+
+using namespace variant;
+
+namespace {
+
+/// Bytes of an upload that hold no data are not reserved.
+void fill_unused_bytes(VariantTarget& target) {
+  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->aborted) return;
+    for (Outgoing& outgoing : frames) {
+      auto& data = outgoing.frame.data;
+      std::size_t unused = 0;
+      if (context.sdo->step == SdoStep::upload_initiate && (data[0] & 0xE3U) == 0x43)
+        unused = (data[0] >> 2U) & 3U;
+      if (context.sdo->step == SdoStep::upload_segment) unused = (data[0] >> 1U) & 7U;
+      for (std::size_t i = 0; i < unused; ++i) data[7 - i] = 0x5A;
+    }
+  });
+}
+
+How turnaround(std::chrono::milliseconds time) {
+  return [time](VariantTarget& target) { target.choices.sdo.turnaround = time; };
+}
+
+How filter(Filter change) {
+  return [change = std::move(change)](VariantTarget& target) { target.outbox.add_filter(change); };
+}
+
+/// Another code in place of `usual`, in answers to these steps.
+How code_at(std::initializer_list<SdoStep> steps, AbortCode usual, AbortCode other) {
+  return filter([all = std::vector<SdoStep>(steps), usual, other](const FilterContext& context,
+                                                                  std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->aborted != usual) return;
+    if (std::ranges::find(all, context.sdo->step) == all.end()) return;
+    for (Outgoing& outgoing : frames)
+      conform::store_le(std::span(outgoing.frame.data).subspan(4, 4), other.value());
+  });
+}
+
+/// 42h: expedited, the size is not told.
+void leave_out_size(VariantTarget& target) {
+  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->aborted || context.sdo->step != SdoStep::upload_initiate)
+      return;
+    for (Outgoing& outgoing : frames) {
+      if ((outgoing.frame.data[0] & 0xE3U) == 0x43) outgoing.frame.data[0] = 0x42;
+    }
+  });
+}
+
+/// Without segmented transfer nothing may be longer than four bytes.
+void expedited_only(VariantTarget& target) {
+  for (auto object = target.dictionary.objects().begin(); object != target.dictionary.objects().end();) {
+    auto& entries = object->second.entries;
+    std::erase_if(entries, [](const auto& entry) {
+      const std::size_t fixed = fixed_size(entry.second.type);
+      return fixed > 4 || (fixed == 0 && (entry.second.value.empty() || entry.second.max_size > 4));
+    });
+    const bool nothing_left =
+        entries.empty() || (entries.size() == 1 && object->second.kind != ObjectKind::variable);
+    if (!nothing_left && object->second.kind != ObjectKind::variable &&
+        entries.at(0).access == Access::constant)
+      entries.at(0).value = entries.at(0).default_value = Bytes{entries.rbegin()->first};
+    object = nothing_left ? target.dictionary.objects().erase(object) : std::next(object);
+  }
+  target.choices.sdo.segmented = false;
+  target.choices.sdo.block = false;
+}
+
+}  // namespace
+
+VariantTable sdo_variants() {
+  using enum SdoStep;
+  using std::chrono::milliseconds;
+  using std::chrono::seconds;
+  return {
+      {"sdo-unused-bytes", "bytes without data are not 00h in uploads", "SDO-GEN-05", fill_unused_bytes},
+      {"sdo-turnaround-5ms", "answers after 5 ms", "SDO-GEN-18: no limit is set", turnaround(milliseconds(5)),
+       "turnaround"},
+      {"sdo-turnaround-90ms", "answers after 90 ms", "SDO-GEN-18: no limit is set",
+       turnaround(milliseconds(90)), "turnaround"},
+      {.id = "sdo-turnaround-250ms",
+       .summary = "answers after 250 ms",
+       .legal = "SDO-GEN-18, tolerated: T_SDO is one second",
+       .how = turnaround(milliseconds(250)),
+       .group = "turnaround",
+       .warns = {"SDO-GEN-18"}},
+      {.id = "sdo-expedited-without-size",
+       .summary = "expedited uploads do not tell their size (42h)",
+       .legal = "SDO-UPL-01 to -04; OD-LEN-04 and OD-GEN-10 warn",
+       .how = leave_out_size,
+       .group = "sdo-size",
+       .warns = {"OD-LEN-04", "OD-GEN-10"}},
+      {"sdo-segmented-without-size", "segmented and block uploads do not tell their size (40h, C4h)",
+       "SDO-SUP-02, SDO-BUP-04", choose([](Choices& c) { c.sdo.upload_size_indicated = false; })},
+      {"sdo-short-in-segments",
+       "one to four bytes are uploaded in segments",
+       "SDO-SUP-15, SDO-UPL-01 to -04",
+       choose([](Choices& c) { c.sdo.expedited_upload = false; }),
+       "sdo-size",
+       {"sdo-expedited-only"}},
+      {.id = "sdo-expedited-only",
+       .summary = "neither segmented nor block transfer, no object longer than four bytes",
+       .legal = "SDO-SDN-01",
+       .how = expedited_only,
+       .group = "1008",
+       .excludes = {"manufacturer", "sdo-block"},
+       .lacks = {"segmented sdo", "block sdo", "time consumer"}},
+      {"sdo-toggle-errors-ignored", "a segment with the wrong toggle bit is ignored",
+       "SDO-SUP-05, -06; SDO-SDN-04, -05", choose([](Choices& c) { c.sdo.toggle_errors_ignored = true; })},
+      {.id = "sdo-block-absent",
+       .summary = "no block transfer",
+       .legal = "SDO-BUP-01, SDO-BDN-01",
+       .how = choose([](Choices& c) { c.sdo.block = false; }),
+       .group = "sdo-block",
+       .lacks = {"block sdo"}},
+      {"sdo-block-without-crc", "no CRC in block transfers", "7.2.4.3.9: sc = 0",
+       choose([](Choices& c) { c.sdo.crc = false; })},
+      {"sdo-no-protocol-switch", "never goes on with a normal upload", "SDO-BUP-15",
+       choose([](Choices& c) { c.sdo.protocol_switch = false; })},
+      {"sdo-block-size-1", "sub-blocks of one segment", "SDO-BDN-01: 1 to 127",
+       choose([](Choices& c) { c.sdo.block_size = 1; }), "block-size"},
+      {"sdo-block-size-7", "sub-blocks of seven segments", "SDO-BDN-01: 1 to 127",
+       choose([](Choices& c) { c.sdo.block_size = 7; }), "block-size"},
+      {"sdo-block-size-21", "sub-blocks of 21 segments", "SDO-BDN-01: 1 to 127",
+       choose([](Choices& c) { c.sdo.block_size = 21; }), "block-size"},
+      {"sdo-block-size-changes", "the first sub-block has ten segments, the others four",
+       "7.2.4.3.11: in each acknowledge", choose([](Choices& c) {
+         c.sdo.block_size = 10;
+         c.sdo.next_block_size = 4;
+       }),
+       "block-size"},
+      {"sdo-gap-at-once", "a gap in a sub-block is acknowledged at once", "SDO-BDN-07",
+       choose([](Choices& c) { c.sdo.ack_gap_at_once = true; })},
+      {"sdo-sequence-ignored", "a sequence number that cannot be is ignored", "SDO-BDN-10, SDO-BDN-11",
+       choose([](Choices& c) { c.sdo.invalid_sequence_ignored = true; })},
+      {.id = "sdo-no-time-out",
+       .summary = "a transfer stays open for ever",
+       .legal = "SDO-SUP-18, SDO-SDN-25: at most one abort",
+       .how = choose([](Choices& c) { c.sdo.time_out.reset(); }),
+       .group = "sdo-time-out",
+       .warns = {"SDO-BDN-25"}},
+      {"sdo-time-out-500ms", "a transfer ends after 500 ms of silence", "SDO-SUP-18, SDO-SDN-25",
+       choose([](Choices& c) { c.sdo.time_out = milliseconds(500); }), "sdo-time-out"},
+      {.id = "sdo-time-out-10s",
+       .summary = "a transfer ends after 10 s of silence",
+       .legal = "SDO-SUP-18, SDO-SDN-25",
+       .how = choose([](Choices& c) { c.sdo.time_out = seconds(10); }),
+       .group = "sdo-time-out",
+       .warns = {"SDO-BDN-25"}},
+      {.id = "sdo-servers-absent",
+       .summary = "the default SDO server only",
+       .legal = "7.5.2.33: optional",
+       .how = absent({0x1201, 0x1202}),
+       .lacks = {"additional sdo servers"}},
+      {.id = "sdo-client-absent",
+       .summary = "no SDO client",
+       .legal = "7.5.2.34: optional",
+       .how = absent({0x1280}),
+       .lacks = {"sdo client"}},
+      {"abort-command-0800-0000", "unknown commands and frames out of place are a general error",
+       "SDO-ERR-01, SDO-SUP-08, SDO-SDN-16, SDO-BUP-21, SDO-BDN-22",
+       code_at({other, upload_segment, download_segment, block_upload_segment, block_upload_end,
+                block_download_segment, block_download_end},
+               abort_code::command_unknown, abort_code::general_error)},
+      {"abort-segments-too-long-0607-0010", "more segments than announced: wrong length",
+       "SDO-SDN-06, -09, -10, -27",
+       code_at({download_segment, block_download_end, block_download_segment}, abort_code::length_too_high,
+               abort_code::length_mismatch)},
+      {"abort-segments-too-short-0607-0010", "fewer segments than announced: wrong length",
+       "SDO-SDN-07, -08, -14",
+       code_at({download_segment, block_download_end}, abort_code::length_too_low,
+               abort_code::length_mismatch)},
+  };
+}
+
+}  // namespace refnode

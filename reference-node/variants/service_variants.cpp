@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// NMT, error control, EMCY and SYNC where the standard leaves the when and the whether to the device.
+#include "variants/tools.hpp"
+
+namespace refnode {
+
+using namespace variant;
+
+namespace {
+
+/// After boot-up, one EMCY 0000h.
+void announce_no_error(VariantTarget& target) {
+  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::boot_up || frames.empty()) return;
+    frames.push_back({conform::can::data_frame(conform::CanId(0x80U + context.node_id),
+                                               {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}),
+                      std::chrono::milliseconds(2)});
+  });
+}
+
+/// Bytes 3 to 7 are the manufacturer's.
+void fill_manufacturer_bytes(VariantTarget& target) {
+  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency) return;
+    for (Outgoing& outgoing : frames) {
+      for (std::size_t i = 3; i < 8; ++i) outgoing.frame.data[i] = static_cast<std::uint8_t>(0xA0U + i);
+    }
+  });
+}
+
+/// Storing and restoring take their time.
+How slow_storage(std::chrono::milliseconds delay) {
+  return [delay](VariantTarget& target) {
+    target.outbox.add_filter([delay](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.sdo == nullptr || context.sdo->step != SdoStep::download_initiate || context.sdo->aborted)
+        return;
+      if (context.sdo->index() != 0x1010 && context.sdo->index() != 0x1011) return;
+      for (Outgoing& outgoing : frames) outgoing.delay += delay;
+    });
+  };
+}
+
+}  // namespace
+
+VariantTable service_variants() {
+  return {
+      {"boot-up-at-once", "boots in no time", "7.3.2.2.1: no time is given",
+       choose([](Choices& c) { c.node_start_up_ms = c.communication_start_up_ms = 0; }), "boot"},
+      {"boot-up-200ms", "boots in 200 ms", "7.3.2.2.1: no time is given",
+       choose([](Choices& c) { c.node_start_up_ms = c.communication_start_up_ms = 200; }), "boot"},
+      {"boot-up-2s", "boots in 2 s, after reset communication in 0.7 s", "7.3.2.2.1: no time is given",
+       choose([](Choices& c) {
+         c.node_start_up_ms = 2000;
+         c.communication_start_up_ms = 700;
+       }),
+       "boot"},
+      {"boot-up-4900ms", "boots in 4.9 s", "7.3.2.2.1: no time is given, NMT-BOOT-08: T_BOOT",
+       choose([](Choices& c) { c.node_start_up_ms = c.communication_start_up_ms = 4900; }), "boot"},
+      {"heartbeat-at-state-change", "one more heartbeat when the state changes", "EC-HBP-06",
+       choose([](Choices& c) { c.heartbeat_at_state_change = true; })},
+      {"heartbeat-at-once", "the first heartbeat right after 1017h was written, and after boot-up",
+       "EC-HBP-02, EC-HBP-05", choose([](Choices& c) { c.heartbeat_at_once = true; })},
+      {"heartbeat-jitter", "heartbeats are 10 % late and early by turns",
+       "EC-HBP-01: tolerance of single intervals",
+       choose([](Choices& c) { c.heartbeat_jitter_percent = 10; })},
+      {"consumer-boot-up-new-start", "a boot-up message ends the monitoring until the next heartbeat",
+       "EC-HBC-12", choose([](Choices& c) { c.boot_up_of_producer = BootUpOfProducer::new_start; }),
+       "boot-up-of-producer"},
+      {"consumer-boot-up-loss", "a boot-up message of a monitored node is an event", "EC-HBC-12",
+       choose([](Choices& c) { c.boot_up_of_producer = BootUpOfProducer::loss; }), "boot-up-of-producer"},
+      {.id = "register-generic-only",
+       .summary = "the error register has bit 0 only",
+       .legal = "7.5.2.2: all others are optional; EMCY-FMT-05 is a recommendation",
+       .how = choose([](Choices& c) { c.register_generic_only = true; }),
+       .warns = {"EMCY-FMT-05"}},
+      {"error-reset-for-each", "EMCY 0000h for each error that goes, with what is left", "EMCY-SEQ-05",
+       choose([](Choices& c) { c.error_reset_for_each = true; })},
+      {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
+       choose([](Choices& c) { c.emergency_dropped_in_stopped = true; })},
+      {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
+       fill_manufacturer_bytes},
+      {.id = "emcy-no-error-at-boot-up",
+       .summary = "EMCY 0000h after boot-up",
+       .legal = "EMCY-SEQ-03, tolerated",
+       .how = announce_no_error,
+       .excludes = {"emcy", "1014-not-valid"},
+       .warns = {"EMCY-SEQ-03"}},
+      {.id = "sync-length-not-reported",
+       .summary = "a SYNC with data causes no EMCY",
+       .legal = "SYNC-CON-07; NMT-SVC-02 tolerates it",
+       .how = choose([](Choices& c) { c.wrong_sync_reported = false; }),
+       .warns = {"NMT-SVC-02"}},
+      {"sync-with-data-ignored", "a SYNC with data is not used", "SYNC-CON-07",
+       choose([](Choices& c) { c.wrong_sync_used = false; })},
+      {"storing-takes-400ms", "storing takes 400 ms", "OD-1010-07: no limit is set",
+       slow_storage(std::chrono::milliseconds(400)), "storing"},
+      {"storing-takes-9s", "storing takes 9 s", "OD-1010-07: T_NVM", slow_storage(std::chrono::seconds(9)),
+       "storing"},
+  };
+}
+
+}  // namespace refnode

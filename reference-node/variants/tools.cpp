@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "variants/tools.hpp"
+
+#include <vector>
+
+namespace refnode::variant {
+
+How absent(std::initializer_list<std::uint16_t> indices) {
+  return [all = std::vector<std::uint16_t>(indices)](VariantTarget& target) {
+    for (const std::uint16_t index : all) target.dictionary.remove(index);
+  };
+}
+
+How absent_from(std::uint16_t index, std::uint8_t first) {
+  return [index, first](VariantTarget& target) {
+    const auto found = target.dictionary.objects().find(index);
+    if (found == target.dictionary.objects().end()) return;
+    auto& entries = found->second.entries;
+    std::erase_if(entries,
+                  [first](const auto& entry) { return entry.first >= first && entry.first != 0xFF; });
+    Entry& highest = entries.at(0);
+    if (highest.access != Access::constant) return;  // 1003h, 16xxh: something else is counted there
+    std::uint8_t last = 0;
+    for (const auto& [sub, entry] : entries) last = sub == 0xFF ? last : sub;
+    highest.value = highest.default_value = Bytes{last};
+  };
+}
+
+How gap(std::uint16_t index, std::uint8_t sub) {
+  return [index, sub](VariantTarget& target) { target.dictionary.remove_sub(index, sub); };
+}
+
+How access(std::uint16_t index, std::uint8_t sub, Access access) {
+  return [index, sub, access](VariantTarget& target) {
+    if (Entry* entry = target.dictionary.entry(index, sub)) entry->access = access;
+  };
+}
+
+How access_all(std::uint16_t index, Access from, Access to) {
+  return [index, from, to](VariantTarget& target) {
+    const auto found = target.dictionary.objects().find(index);
+    if (found == target.dictionary.objects().end()) return;
+    for (auto& [sub, entry] : found->second.entries) {
+      if (entry.access == from) entry.access = to;
+    }
+  };
+}
+
+How preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
+  return [index, sub, value](VariantTarget& target) {
+    Entry* entry = target.dictionary.entry(index, sub);
+    if (entry == nullptr) return;
+    conform::store_le(entry->value, value);
+    entry->default_value = entry->value;
+  };
+}
+
+How preset_with_node_id(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
+  return [index, sub, value](VariantTarget& target) { preset(index, sub, value + target.node_id)(target); };
+}
+
+How text(std::uint16_t index, std::string_view value) {
+  return [index, value](VariantTarget& target) {
+    if (Entry* entry = target.dictionary.entry(index, 0)) {
+      entry->value = entry->default_value = Bytes(value.begin(), value.end());
+      entry->max_size = value.size();
+    }
+  };
+}
+
+How both(How first, How second) {
+  return [first = std::move(first), second = std::move(second)](VariantTarget& target) {
+    first(target);
+    second(target);
+  };
+}
+
+How choose(void (*change)(Choices&)) {
+  return [change](VariantTarget& target) { change(target.choices); };
+}
+
+}  // namespace refnode::variant

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Legal variants: ways to be another device than by default and just as conformant. A row says what differs
+// and why it is legal; no combination of compatible rows may ever be failed by a test of conformance.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "choices.hpp"
+#include "object_dictionary.hpp"
+#include "outbox.hpp"
+
+namespace refnode {
+
+/// What a variant may change, before the node starts.
+struct VariantTarget {
+  ObjectDictionary& dictionary;
+  Choices& choices;
+  Outbox& outbox;
+  std::uint8_t node_id;
+};
+
+struct Variant {
+  std::string_view id;
+  std::string_view summary;
+  std::string_view legal;  ///< clause of CiA 301, or requirements that name this way among those that pass
+  std::function<void(VariantTarget&)> how;
+  std::string_view group = {};                  ///< of all rows with the same word here one can be chosen
+  std::vector<std::string_view> excludes = {};  ///< further ids or groups it cannot be combined with
+  std::vector<std::string_view> lacks = {};     ///< features of a device profile that go with it
+  std::vector<std::string_view> gains = {};     ///< and that come with it
+  std::vector<std::string_view> warns = {};     ///< requirements whose catalogue entry warns of it
+};
+
+/// All rows, in the order of the tables; ids are unique and never reused.
+[[nodiscard]] std::span<const Variant> variants();
+/// nullptr when there is no such variant.
+[[nodiscard]] const Variant* find_variant(std::string_view id);
+/// Whether both can be chosen for one node.
+[[nodiscard]] bool compatible(const Variant& one, const Variant& other);
+
+using VariantTable = std::vector<Variant>;
+
+// The tables, one per file.
+[[nodiscard]] VariantTable object_variants();
+[[nodiscard]] VariantTable default_variants();
+[[nodiscard]] VariantTable abort_variants();
+[[nodiscard]] VariantTable cob_id_variants();
+[[nodiscard]] VariantTable service_variants();
+[[nodiscard]] VariantTable pdo_variants();
+[[nodiscard]] VariantTable sdo_variants();
+
+}  // namespace refnode
