@@ -29,7 +29,9 @@ struct Condition::Tree {
     described,
     refused,
     sweep,
-    store_fault,  // about device and bench
+    store_fault,
+    block_upload,
+    block_download,  // about device and bench
     equal,
     at_least,
     at_most,
@@ -195,6 +197,8 @@ Result<TreePtr> parse_atom(TokenReader& in) {
   static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
                                        {{"the", "write", "was", "refused"}, Kind::refused},
                                        {{"store", "fault", "is", "known"}, Kind::store_fault},
+                                       {{"block", "upload", "is", "offered"}, Kind::block_upload},
+                                       {{"block", "download", "is", "offered"}, Kind::block_download},
                                        {{"all", "objects", "are", "tried"}, Kind::sweep}};
   for (const auto& phrase : phrases) {
     std::size_t same = 0;
@@ -317,6 +321,8 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   if (node.kind == Kind::described) return facts.is_described();
   if (node.kind == Kind::refused) return facts.write_was_refused();
   if (node.kind == Kind::store_fault) return facts.store_fault_known();
+  if (node.kind == Kind::block_upload) return facts.offers_block_transfer(true);
+  if (node.kind == Kind::block_download) return facts.offers_block_transfer(false);
   if (node.kind == Kind::sweep) return facts.tries_all_objects();
   if (node.kind == Kind::factory) return facts.factory_defaults();
   if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
@@ -341,7 +347,7 @@ void collect_names(const Tree& node, std::vector<std::string>& out) {
 }
 
 bool tree_may_write(const Tree& node) {
-  if (node.kind == Kind::writable) return true;
+  if (node.kind == Kind::writable || node.kind == Kind::block_download) return true;
   for (const auto& part : node.parts) {
     if (tree_may_write(*part)) return true;
   }
@@ -399,6 +405,8 @@ std::vector<std::string_view> condition_forms() {
           "interface can send RTR",
           "device description is given",
           "the write was refused",
+          "block upload is offered",
+          "block download is offered",
           "all objects are tried",
           "A and B, A or B, not A, (A)"};
 }

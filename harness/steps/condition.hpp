@@ -39,6 +39,9 @@ class Facts : public Scope {
   [[nodiscard]] virtual bool is_described() const { return false; }
   /// The last download of the scenario was answered by an abort.
   [[nodiscard]] virtual bool write_was_refused() const { return false; }
+  /// Whether the device carries out SDO block uploads (or downloads) at all: both are optional. Tries it
+  /// once.
+  [[nodiscard]] virtual Result<bool> offers_block_transfer(bool /*upload*/) { return false; }
   /// The user wants full sweeps instead of samples.
   [[nodiscard]] virtual bool tries_all_objects() const { return false; }
 };

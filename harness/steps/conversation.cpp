@@ -345,6 +345,13 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope,
     out.reason = std::move(reason);
     return out;
   };
+  if (frame.remote != line.remote) {
+    return wrong(0, line.remote ? "a data frame where a remote frame is due" : "a remote frame");
+  }
+  if (frame.extended != line.extended) {
+    return wrong(0, line.extended ? "the identifier has 11 bits instead of 29"
+                                  : "the identifier has 29 bits instead of 11");
+  }
   for (const auto& pattern : line.bytes) {
     if (pattern.kind == Kind::rest) return out.equal = true, out;
     const auto width = pattern.width().value_or(bytes.size() - std::min(at, bytes.size()));

@@ -15,7 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Time-out of the heartbeat trigger: long enough not to be met by accident, short enough not to bore.
-constexpr std::uint32_t heartbeat_time_ms = 100;
+constexpr Duration heartbeat_time = 100ms;
 
 constexpr Multiplexer consumer_entry{Index(0x1016), SubIndex(1)};
 
@@ -50,11 +50,27 @@ Result<std::vector<device::ErrorTrigger>> usable_triggers(Session& session) {
 
 /// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed
 /// away.
-Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger) {
+/// `delay`: how long after raising the effect may be due, beside the caller's own time.
+Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Duration& delay) {
+  delay = Duration(0);
   if (trigger.raise) return write(session, trigger.raise->object, trigger.raise->bytes);
   const auto node = trigger.heartbeat_node.value_or(NodeId(0x7E));
-  auto set =
-      write(session, consumer_entry, to_le((std::uint32_t{node.value()} << 16U) | heartbeat_time_ms, 4));
+  const auto monitor = [&](Duration time) {
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time).count();
+    const auto value = (std::uint32_t{node.value()} << 16U) | static_cast<std::uint16_t>(ms);
+    return write(session, consumer_entry, to_le(value, 4));
+  };
+  const auto begin = session.now();
+  auto time = heartbeat_time;
+  auto set = monitor(time);
+  // While clear() is looking at the old value and writing the new one, the error must not come back: a server
+  // that takes its time needs a longer one.
+  const auto taken = session.now() - begin;
+  if (set && set->kind == Actual::Kind::matched && taken > heartbeat_time / 4) {
+    time += 2 * taken;
+    set = monitor(time);
+  }
+  delay = 2 * time;
   if (!set || set->kind != Actual::Kind::matched) return set;
   auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
   if (!sent) return std::unexpected(sent.error());
@@ -70,11 +86,6 @@ Result<Actual> clear(Session& session, const device::ErrorTrigger& trigger) {
   auto waited = session.wait_until(session.now() + 20ms);
   if (!waited) return std::unexpected(waited.error());
   return write(session, consumer_entry, to_le(0, 4));
-}
-
-/// How long after raising the effect may be due, beside the caller's own time.
-Duration delay_of(const device::ErrorTrigger& trigger) {
-  return trigger.raise ? Duration(0) : Duration(std::chrono::milliseconds(heartbeat_time_ms)) * 2;
 }
 
 class RaiseError final : public Action {
@@ -115,10 +126,11 @@ class RaiseError final : public Action {
                   "name one under errors: in the device profile");
     }
     const auto& trigger = (*triggers)[number_ - 1];
-    auto out = clear_ ? clear(session, trigger) : raise(session, trigger);
+    Duration delay{};
+    auto out = clear_ ? clear(session, trigger) : raise(session, trigger, delay);
     if (out && !clear_) {
       if (!save_.empty()) session.set(save_, Value::of_number(trigger.code));
-      session.set("trigger_delay", Value::of_duration(delay_of(trigger)));
+      session.set("trigger_delay", Value::of_duration(delay));
     }
     return out;
   }
@@ -277,10 +289,11 @@ class FillHistory final : public Action {
     std::uint16_t newest = 0;
     for (int i = 0; i < most; ++i) {
       const auto& trigger = (*triggers)[static_cast<std::size_t>(i) % triggers->size()];
-      for (auto* act : {&raise, &clear}) {
-        auto done = (*act)(session, trigger);
+      Duration delay{};
+      for (const bool raising : {true, false}) {
+        auto done = raising ? raise(session, trigger, delay) : clear(session, trigger);
         if (!done || done->kind != Actual::Kind::matched) return done;
-        auto waited = session.wait_until(session.now() + delay_of(trigger) + 5ms);
+        auto waited = session.wait_until(session.now() + delay + 5ms);
         if (!waited) return std::unexpected(waited.error());
       }
       auto answer = session.upload({Index(0x1003), SubIndex(0)}, std::nullopt);

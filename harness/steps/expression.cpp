@@ -38,6 +38,8 @@ std::string Value::text() const {
   if (object) return to_string(*object);
   if (duration) return to_string(*duration);
   if (word) return *word;
+  if (bytes && bytes->size() > 64)
+    return hex_bytes(ByteView(*bytes).first(32)) + " ... (" + std::to_string(bytes->size()) + " bytes)";
   if (bytes) return number ? hex(*number, static_cast<int>(bytes->size()) * 2) : hex_bytes(*bytes);
   if (number) return hex(*number, *number > 0xFFFF ? 8 : (*number > 0xFF ? 4 : 2));
   return "nothing";

@@ -15,6 +15,14 @@ std::uint64_t width_mask(std::size_t bytes) {
   return bytes >= 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * bytes)) - 1;
 }
 
+/// Of long data the beginning tells enough; reports and findings stay readable.
+std::string data_words(const Bytes& data, std::optional<canopen::DataType> type) {
+  constexpr std::size_t longest = 64, shown = 32;
+  if (data.size() > longest)
+    return hex_bytes(ByteView(data).first(shown)) + " ... (" + std::to_string(data.size()) + " bytes)";
+  return type ? canopen::print(*type, data) : canopen::print_untyped(data);
+}
+
 /// A number fits the data when the data hold it, or its sign extension made by '~'.
 bool equals(std::uint64_t wanted, const Bytes& data, std::uint64_t mask) {
   const auto width = width_mask(data.size());
@@ -165,8 +173,11 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::F
 }
 
 constexpr std::string_view measures[] = {
-    "count",         "period",     "shortest", "longest",    "first", "register", "latency", "segments",
-    "wrong_toggles", "difference", "unmarked", "empty_last", "bits",  "absent",   "longer",  "shorter"};
+    "count",    "period",        "shortest",   "longest",    "first",         "register", "latency",
+    "segments", "wrong_toggles", "difference", "unmarked",   "empty_last",    "bits",     "absent",
+    "longer",   "shorter",       "announced",  "sub_blocks", "retransmitted", "acks",     "first_ackseq",
+    "blksize",  "crc_agreed",    "crc_ok",     "crc",        "unused",        "switched", "wrong_numbers",
+    "timeouts", "surplus",       "answers"};
 
 /// A misspelt key is a misspelt outcome: the author knows no other word for it.
 void check_keys(const yaml::Field& field) {
@@ -303,7 +314,7 @@ std::string Actual::words() const {
   switch (kind) {
     case Kind::confirmed:
       if (!has_data) return detail.empty() ? "confirmed" : detail;
-      return type ? canopen::print(*type, data) : canopen::print_untyped(data);
+      return data_words(data, type) + (detail.empty() ? "" : " (" + detail + ")");
     case Kind::aborted: return "abort " + canopen::describe(code);
     case Kind::silence: return detail.empty() ? "no answer" : detail;
     case Kind::violation: return "protocol violation: " + detail;

@@ -27,6 +27,7 @@ Actual from_answer(const SdoAnswer& answer) {
       break;
     case SdoAnswer::Kind::aborted: out.kind = Actual::Kind::aborted; break;
     case SdoAnswer::Kind::silence: out.kind = Actual::Kind::silence; break;
+    case SdoAnswer::Kind::gave_up:
     case SdoAnswer::Kind::violation: out.kind = Actual::Kind::violation; break;
   }
   return out;

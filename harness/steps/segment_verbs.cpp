@@ -75,7 +75,9 @@ class Segments final : public Action {
         so_far.marked = true;
         break;
       }
-      if (so_far.surplus == 0) {
+      if (so_far.surplus > 0) {
+        so_far.surplus_bytes += segment->size();
+      } else {
         const auto data = ByteView(segment->data).first(segment->size());
         so_far.data.insert(so_far.data.end(), data.begin(), data.end());
       }
@@ -94,7 +96,7 @@ class Segments final : public Action {
     Actual out;
     Bytes data;
     std::optional<std::uint64_t> announced;
-    std::uint64_t segments = 0, wrong_toggles = 0, surplus = 0;
+    std::uint64_t segments = 0, wrong_toggles = 0, surplus = 0, surplus_bytes = 0;
     bool marked = false, empty_last = false;
     [[nodiscard]] bool complete() const { return announced && data.size() >= *announced && segments > 0; }
   };
@@ -144,7 +146,7 @@ class Segments final : public Action {
 
   Actual measured(Session& session, Progress& so_far) const {
     auto& out = so_far.out;
-    const auto held = so_far.data.size();
+    const auto held = so_far.data.size() + so_far.surplus_bytes;
     const auto size = so_far.announced.value_or(held);
     out.kind = Actual::Kind::confirmed;
     out.has_data = true;

@@ -15,7 +15,7 @@
 #include "can/capture.hpp"
 #include "can/frame.hpp"
 #include "canopen/nmt.hpp"
-#include "canopen/sdo_transfer.hpp"
+#include "canopen/sdo_request.hpp"
 #include "device/dictionary.hpp"
 #include "device/profile.hpp"
 #include "steps/condition.hpp"
@@ -24,14 +24,30 @@ namespace conform::steps {
 
 /// How an SDO transfer ended, seen from the bus.
 struct SdoAnswer {
-  enum class Kind : std::uint8_t { confirmed, aborted, silence, violation };
-  Kind kind = Kind::silence;
+  enum class Kind : std::uint8_t { confirmed, aborted, silence, violation, gave_up };
+  Kind kind = Kind::silence;  ///< gave_up: the client aborted on purpose
   Bytes data;  ///< uploads: what was delivered
   bool size_indicated = false;
   AbortCode code{};
   std::string detail;                ///< violation: what was wrong, in one sentence
   std::vector<std::string> remarks;  ///< reserved bits or bytes that were not zero
   std::size_t decisive = 0;          ///< capture index of the frame that ended it
+  std::optional<std::uint32_t> announced{};  ///< uploads: size that the server told
+  canopen::TransferCounts counts{};
+};
+
+/// CAN-IDs of an SDO channel, as the client uses them.
+struct SdoChannelIds {
+  CanId request, response;
+  friend constexpr auto operator<=>(const SdoChannelIds&, const SdoChannelIds&) = default;
+};
+
+/// An SDO transfer as a step asks for it.
+struct SdoJob {
+  canopen::SdoRequest request;
+  std::optional<SdoChannelIds> channel{};  ///< absent: the default channel
+  std::optional<Duration> timeout{};       ///< absent: the profile's
+  std::optional<Duration> wait{};          ///< after a fault; absent: the profile's quiet time
 };
 
 /// Where a waiting step begins to look, and from when its window counts. Frames that came while the previous
@@ -65,6 +81,9 @@ class Session : public Facts {
   [[nodiscard]] virtual Result<SdoAnswer> download(Multiplexer object, Bytes data,
                                                    canopen::SdoDownload::Mode mode,
                                                    std::optional<Duration> timeout) = 0;
+  /// The same with everything that a transfer can have, several at once when each has a channel of its own.
+  /// Error with where "scenario": a fault has no place in its transfer.
+  [[nodiscard]] virtual Result<std::vector<SdoAnswer>> transfer(const std::vector<SdoJob>& jobs) = 0;
   /// What the entry held just before the last download to it in this scenario; nullopt if none, or not
   /// readable.
   [[nodiscard]] virtual std::optional<Bytes> before_last_write(Multiplexer object) const = 0;

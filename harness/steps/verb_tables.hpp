@@ -10,6 +10,7 @@
 namespace conform::steps {
 
 [[nodiscard]] std::span<const Verb> sdo_verbs();
+[[nodiscard]] std::span<const Verb> interleave_verbs();
 [[nodiscard]] std::span<const Verb> nmt_verbs();
 [[nodiscard]] std::span<const Verb> frame_verbs();
 [[nodiscard]] std::span<const Verb> error_verbs();
@@ -17,6 +18,7 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> flow_verbs();
 [[nodiscard]] std::span<const Verb> conversation_verbs();
 [[nodiscard]] std::span<const Verb> segment_verbs();
+[[nodiscard]] std::span<const Verb> noise_verbs();
 
 /// The first frame of ours recorded at or behind `begin`, for labels of sending steps.
 [[nodiscard]] inline std::optional<std::size_t> sent_frame(const Session& session, std::size_t begin) {

@@ -73,7 +73,7 @@ TEST_CASE("Conditions about device and bench are phrases") {
        {"device claims sync producer", "error trigger is known", "an error trigger is known",
         "2 error triggers are known", "not device claims emcy", "not interface can send RTR",
         "not factory defaults are active", "not device description is given", "not all objects are tried",
-        "not store fault is known"}) {
+        "not store fault is known", "not block upload is offered", "not block download is offered"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -121,6 +121,8 @@ TEST_CASE("A condition tells its names and whether its answer may write") {
   CHECK(condition->names() == std::vector<std::string>{"object", "count", "sub"});
   CHECK(condition->may_write());
   CHECK_FALSE(Condition::parse("1014h:00 is readable")->may_write());
+  CHECK_FALSE(Condition::parse("block upload is offered")->may_write());
+  CHECK(Condition::parse("block download is offered")->may_write());
   FakeSession session;
   CHECK(*Condition().evaluate(session));
 }

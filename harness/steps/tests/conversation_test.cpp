@@ -104,6 +104,18 @@ TEST_CASE("A frame that is too short or too long is wrong where it ends") {
   CHECK(compared("< 580+N: {m}", {}).reason == "the frame ends after 0 bytes");
 }
 
+TEST_CASE("A frame of another kind is wrong even when its bytes are right") {
+  FakeSession session;
+  auto frame = can::data_frame(CanId(0x585), Bytes{0x60, 0, 0x10, 0});
+  frame.extended = true;
+  CHECK(compare(line("< 580+N: 60 .."), frame, session, name_entry).reason ==
+        "the identifier has 29 bits instead of 11");
+  CHECK(compare(line("< 580+N: 60 00 10 00 EXT"), frame, session, name_entry).equal);
+  frame.extended = false;
+  frame.remote = true;
+  CHECK(compare(line("< 580+N: .."), frame, session, name_entry).reason == "a remote frame");
+}
+
 TEST_CASE("Reserved bytes and second-best abort codes are tolerated with a remark") {
   const auto reserved = compared("< 580+N: 60 zz", {0x60, 1});
   CHECK(reserved.equal);

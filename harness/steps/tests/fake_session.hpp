@@ -90,6 +90,9 @@ class FakeSession final : public Session {
                                            std::optional<Duration>) override {
     return fail("no bus");
   }
+  [[nodiscard]] Result<std::vector<SdoAnswer>> transfer(const std::vector<SdoJob>&) override {
+    return fail("no bus");
+  }
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer) const override { return std::nullopt; }
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand) override { return fail("no bus"); }
   [[nodiscard]] Result<void> send(const can::Frame& frame) override {
