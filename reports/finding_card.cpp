@@ -106,6 +106,7 @@ void draw_requirement(Card& card, const result::RunResult& run, const CaseResult
   }
   card.row("case", log_safe(one.name()));
   card.row("", prose(one.title));
+  card.row("during", log_safe(finding.during));
   if (!one.cct.empty()) card.row("CCT case", log_safe(join(one.cct, ", ")));
 }
 

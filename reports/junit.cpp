@@ -142,6 +142,7 @@ void write_finding(Sheet& sheet, const RunResult& run, const LocatedFinding& loc
       sheet.row("Statement", prose(info->statement));
     }
   }
+  sheet.row("During", log_safe(finding.during));
   sheet.row("Step", log_safe(finding.step));
   sheet.rows("Passes", finding.accepts);
   sheet.rows("Tolerated", finding.tolerates);

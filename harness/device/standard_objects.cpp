@@ -207,8 +207,6 @@ std::optional<Entry> standard_entry(Multiplexer mux) {
 Dictionary standard_dictionary(NodeId node) {
   Dictionary dictionary;
   for (const Row& row : rows) {
-    const bool further_sdo = row.first_index >= 0x1201 && row.first_index < 0x1400;
-    if (further_sdo) continue;
     const bool is_pdo = row.first_index >= 0x1400;
     for (int i = 0; i < (is_pdo ? 4 : 1); ++i) {
       const auto index = static_cast<std::uint16_t>((is_pdo ? row.first_index & 0xFE00U : row.first_index) +

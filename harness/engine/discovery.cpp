@@ -14,9 +14,6 @@ namespace {
 
 using Kind = steps::SdoAnswer::Kind;
 
-/// A user at a bench with the wrong node-ID must not wait long for being told.
-constexpr Duration boot_limit = std::chrono::seconds(1);
-
 /// An abort that says "not here"; every other answer shows that the entry exists.
 bool says_absent(const steps::SdoAnswer& answer) {
   return answer.kind == Kind::aborted &&
@@ -78,8 +75,8 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
     const auto from = session.capture().size();
     if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent)
       return std::unexpected(sent.error());
-    auto heard = session.recorder().find(from, from_node,
-                                         session.now() + std::min(session.profile().boot_time, boot_limit));
+    // A node in Stopped or still booting is as silent as none: only T_BOOT tells them apart.
+    auto heard = session.recorder().find(from, from_node, session.now() + session.profile().boot_time);
     if (!heard) return std::unexpected(heard.error());
     if (*heard) {
       out.alive = true;

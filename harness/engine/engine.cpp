@@ -2,12 +2,12 @@
 #include "engine/engine.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "base/text.hpp"
 #include "canopen/nmt.hpp"
 #include "engine/case_runner.hpp"
 #include "engine/discovery.hpp"
+#include "engine/monitor_cases.hpp"
 #include "engine/restore.hpp"
 #include "engine/run_session.hpp"
 
@@ -16,6 +16,8 @@ namespace {
 
 using result::CaseResult;
 using result::Verdict;
+
+constexpr Multiplexer emcy_inhibit_time{Index(0x1015), SubIndex(0)};
 
 /// While values are put back the bus must be usable, whatever the user wants meanwhile. A second signal still
 /// ends the program.
@@ -60,6 +62,7 @@ class Run {
     } else {
       run_cases();
     }
+    judge_monitors();
     out_.elapsed = recorder_.now() - begin;
     if (options_.stop != nullptr) out_.signal = options_.stop->load();
     return std::move(out_);
@@ -93,19 +96,22 @@ class Run {
     auto values = snapshot(session_);
     if (!values) return std::unexpected(values.error());
     snapshot_ = std::move(*values);
+    auto inhibit = session_.is_present(emcy_inhibit_time, false);
+    if (!inhibit) return std::unexpected(inhibit.error());
+    if (!*inhibit) return {};
+    auto held = session_.peek(emcy_inhibit_time);
+    if (!held) return std::unexpected(held.error());
+    if (held->kind == steps::SdoAnswer::Kind::confirmed && held->data.size() == 2)
+      emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(held->data));
     return {};
   }
 
   void make_plan() {
     plan_ = plan(suite_, catalogue_, session_.known(), options_.plan);
-    std::set<std::string> mentioned;
-    for (const auto& planned : plan_) {
-      out_.cases.push_back(planned_result(planned, catalogue_));
-      mentioned.insert(out_.cases.back().requirements.begin(), out_.cases.back().requirements.end());
-    }
-    for (const auto& id : mentioned) {
-      if (const auto* requirement = catalogue_.find(id)) out_.requirements.push_back(requirement->info());
-    }
+    for (const auto& planned : plan_) out_.cases.push_back(planned_result(planned, catalogue_));
+    monitors_ = chosen_monitors(options_.plan.selection, catalogue_);
+    plan_monitors(monitors_, catalogue_, out_);
+    describe_requirements(catalogue_, out_);
   }
 
   void abort_run(const Error& error) {
@@ -153,6 +159,7 @@ class Run {
       out.reason = "not run: " + ready.error().text();
       return ready;
     }
+    note_losses();
     out.begin = recorder_.now();
     out.first_frame = recorder_.capture().size();
     const auto health = recorder_.transport().health();
@@ -160,6 +167,7 @@ class Run {
     auto ran = runner_.run(planned, out);
     const bool entered = runner_.entered_steps();
     out.end_frame = recorder_.capture().size();
+    note_losses();
     out.end = recorder_.now();
     const auto lateness = recorder_.take_lateness();
     if (ran) ran = after_case(out, planned.scenario->risk >= scenario::Risk::config);
@@ -173,8 +181,25 @@ class Run {
     }
     out.finished = true;
     distrust_if_unhealthy(out, health, lateness);
-    accept_known_deviations(out);
+    accept_known_deviations(profile_, catalogue_, out);
     if (out.first_frame < out.end_frame) recorder_.capture().comment(out.first_frame, out.name());
+    comment_findings(out);
+    return {};
+  }
+
+  /// Where the host lost frames, or its clock was set, the monitors must not draw conclusions.
+  void note_losses() {
+    const auto now = recorder_.transport().health();
+    const auto frames = recorder_.capture().size();
+    if (now.frames_dropped > health_.frames_dropped || now.bus_offs > health_.bus_offs ||
+        now.clock_steps > health_.clock_steps)
+      losses_.push_back({trusted_frames_, frames});
+    health_ = now;
+    trusted_frames_ = frames;
+  }
+
+  /// The frames that decided a verdict say so in the capture.
+  void comment_findings(const CaseResult& out) {
     for (const auto& judgement : out.judgements) {
       for (const auto& finding : judgement.findings) {
         for (const auto& frame : finding.evidence) {
@@ -185,7 +210,19 @@ class Run {
         }
       }
     }
-    return {};
+  }
+
+  /// The monitors see the whole trace, also of a run that stopped early. A device that was never heard leaves
+  /// them nothing to do.
+  void judge_monitors() {
+    if (monitors_.empty() || !alive_) return;
+    note_losses();
+    judge_trace(recorder_.capture().frames(), monitors_, profile_, catalogue_, options_.strict, losses_,
+                out_);
+    for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i) {
+      comment_findings(out_.cases[i]);
+      if (options_.on_case_end) options_.on_case_end(out_, i);
+    }
   }
 
   /// Pre-operational, SDO channel idle, and freshly reset where the scenario asks for it.
@@ -252,7 +289,7 @@ class Run {
       }
     }
     auto changes = session_.take_journal();
-    if (changes.empty()) return {};
+    if (changes.empty()) return let_emcy_end(out.first_frame);
     // A stop request waits until everything is back: half a restore is the worst of all.
     const StopHeld held(recorder_);
     if (auto ready = enter_pre_operational(); !ready) return ready;
@@ -268,6 +305,26 @@ class Run {
     }
     for (const auto& left : report->left)
       out_.notes.push_back(out.name() + ": could not be put back: " + left);
+    return let_emcy_end(out.first_frame);
+  }
+
+  /// What the inhibit time (1015h) still holds back would be taken for an EMCY of the next case.
+  Result<void> let_emcy_end(std::size_t from) {
+    const auto seen_since = [this](std::size_t first) {
+      const auto& frames = recorder_.capture().frames();
+      return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
+                         [this](const can::CapturedFrame& captured) {
+                           return captured.direction == can::Direction::received &&
+                                  captured.frame.is_data(session_.emcy_can_id());
+                         });
+    };
+    constexpr int most_held_back = 16;
+    for (int held = 0; emcy_inhibit_ > Duration::zero() && held < most_held_back && seen_since(from);
+         ++held) {
+      from = recorder_.capture().size();
+      const auto margin = std::chrono::milliseconds(10);
+      if (auto waited = session_.wait_until(session_.now() + emcy_inhibit_ + margin); !waited) return waited;
+    }
     return {};
   }
 
@@ -335,6 +392,8 @@ class Run {
       why = "bus-off during the case";
     } else if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped)) {
       why = "the host's clock was set during the case";
+    } else if (session_.channel().has_other_client(out.first_frame, recorder_.capture().size())) {
+      why = "another SDO client used the channel during the case";
     } else if (lateness.producing > Duration(0)) {
       why = "the host sent a cyclic frame " + to_string(lateness.producing) + " late";
     } else if (lateness.waking > can::host_is_late || after.late_frames > before.late_frames) {
@@ -354,25 +413,6 @@ class Run {
       for (auto& finding : judgement.findings) finding.verdict = Verdict::inconclusive;
     }
     if (out.verdict != before_it) out.reason = why;
-  }
-
-  void accept_known_deviations(CaseResult& out) {
-    auto verdict = Verdict::not_applicable;
-    for (auto& judgement : out.judgements) {
-      for (const auto& deviation : profile_.deviations) {
-        const auto id = catalogue_.canonical(deviation.requirement).value_or(deviation.requirement);
-        if (id != judgement.requirement || judgement.verdict != Verdict::fail) continue;
-        if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name()))
-          continue;
-        judgement.verdict = Verdict::warn;
-        for (auto& finding : judgement.findings) {
-          if (finding.verdict == Verdict::fail) finding.verdict = Verdict::warn;
-          finding.reason += "; accepted as known deviation: " + deviation.reason;
-        }
-      }
-      verdict = worst(verdict, judgement.verdict);
-    }
-    if (out.verdict == Verdict::fail) out.verdict = verdict;
   }
 
   /// The bus broke or the user stopped: values are put back if that is still possible.
@@ -431,15 +471,15 @@ class Run {
       const StopHeld held(recorder_);
       leave_in_pre_operational();
     }
-    auto now = snapshot(session_);
-    if (!now) return;
+    // The same entries, whatever has been learnt about access in between.
     for (const auto& [object, before] : snapshot_) {
-      const auto found = now->find(object);
-      if (found == now->end()) {
+      const auto found = session_.peek(object);
+      if (!found) return;
+      if (found->kind != steps::SdoAnswer::Kind::confirmed) {
         out_.notes.push_back(to_string(object) + " could be read before the run and cannot any more");
-      } else if (found->second != before) {
+      } else if (found->data != before) {
         out_.notes.push_back(to_string(object) + " was " + hex_bytes(before) + " before the run and is " +
-                             hex_bytes(found->second));
+                             hex_bytes(found->data));
       }
     }
   }
@@ -456,7 +496,12 @@ class Run {
   bool mute_ = false;                 ///< alive, but without a single SDO answer
   std::optional<Error> fell_silent_;  ///< during the run
   std::vector<PlannedCase> plan_;
+  Monitors monitors_;
+  std::vector<monitor::Loss> losses_;
+  can::BusHealth health_;           ///< at the last look
+  std::size_t trusted_frames_ = 0;  ///< capture's length at that time
   std::map<Multiplexer, Bytes> snapshot_;
+  Duration emcy_inhibit_{};  ///< 1015h, as found
   result::RunResult out_;
 };
 

@@ -67,9 +67,7 @@ Result<void> Recorder::produce_due() {
 
 Result<std::size_t> Recorder::send(const can::Frame& frame) {
   const auto from = capture_.size();
-  if (stop_requested()) return broken({stopped, {}, {}});
-  auto sent = transport_.send(frame);
-  if (!sent) return broken(sent.error());
+  if (auto sent = post(frame); !sent) return std::unexpected(sent.error());
   const auto is_echo = [&frame](const can::CapturedFrame& captured) {
     return captured.direction == can::Direction::transmitted && captured.frame == frame;
   };
@@ -77,11 +75,20 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   auto echo = find(from, is_echo, recent_ + transmit_limit);
   if (echo && !*echo) echo = find(from, is_echo, now() + transmit_limit);
   if (!echo) return std::unexpected(echo.error());
-  if (!*echo) {
-    return broken({"a frame was not transmitted within 1 s", transport_.info().name,
-                   "is another node on the bus to acknowledge it, and the bit rate right?"});
-  }
+  if (!*echo) return never_sent();
   return **echo;
+}
+
+Result<void> Recorder::post(const can::Frame& frame) {
+  if (stop_requested()) return broken({stopped, {}, {}});
+  auto sent = transport_.send(frame);
+  if (!sent) return broken(sent.error());
+  return {};
+}
+
+std::unexpected<Error> Recorder::never_sent() {
+  return broken({"a frame was not transmitted within 1 s", transport_.info().name,
+                 "is another node on the bus to acknowledge it, and the bit rate right?"});
 }
 
 Result<std::optional<std::size_t>> Recorder::find(std::size_t from, const steps::Session::Match& match,

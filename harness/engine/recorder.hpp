@@ -34,6 +34,12 @@ class Recorder {
 
   /// Sends and waits for the echo. Its capture index: the frame was on the bus at its stamp.
   [[nodiscard]] Result<std::size_t> send(const can::Frame& frame);
+  /// Hands one frame over and does not wait for its echo: for bursts. The caller bounds what is on its way.
+  [[nodiscard]] Result<void> post(const can::Frame& frame);
+  /// Receives at most one event not later than `deadline`. False: the deadline has passed on the bus.
+  [[nodiscard]] Result<bool> listen(BusTime deadline) { return pump(deadline); }
+  /// The fault of a frame whose echo never came.
+  [[nodiscard]] std::unexpected<Error> never_sent();
   /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as
   /// that takes.
   [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match,

@@ -2,6 +2,7 @@
 #include "engine/run_session.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
@@ -24,6 +25,25 @@ bool is_sdo_write(const can::Frame& frame) {
 bool commands_others(const can::Frame& frame, NodeId node) {
   return !frame.extended && !frame.remote && !frame.error && frame.id == 0 && frame.size() >= 2 &&
          frame.data[1] <= 127 && frame.data[1] != node.value();
+}
+
+/// 101x or 110x: initiate request of a block upload (its block size, no CRC) or download (its size).
+std::array<std::uint8_t, 8> block_initiate(std::uint8_t command, Multiplexer object, std::uint8_t size) {
+  return {command,
+          static_cast<std::uint8_t>(object.index.value() & 0xFFU),
+          static_cast<std::uint8_t>(object.index.value() >> 8U),
+          object.sub.value(),
+          size,
+          0,
+          0,
+          0};
+}
+
+/// The aborts of a server without block transfer: 0504 0001h, and what is tolerated in its place.
+bool refuses_block_transfer(const std::array<std::uint8_t, 8>& answer) {
+  if (answer[0] != 0x80) return false;
+  const auto code = load_le(ByteView(answer).subspan(4));
+  return code == 0x0504'0001 || code == 0x0800'0000 || code == 0x0601'0000;
 }
 }  // namespace
 
@@ -158,6 +178,50 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   return !refused;
 }
 
+Result<bool> RunSession::offers_block_transfer(bool upload) {
+  auto& known = upload ? offers_block_upload_ : offers_block_download_;
+  if (known) return *known;
+  if (!upload) {
+    auto tried = try_block_download();
+    if (tried) known = *tried;
+    return tried;
+  }
+  auto answer = channel_.try_block_initiate(block_initiate(0xA0, {Index(0x1000), SubIndex(0)}, 0x14));
+  if (!answer) return std::unexpected(answer.error());
+  if (!*answer) return fail("no answer when a block upload was tried", "scenario");
+  known = !refuses_block_transfer(**answer);
+  return *known;
+}
+
+/// An entry that may be written: an access error of another one could not be told from "no block transfer".
+Result<bool> RunSession::try_block_download() {
+  if (auto allowed = needs(scenario::Risk::config, "try a block download"); !allowed)
+    return std::unexpected(allowed.error());
+  std::vector<Multiplexer> candidates{{Index(0x1017), SubIndex(0)}, {Index(0x100C), SubIndex(0)}};
+  for (const auto& candidate : dictionary_.entries()) {
+    const auto size = candidate.size();
+    if (candidate.safe && candidate.readable() && candidate.writable() && !candidate.command && size &&
+        *size <= 4)
+      candidates.push_back(candidate.mux);
+  }
+  for (const auto object : candidates) {
+    const auto* found = entry(object);
+    if (found == nullptr || profile_.is_untouchable(object)) continue;
+    auto present = is_present(object, false);
+    if (!present) return std::unexpected(present.error());
+    if (!*present) continue;
+    const auto size = static_cast<std::uint8_t>(found->size().value_or(0));
+    auto answer = channel_.try_block_initiate(block_initiate(0xC2, object, size));
+    if (!answer) return std::unexpected(answer.error());
+    if (!*answer) return fail("no answer when a block download was tried", "scenario");
+    const auto& data = **answer;
+    const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(data).subspan(4))));
+    if (data[0] == 0x80 && code == canopen::abort::read_only) continue;
+    return !refuses_block_transfer(data);
+  }
+  return false;
+}
+
 std::string RunSession::access_of(Multiplexer object) const {
   const auto* found = entry(object);
   return found == nullptr ? "" : std::string(device::to_string(found->access));
@@ -187,13 +251,9 @@ void RunSession::note_sent(std::size_t index) {
 }
 
 Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Duration> timeout) {
-  auto answer = channel_.upload(object, timeout);
-  if (!answer) return answer;
-  note_sent(channel_.first_request());
-  window_.anchor = channel_.last_request();
-  if (answer->kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
-  if (answer->kind == steps::SdoAnswer::Kind::confirmed) watch_emcy(object, answer->data);
-  return answer;
+  auto answers = transfer({{.request = {.upload = true, .object = object}, .timeout = timeout}});
+  if (!answers) return std::unexpected(answers.error());
+  return std::move(answers->front());
 }
 
 Result<void> RunSession::will_change(Multiplexer object) {
@@ -226,18 +286,39 @@ Result<void> RunSession::will_change(Multiplexer object) {
 
 Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                               std::optional<Duration> timeout) {
-  if (auto allowed = needs(scenario::Risk::config, "write to the device"); !allowed)
-    return std::unexpected(allowed.error());
-  if (auto noted = will_change(object); !noted) return std::unexpected(noted.error());
-  const auto copy = data;
-  auto answer = channel_.download(object, std::move(data), mode, timeout);
-  if (!answer) return answer;
-  write_refused_ = answer->kind == steps::SdoAnswer::Kind::aborted;
+  auto answers =
+      transfer({{.request = {.upload = false, .object = object, .data = std::move(data), .mode = mode},
+                 .timeout = timeout}});
+  if (!answers) return std::unexpected(answers.error());
+  return std::move(answers->front());
+}
+
+Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<steps::SdoJob>& jobs) {
+  for (const auto& job : jobs) {
+    if (job.channel) {
+      // Which node listens there is not known.
+      if (auto allowed = needs(scenario::Risk::config, "use other SDO channels than the default one");
+          !allowed)
+        return std::unexpected(allowed.error());
+    }
+    if (job.request.upload) continue;
+    if (auto allowed = needs(scenario::Risk::config, "write to the device"); !allowed)
+      return std::unexpected(allowed.error());
+    if (auto noted = will_change(job.request.object); !noted) return std::unexpected(noted.error());
+  }
+  auto answers = channel_.run(jobs);
+  if (!answers) return answers;
   note_sent(channel_.first_request());
   window_.anchor = channel_.last_request();
-  if (answer->kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
-  if (answer->kind == steps::SdoAnswer::Kind::confirmed) watch_emcy(object, copy);
-  return answer;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const auto& request = jobs[i].request;
+    const auto& answer = (*answers)[i];
+    if (!request.upload) write_refused_ = answer.kind == steps::SdoAnswer::Kind::aborted;
+    if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
+    if (answer.kind == steps::SdoAnswer::Kind::confirmed)
+      watch_emcy(request.object, request.upload ? answer.data : request.data);
+  }
+  return answers;
 }
 
 void RunSession::watch_emcy(Multiplexer object, const Bytes& value) {

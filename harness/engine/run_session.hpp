@@ -48,6 +48,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<steps::Value> declared(Multiplexer object, steps::Declared what) override;
   [[nodiscard]] bool is_described() const override { return !profile_.objects.empty(); }
   [[nodiscard]] bool write_was_refused() const override { return write_refused_; }
+  [[nodiscard]] Result<bool> offers_block_transfer(bool upload) override;
   [[nodiscard]] bool tries_all_objects() const override { return all_objects_; }
   void try_all_objects(bool all) { all_objects_ = all; }
 
@@ -60,6 +61,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data,
                                                   canopen::SdoDownload::Mode mode,
                                                   std::optional<Duration> timeout) override;
+  [[nodiscard]] Result<std::vector<steps::SdoAnswer>> transfer(
+      const std::vector<steps::SdoJob>& jobs) override;
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer object) const override;
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
   [[nodiscard]] Result<void> send(const can::Frame& frame) override;
@@ -107,6 +110,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }
   /// An error where the risk of the running scenario does not cover what it is about to do.
   [[nodiscard]] Result<void> needs(scenario::Risk risk, std::string_view what) const;
+  [[nodiscard]] Result<bool> try_block_download();
   void watch_emcy(Multiplexer object, const Bytes& value);
 
   Recorder& recorder_;
@@ -121,6 +125,7 @@ class RunSession final : public steps::Session {
   std::vector<Change> journal_;
   std::map<Multiplexer, Bytes> before_write_;
   steps::Window window_;
+  std::optional<bool> offers_block_upload_, offers_block_download_;  ///< once tried
   bool stimulus_open_ = false;  ///< the running step acts, and its first frame begins the window
   bool all_objects_ = false;
   bool write_refused_ = false;

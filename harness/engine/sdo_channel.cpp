@@ -5,8 +5,11 @@
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/sdo_initiate.hpp"
+#include "engine/sdo_runner.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
 #include <utility>
 
 namespace conform::engine {
@@ -22,85 +25,145 @@ auto is_response(CanId id) {
   };
 }
 
+steps::SdoAnswer to_answer(SdoRun& run) {
+  using From = canopen::TransferResult::Kind;
+  using To = steps::SdoAnswer::Kind;
+  auto& result = run.result;
+  steps::SdoAnswer out;
+  switch (result.kind) {
+    case From::confirmed: out.kind = To::confirmed; break;
+    case From::aborted: out.kind = To::aborted; break;
+    case From::violation: out.kind = To::violation; break;
+    case From::silence: out.kind = To::silence; break;
+    case From::gave_up: out.kind = To::gave_up; break;
+  }
+  out.data = std::move(result.data);
+  out.size_indicated = result.size_indicated || !result.expedited;
+  out.code = result.code;
+  out.detail = std::move(result.detail);
+  out.remarks = std::move(result.remarks);
+  out.decisive = run.decisive;
+  out.announced = result.announced_size;
+  out.counts = result.counts;
+  return out;
+}
+
 }  // namespace
 
-Result<void> SdoChannel::make_idle() {
-  if (state_ == State::idle) return {};
-  const auto rest = std::exchange(state_, State::idle) == State::late_answers ? quiet_ : after_conversation;
+SdoChannel::SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Duration quiet)
+    : recorder_(recorder), timeout_(timeout), quiet_(quiet) {
+  const auto set = canopen::connection_set(node);
+  default_ids_ = {set.sdo_request, set.sdo_response};
+  lines_[default_ids_];
+}
+
+void SdoChannel::dirty(Line& line, bool late_answers) {
+  line.state = late_answers || line.state == State::late_answers ? State::late_answers : State::open;
+}
+
+Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
+  if (line.state == State::idle) return {};
+  const auto rest =
+      std::exchange(line.state, State::idle) == State::late_answers ? quiet_ : after_conversation;
   // An abort is never answered; after it, answers to what was before must not be taken for answers to what
   // comes.
   const auto abort = canopen::encode_abort({Index(0), SubIndex(0)}, AbortCode(0x0800'0000));
-  auto sent = recorder_.send(can::data_frame(canopen::connection_set(node_).sdo_request, abort));
+  auto sent = recorder_.send(can::data_frame(ids.request, abort));
   if (!sent) return std::unexpected(sent.error());
   return recorder_.wait_until(recorder_.now() + rest);
 }
 
-template <typename Transfer>
-Result<steps::SdoAnswer> SdoChannel::run(Transfer transfer, Multiplexer object,
-                                         std::optional<Duration> timeout) {
-  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
-  const auto set = canopen::connection_set(node_);
-  const auto limit = timeout.value_or(timeout_);
-  const auto response = is_response(set.sdo_response);
-  auto request = transfer.first_request();
-  bool first = true;
-  steps::SdoAnswer out;
-  while (true) {
-    auto sent = recorder_.send(can::data_frame(set.sdo_request, request));
-    if (!sent) return std::unexpected(sent.error());
-    if (first) first_request_ = *sent;
-    first = false;
-    last_request_ = recorder_.capture().frames()[*sent].time;
-    auto found = recorder_.find(*sent + 1, response, last_request_ + limit);
-    if (!found) return std::unexpected(found.error());
-    if (!*found) {
-      out.kind = steps::SdoAnswer::Kind::silence;
-      out.decisive = *sent;
-      out.detail = "no answer within " + to_string(limit);
-      // Tell the server that we gave up, and do not mistake its late answer for the next one.
-      const auto abort = canopen::encode_abort(object, canopen::abort::timed_out);
-      auto told = recorder_.send(can::data_frame(set.sdo_request, abort));
-      if (!told) return std::unexpected(told.error());
-      dirty(true);
-      return out;
-    }
-    out.decisive = **found;
-    auto step = transfer.on_response(recorder_.capture().frames()[**found].frame.bytes());
-    if (const auto* next = std::get_if<canopen::SdoBytes>(&step)) {
-      request = *next;
-      continue;
-    }
-    auto& result = std::get<canopen::TransferResult>(step);
-    using Kind = canopen::TransferResult::Kind;
-    out.kind = result.kind == Kind::confirmed ? steps::SdoAnswer::Kind::confirmed
-               : result.kind == Kind::aborted ? steps::SdoAnswer::Kind::aborted
-                                              : steps::SdoAnswer::Kind::violation;
-    out.data = std::move(result.data);
-    out.size_indicated = result.size_indicated || !result.expedited;
-    out.code = result.code;
-    out.detail = std::move(result.detail);
-    out.remarks = std::move(result.remarks);
-    if (result.reply) {
-      auto told =
-          recorder_.send(can::data_frame(set.sdo_request, canopen::encode_abort(object, *result.reply)));
-      if (!told) return std::unexpected(told.error());
-    }
-    if (result.kind == Kind::violation) dirty(true);
-    return out;
+Result<void> SdoChannel::make_idle() {
+  for (auto& [ids, line] : lines_) {
+    if (auto idle = make_idle(ids, line); !idle) return idle;
   }
+  return {};
+}
+
+Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::SdoJob> jobs) {
+  std::vector<std::unique_ptr<canopen::SdoClient>> clients;
+  std::vector<SdoRun> runs;
+  std::vector<Line*> lines;
+  for (const auto& job : jobs) {
+    auto client = canopen::make_sdo_client(job.request);
+    if (!client) return std::unexpected(client.error());
+    const auto ids = job.channel.value_or(default_ids_);
+    auto& line = lines_[ids];
+    if (std::ranges::find(lines, &line) != lines.end())
+      return fail("two transfers at the same time on the channel " + to_string(ids.request), "scenario",
+                  "give each a channel of its own");
+    lines.push_back(&line);
+    SdoRun run;
+    run.client = client->get();
+    run.object = job.request.object;
+    run.request = ids.request;
+    run.response = ids.response;
+    run.limit = job.timeout.value_or(timeout_);
+    run.wait = job.wait.value_or(quiet_);
+    run.listens_after = !job.request.faults.empty();
+    run.stale = line.stale;
+    clients.push_back(std::move(*client));
+    runs.push_back(std::move(run));
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    // Of an abandoned transfer the server must rid itself: to help it would hide that it cannot.
+    if (lines[i]->state == State::abandoned) continue;
+    if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)
+      return std::unexpected(idle.error());
+  }
+  if (auto done = run_transfers(recorder_, runs); !done) return std::unexpected(done.error());
+  std::vector<steps::SdoAnswer> out;
+  std::string misplaced;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    using Kind = canopen::TransferResult::Kind;
+    auto& result = runs[i].result;
+    auto& line = *lines[i];
+    line.state = result.abandoned ? State::abandoned : State::idle;
+    if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
+      dirty(line, true);
+      line.stale = runs[i].object;
+    }
+    if (misplaced.empty()) misplaced = result.misplaced;
+    out.push_back(to_answer(runs[i]));
+  }
+  first_request_ = recorder_.capture().size();
+  for (const auto& run : runs) {
+    first_request_ = std::min(first_request_, run.first_request.value_or(first_request_));
+    last_request_ = &run == runs.data() ? run.last_request : std::max(last_request_, run.last_request);
+  }
+  if (!misplaced.empty()) return fail(misplaced, "scenario");
+  return out;
+}
+
+bool SdoChannel::has_other_client(std::size_t first, std::size_t end) const {
+  const auto& frames = recorder_.capture().frames();
+  for (auto i = first; i < std::min(end, frames.size()); ++i) {
+    const auto& captured = frames[i];
+    if (captured.direction != can::Direction::received) continue;
+    for (const auto& [ids, line] : lines_) {
+      if (captured.frame.is_data(ids.request)) return true;
+    }
+  }
+  return false;
+}
+
+Result<steps::SdoAnswer> SdoChannel::run_one(canopen::SdoRequest request, std::optional<Duration> timeout) {
+  const steps::SdoJob job{.request = std::move(request), .timeout = timeout};
+  auto answers = run({&job, 1});
+  if (!answers) return std::unexpected(answers.error());
+  return std::move(answers->front());
 }
 
 Result<steps::SdoAnswer> SdoChannel::upload(Multiplexer object, std::optional<Duration> timeout) {
-  return run(canopen::SdoUpload(object), object, timeout);
+  return run_one({.upload = true, .object = object}, timeout);
 }
 
 Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) {
   using Size = std::optional<std::uint64_t>;
   if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
-  const auto set = canopen::connection_set(node_);
-  auto sent = recorder_.send(can::data_frame(set.sdo_request, canopen::encode_upload_request(object)));
+  auto sent = recorder_.send(can::data_frame(default_ids_.request, canopen::encode_upload_request(object)));
   if (!sent) return std::unexpected(sent.error());
-  const auto response = is_response(set.sdo_response);
+  const auto response = is_response(default_ids_.response);
   auto found = recorder_.find(*sent + 1, response, recorder_.capture().frames()[*sent].time + timeout_);
   if (!found) return std::unexpected(found.error());
   dirty(!*found);
@@ -114,9 +177,25 @@ Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) 
   return whole->kind == steps::SdoAnswer::Kind::confirmed ? Size(whole->data.size()) : Size();
 }
 
+Result<std::optional<std::array<std::uint8_t, 8>>> SdoChannel::try_block_initiate(
+    const std::array<std::uint8_t, 8>& request) {
+  using Answer = std::optional<std::array<std::uint8_t, 8>>;
+  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
+  auto sent = recorder_.send(can::data_frame(default_ids_.request, request));
+  if (!sent) return std::unexpected(sent.error());
+  auto found = recorder_.find(*sent + 1, is_response(default_ids_.response),
+                              recorder_.capture().frames()[*sent].time + timeout_);
+  if (!found) return std::unexpected(found.error());
+  // Whoever comes next may send frames without looking at the channel.
+  dirty(!*found);
+  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
+  if (!*found) return Answer();
+  return Answer(recorder_.capture().frames()[**found].frame.data);
+}
+
 Result<steps::SdoAnswer> SdoChannel::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                               std::optional<Duration> timeout) {
-  return run(canopen::SdoDownload(object, std::move(data), mode), object, timeout);
+  return run_one({.upload = false, .object = object, .data = std::move(data), .mode = mode}, timeout);
 }
 
 }  // namespace conform::engine

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default SDO channel on the bus: runs the passive transfers of `canopen` against time.
+// The SDO channels on the bus: the default one and those that a scenario names. Keeps in mind in which state
+// each was left, so that late answers are never taken for answers to what comes.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "canopen/sdo_transfer.hpp"
 #include "engine/recorder.hpp"
@@ -12,9 +18,11 @@ namespace conform::engine {
 
 class SdoChannel {
  public:
-  SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Duration quiet)
-      : recorder_(recorder), node_(node), timeout_(timeout), quiet_(quiet) {}
+  SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Duration quiet);
 
+  /// Transfers at the same time, each on a channel of its own. Error (where: "scenario") when two share one,
+  /// or when a fault has no place.
+  [[nodiscard]] Result<std::vector<steps::SdoAnswer>> run(std::span<const steps::SdoJob> jobs);
   [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout);
   [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data,
                                                   canopen::SdoDownload::Mode mode,
@@ -22,29 +30,48 @@ class SdoChannel {
   /// How many bytes the entry holds, as the answer to the initiate request tells; the transfer is not carried
   /// through. nullopt: it cannot be read.
   [[nodiscard]] Result<std::optional<std::uint64_t>> held_bytes(Multiplexer object);
-  /// The state of the server's channel is unknown: abort before the next transfer. After a time-out or a
+  /// What the server answers to the initiate request of a block transfer, which is then aborted. nullopt:
+  /// silence.
+  [[nodiscard]] Result<std::optional<std::array<std::uint8_t, 8>>> try_block_initiate(
+      const std::array<std::uint8_t, 8>& request);
+  /// The state of the default channel is unknown: abort before the next transfer. After a time-out or a
   /// broken answer late ones may follow, so the channel rests as well; after a conversation a short pause is
   /// enough.
-  void dirty(bool late_answers) {
-    state_ = late_answers || state_ == State::late_answers ? State::late_answers : State::open;
+  void dirty(bool late_answers) { dirty(default_line(), late_answers); }
+  [[nodiscard]] bool is_open() const {
+    return default_line().state == State::open || default_line().state == State::abandoned;
   }
-  [[nodiscard]] bool is_open() const { return state_ == State::open; }
-  [[nodiscard]] bool expects_late_answers() const { return state_ == State::late_answers; }
-  /// Ends what is open and lets late answers pass; nothing to do on an idle channel.
+  [[nodiscard]] bool expects_late_answers() const { return default_line().state == State::late_answers; }
+  /// Ends what is open on any channel and lets late answers pass; nothing to do on idle ones.
   [[nodiscard]] Result<void> make_idle();
+  /// Whether somebody else sent requests on a channel that was used, among these frames.
+  [[nodiscard]] bool has_other_client(std::size_t first, std::size_t end) const;
   /// Requests of the latest transfer: index of the first, stamp of the last frame we sent.
   [[nodiscard]] std::size_t first_request() const { return first_request_; }
   [[nodiscard]] BusTime last_request() const { return last_request_; }
 
  private:
-  template <typename Transfer>
-  [[nodiscard]] Result<steps::SdoAnswer> run(Transfer transfer, Multiplexer object,
-                                             std::optional<Duration> timeout);
+  enum class State : std::uint8_t {
+    idle,
+    open,          ///< a conversation has left it
+    late_answers,  ///< an answer is overdue
+    abandoned,     ///< a client fell silent on purpose: the next transfer begins without an abort
+  };
+  struct Line {
+    State state = State::idle;
+    std::optional<Multiplexer> stale;  ///< entry whose answer is overdue
+  };
+  [[nodiscard]] Line& default_line() { return lines_.at(default_ids_); }
+  [[nodiscard]] const Line& default_line() const { return lines_.at(default_ids_); }
+  static void dirty(Line& line, bool late_answers);
+  [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
+  [[nodiscard]] Result<steps::SdoAnswer> run_one(canopen::SdoRequest request,
+                                                 std::optional<Duration> timeout);
 
   Recorder& recorder_;
-  NodeId node_;
   Duration timeout_, quiet_;
-  enum class State : std::uint8_t { idle, open, late_answers } state_ = State::idle;
+  steps::SdoChannelIds default_ids_;
+  std::map<steps::SdoChannelIds, Line> lines_;
   std::size_t first_request_ = 0;
   BusTime last_request_{};
 };

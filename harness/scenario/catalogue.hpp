@@ -31,6 +31,7 @@ struct Requirement {
   std::string note;
   std::string proof;  ///< "", "manual", "reference node only"
   std::string proof_reason;
+  std::string not_judged;  ///< why no scenario decides it, where that is meant to stay so
   std::string area;
   std::string file;  ///< relative to the suites
   int line = 0;

@@ -42,11 +42,24 @@ bool Selection::takes(const Scenario& scenario, std::string_view instance, const
   const auto hit = [&name](const std::string& pattern) { return matches_pattern(pattern, name); };
   if (!patterns.empty() && std::ranges::none_of(patterns, hit)) return false;
   if (std::ranges::any_of(excludes, hit)) return false;
+  return wants_one_of(scenario.requirements, catalogue);
+}
+
+bool Selection::takes_monitor(std::string_view id, const std::vector<std::string>& decides,
+                              const Catalogue& catalogue) const {
+  const auto hit = [id](const std::string& pattern) { return matches_pattern(pattern, id); };
+  const bool about_monitors = std::ranges::any_of(
+      patterns, [](const std::string& pattern) { return pattern.starts_with("monitor"); });
+  if (about_monitors && std::ranges::none_of(patterns, hit)) return false;
+  if (std::ranges::any_of(excludes, hit)) return false;
+  return wants_one_of(decides, catalogue);
+}
+
+bool Selection::wants_one_of(const std::vector<std::string>& decides, const Catalogue& catalogue) const {
   if (requirements.empty()) return true;
   return std::ranges::any_of(requirements, [&](const std::string& wanted) {
     const auto canonical = catalogue.canonical(wanted).value_or(wanted);
-    return std::ranges::any_of(scenario.requirements,
-                               [&](const std::string& id) { return glob(canonical, id); });
+    return std::ranges::any_of(decides, [&](const std::string& id) { return glob(canonical, id); });
   });
 }
 

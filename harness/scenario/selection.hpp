@@ -20,6 +20,13 @@ struct Selection {
 
   [[nodiscard]] bool takes(const Scenario& scenario, std::string_view instance,
                            const Catalogue& catalogue) const;
+  /// Monitors ("monitor/sdo-toggle") watch whatever runs: patterns choose among them only when one is about
+  /// them.
+  [[nodiscard]] bool takes_monitor(std::string_view id, const std::vector<std::string>& decides,
+                                   const Catalogue& catalogue) const;
+
+ private:
+  [[nodiscard]] bool wants_one_of(const std::vector<std::string>& decides, const Catalogue& catalogue) const;
 };
 
 /// '*' any characters, '?' one; a pattern without them also matches as a leading path.

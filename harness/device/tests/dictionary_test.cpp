@@ -114,7 +114,9 @@ TEST_CASE("The standard dictionary shows what the standard names one by one") {
   CHECK(dictionary.has(mux(0x1A03, 8)));
   CHECK_FALSE(dictionary.has(mux(0x1A03, 9)));
   CHECK_FALSE(dictionary.has(Index{0x1404}));
-  CHECK_FALSE(dictionary.has(Index{0x1201}));
+  CHECK(dictionary.has(mux(0x1201, 3)));
+  CHECK_FALSE(dictionary.has(Index{0x1202}));
+  CHECK(dictionary.has(mux(0x1280, 3)));
   CHECK(std::ranges::is_sorted(dictionary.entries(), {}, &Entry::mux));
 }
 

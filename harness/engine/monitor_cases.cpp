@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/monitor_cases.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace conform::engine {
+namespace {
+
+using result::Verdict;
+
+monitor::Cap cap_of(const scenario::Catalogue& catalogue, bool strict) {
+  return [&catalogue, strict](std::string_view id) -> std::optional<Verdict> {
+    const auto* requirement = catalogue.find(id);
+    if (requirement == nullptr) return std::nullopt;
+    const bool binding = strict || (requirement->level != "recommended" && requirement->level != "optional");
+    return binding ? Verdict::fail : Verdict::warn;
+  };
+}
+
+}  // namespace
+
+Monitors chosen_monitors(const scenario::Selection& selection, const scenario::Catalogue& catalogue) {
+  Monitors out;
+  for (const auto& rule : monitor::rules()) {
+    const auto planned = monitor::planned_case(rule, cap_of(catalogue, false));
+    if (!planned.requirements.empty() && selection.takes_monitor(planned.id, planned.requirements, catalogue))
+      out.push_back(&rule);
+  }
+  return out;
+}
+
+bool names_a_monitor(const scenario::Selection& selection, const scenario::Catalogue& catalogue) {
+  const auto chosen = chosen_monitors(selection, catalogue);
+  if (selection.patterns.empty()) return !chosen.empty();
+  return std::ranges::any_of(chosen, [&selection](const monitor::Rule* rule) {
+    return std::ranges::any_of(selection.patterns, [rule](const std::string& pattern) {
+      return scenario::matches_pattern(pattern, monitor::case_id(*rule));
+    });
+  });
+}
+
+monitor::Facts facts_of(const device::Profile& profile) {
+  return {.node = profile.node, .boot_time = profile.boot_time, .nmt_time = profile.nmt_time};
+}
+
+void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogue, result::RunResult& out) {
+  for (const auto* rule : monitors) {
+    out.cases.push_back(monitor::planned_case(*rule, cap_of(catalogue, false)));
+  }
+}
+
+void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
+                 const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
+                 std::span<const monitor::Loss> losses, result::RunResult& out) {
+  const auto all = std::span(out.cases);
+  const auto scenarios = all.first(all.size() - monitors.size());
+  const auto own = all.last(monitors.size());
+  monitor::judge(frames, facts_of(profile), monitors, cap_of(catalogue, strict), losses, scenarios, own);
+  for (auto& each : own) accept_known_deviations(profile, catalogue, each);
+}
+
+void accept_known_deviations(const device::Profile& profile, const scenario::Catalogue& catalogue,
+                             result::CaseResult& out) {
+  auto verdict = Verdict::not_applicable;
+  for (auto& judgement : out.judgements) {
+    for (const auto& deviation : profile.deviations) {
+      const auto id = catalogue.canonical(deviation.requirement).value_or(deviation.requirement);
+      if (id != judgement.requirement || judgement.verdict != Verdict::fail) continue;
+      if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name()))
+        continue;
+      judgement.verdict = Verdict::warn;
+      for (auto& finding : judgement.findings) {
+        if (finding.verdict == Verdict::fail) finding.verdict = Verdict::warn;
+        finding.reason += "; accepted as known deviation: " + deviation.reason;
+      }
+    }
+    verdict = worst(verdict, judgement.verdict);
+  }
+  if (out.verdict == Verdict::fail) out.verdict = verdict;
+}
+
+void describe_requirements(const scenario::Catalogue& catalogue, result::RunResult& out) {
+  std::set<std::string> mentioned;
+  for (const auto& each : out.cases) mentioned.insert(each.requirements.begin(), each.requirements.end());
+  for (const auto& id : mentioned) {
+    if (const auto* requirement = catalogue.find(id)) out.requirements.push_back(requirement->info());
+  }
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The monitors as cases of a run: which are chosen, how they are planned, and their judgement of the trace.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "can/capture.hpp"
+#include "device/profile.hpp"
+#include "monitor/watch.hpp"
+#include "result/run_result.hpp"
+#include "scenario/catalogue.hpp"
+#include "scenario/selection.hpp"
+
+namespace conform::engine {
+
+using Monitors = std::vector<const monitor::Rule*>;
+
+/// Monitors run with every selection of scenarios; a pattern "monitor/...", a requirement or an exclusion
+/// chooses among them. Those whose requirements the catalogue does not have are left out.
+[[nodiscard]] Monitors chosen_monitors(const scenario::Selection& selection,
+                                       const scenario::Catalogue& catalogue);
+/// A pattern or a requirement names a monitor, so that there is something to run without any scenario.
+[[nodiscard]] bool names_a_monitor(const scenario::Selection& selection,
+                                   const scenario::Catalogue& catalogue);
+
+/// What monitors may know of the device.
+[[nodiscard]] monitor::Facts facts_of(const device::Profile& profile);
+
+/// Appends the planned cases behind those of the scenarios.
+void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogue, result::RunResult& out);
+/// Judges the trace: the last cases of `out` are those of `monitors`.
+void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
+                 const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
+                 std::span<const monitor::Loss> losses, result::RunResult& out);
+
+/// Turns failures that the profile lists as known deviations into warnings.
+void accept_known_deviations(const device::Profile& profile, const scenario::Catalogue& catalogue,
+                             result::CaseResult& out);
+
+/// Fills RunResult::requirements with what the cases mention.
+void describe_requirements(const scenario::Catalogue& catalogue, result::RunResult& out);
+
+}  // namespace conform::engine

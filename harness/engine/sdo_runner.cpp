@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/sdo_runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+#include "canopen/sdo_initiate.hpp"
+
+namespace conform::engine {
+namespace {
+
+using Kind = canopen::TransferResult::Kind;
+
+/// Frames that may wait for the bus at once: enough to keep it busy, few enough that a
+/// server's abort in the middle of a sub-block is heeded soon.
+constexpr std::size_t most_in_flight = 8;
+/// A frame that is not on the bus by then will not be.
+constexpr Duration transmit_limit = std::chrono::seconds(1);
+
+class Runner {
+ public:
+  Runner(Recorder& recorder, std::span<SdoRun> runs) : recorder_(recorder), runs_(runs) {}
+
+  Result<void> run() {
+    seen_ = recorder_.capture().size();
+    const auto begin = recorder_.now();
+    for (auto& run : runs_) run.since = run.not_sent_since = run.last_request = begin;
+    for (;;) {
+      // One frame each in turn; whoever was behind the last one that got room begins.
+      bool handed_over = false;
+      const auto begins_with = turn_;
+      for (std::size_t i = 0; i < runs_.size(); ++i) {
+        const auto index = (begins_with + i) % runs_.size();
+        auto sent = hand_over(runs_[index]);
+        if (!sent) return std::unexpected(sent.error());
+        if (*sent) turn_ = (index + 1) % runs_.size();
+        handed_over = handed_over || *sent;
+      }
+      const bool heard = seen_ < recorder_.capture().size();
+      while (seen_ < recorder_.capture().size()) look_at(seen_++);
+      if (std::ranges::all_of(runs_, &SdoRun::over)) return {};
+      // What was heard may have given the clients something to say, or ended them.
+      if (handed_over || heard) continue;
+      auto until = BusTime::max();
+      for (const auto& run : runs_) {
+        if (!run.over) until = std::min(until, deadline(run));
+      }
+      auto more = recorder_.listen(until);
+      if (!more) return std::unexpected(more.error());
+      if (*more) continue;
+      for (auto& run : runs_) {
+        if (run.over || deadline(run) > until) continue;
+        if (auto done = on_deadline(run, until); !done) return done;
+      }
+    }
+  }
+
+ private:
+  static BusTime deadline(const SdoRun& run) {
+    if (run.in_flight > 0) return run.not_sent_since + transmit_limit;
+    if (run.quiet_until) return *run.quiet_until;
+    return run.since + (run.client->fell_silent() ? run.wait : run.limit);
+  }
+
+  /// One frame, if the transfer has one and the bus has room.
+  Result<bool> hand_over(SdoRun& run) {
+    if (run.over || in_flight_ >= most_in_flight) return false;
+    std::optional<canopen::SdoFrame> frame;
+    if (!run.client->ended()) {
+      frame = run.client->next(run.in_flight);
+    } else if (run.in_flight == 0) {
+      const auto reply = run.client->result().reply;
+      if (reply && !std::exchange(run.replied, true)) {
+        frame = canopen::SdoFrame{.bytes = canopen::encode_abort(run.object, *reply),
+                                  .part = canopen::SdoFrame::Part::abort};
+      } else {
+        close(run);
+      }
+    }
+    if (!frame) return false;
+    auto sent = recorder_.post(can::data_frame(run.request, frame->view()));
+    if (!sent) return std::unexpected(sent.error());
+    ++run.in_flight;
+    ++in_flight_;
+    return true;
+  }
+
+  void close(SdoRun& run) {
+    const auto& result = run.client->result();
+    if (!run.listens_after || result.abandoned || result.kind == Kind::silence) {
+      run.over = true;
+    } else if (!run.quiet_until) {
+      run.quiet_until = std::max(run.since, run.last_request) + run.wait;
+    }
+    if (run.over) run.result = run.client->take();
+  }
+
+  void look_at(std::size_t index) {
+    const auto& captured = recorder_.capture().frames()[index];
+    for (auto& run : runs_) {
+      if (run.over) continue;
+      if (captured.direction == can::Direction::transmitted) {
+        if (run.in_flight == 0 || !captured.frame.is_data(run.request)) continue;
+        --run.in_flight;
+        --in_flight_;
+        if (!run.first_request) run.first_request = index;
+        run.last_request = run.since = run.not_sent_since = captured.time;
+        run.looked_again = false;
+        if (!run.client->ended()) run.decisive = index;
+      } else if (captured.frame.is_data(run.response)) {
+        on_response(run, captured, index);
+      }
+    }
+  }
+
+  void on_response(SdoRun& run, const can::CapturedFrame& captured, std::size_t index) {
+    const auto bytes = captured.frame.bytes();
+    if (run.client->ended()) {
+      // It is over when our last frame is on the bus; what came until then says nothing.
+      if (run.in_flight > 0) return;
+      ++run.surplus;
+      if (bytes.size() == 8 && bytes[0] == 0x80) ++run.answers;
+      return;
+    }
+    if (run.stale && !run.client->settled() && bytes.size() >= 4) {
+      const auto object = canopen::sdo_multiplexer(bytes);
+      if (object == *run.stale && object != run.object) return;
+    }
+    if (!run.client->on_frame(bytes, run.in_flight)) return;
+    run.since = captured.time;
+    run.decisive = index;
+  }
+
+  Result<void> on_deadline(SdoRun& run, BusTime now) {
+    if (run.in_flight > 0) {
+      if (run.looked_again) return std::unexpected(recorder_.never_sent());
+      // The last look at the clock may be long ago.
+      run.looked_again = true;
+      run.not_sent_since = recorder_.now();
+      return {};
+    }
+    if (run.quiet_until) {
+      run.over = true;
+      run.result = run.client->take();
+      return {};
+    }
+    run.since = now;
+    run.client->on_silence();
+    return {};
+  }
+
+  Recorder& recorder_;
+  std::span<SdoRun> runs_;
+  std::size_t seen_ = 0;
+  std::size_t turn_ = 0;       ///< who hands over first
+  std::size_t in_flight_ = 0;  ///< of all runs
+};
+
+}  // namespace
+
+Result<void> run_transfers(Recorder& recorder, std::span<SdoRun> runs) {
+  auto done = Runner(recorder, runs).run();
+  if (!done) return done;
+  for (auto& run : runs) {
+    run.result.counts.surplus += run.surplus;
+    run.result.counts.answers += run.answers;
+    auto& detail = run.result.detail;
+    if (run.result.kind != Kind::silence) continue;
+    detail = run.result.abandoned
+                 ? "nothing from the server within " + to_string(run.wait) + " after the client fell silent"
+                 : "no answer within " + to_string(run.limit);
+  }
+  return {};
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs passive SDO transfers against time, one or several at once, each on its own pair of CAN-IDs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "canopen/sdo_client.hpp"
+#include "engine/recorder.hpp"
+
+namespace conform::engine {
+
+struct SdoRun {
+  canopen::SdoClient* client = nullptr;
+  Multiplexer object;
+  CanId request, response;
+  Duration limit{};                  ///< how long an answer, or the next segment, may take
+  Duration wait{};                   ///< how long to listen when the client has ended it, or fell silent
+  bool listens_after = false;        ///< count what still comes when it is over
+  std::optional<Multiplexer> stale;  ///< entry whose answer is overdue from an earlier transfer
+
+  // What came of it.
+  canopen::TransferResult result;
+  std::optional<std::size_t> first_request;  ///< capture index of our first frame
+  BusTime last_request{};                    ///< stamp of our last frame
+  std::size_t decisive = 0;                  ///< capture index of the frame that ended it
+
+  // Of the runner.
+  bool over = false;
+  bool replied = false;
+  std::size_t in_flight = 0;  ///< frames handed over whose echo has not come
+  BusTime since{};            ///< stamp of the frame from which the time-out counts
+  BusTime not_sent_since{};   ///< for frames that do not get out at all
+  bool looked_again = false;
+  std::uint64_t surplus = 0, answers = 0;  ///< frames of the server after the end, aborts among them
+  std::optional<BusTime> quiet_until;
+};
+
+/// Error: the environment failed. All runs are over on return.
+[[nodiscard]] Result<void> run_transfers(Recorder& recorder, std::span<SdoRun> runs);
+
+}  // namespace conform::engine

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the monitors may know beside the trace. All of it can be said on the command line of `judge` too, so
+// that a recorded trace is judged like the run it came from.
+#pragma once
+
+#include <chrono>
+
+#include "base/strong.hpp"
+#include "base/time.hpp"
+
+namespace conform::monitor {
+
+struct Facts {
+  NodeId node{1};
+  Duration boot_time = std::chrono::seconds{5};        ///< T_BOOT
+  Duration nmt_time = std::chrono::milliseconds{100};  ///< T_NMT
+};
+
+}  // namespace conform::monitor

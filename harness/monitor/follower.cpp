@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "monitor/follower.hpp"
+
+#include <algorithm>
+
+#include "canopen/cob_id.hpp"
+
+namespace conform::monitor {
+namespace {
+
+using Subject = Observation::Subject;
+
+constexpr std::uint32_t not_valid = canopen::cob_id::bit31;
+constexpr std::size_t most_servers = 8;
+// How long a guarding request explains a set bit 7, and a foreign request an answer.
+constexpr Duration explained_for = std::chrono::seconds{1};
+
+}  // namespace
+
+Follower::Follower(const Facts& facts) : facts_(facts), nmt_(facts) {
+  const auto set = canopen::connection_set(facts.node);
+  default_.request = set.sdo_request.value();
+  default_.response = set.sdo_response.value();
+}
+
+const Observation& Follower::follow(const can::CapturedFrame& captured, std::size_t index) {
+  now_.captured = &captured;
+  now_.index = index;
+  now_.subject = Subject::other;
+  now_.heard_before = heard_;
+  const auto& frame = captured.frame;
+  if (frame.error) return now_;
+  const bool from_device = captured.direction == can::Direction::received;
+  const auto key = frame.id | (frame.extended ? canopen::cob_id::extended_frame : 0U);
+  const auto node = facts_.node.value();
+  if (key == default_.request) {
+    request(default_);
+  } else if (key == default_.response) {
+    if (!from_device) {
+      lay_bait(SdoAnswer::Cause::own_id);
+    } else if (!frame.remote) {
+      response(default_, true);
+    }
+  } else if (!more_.empty() && std::ranges::any_of(more_, [&](Server& server) {
+               if (((server.request | server.response) & not_valid) != 0) return false;
+               if (key == server.request) return request(server), true;
+               if (key == server.response && from_device && !frame.remote)
+                 return response(server, false), true;
+               return false;
+             })) {
+    // Taken.
+  } else if (frame.id == 0) {
+    now_.subject = Subject::nmt;
+  } else if (frame.extended) {
+    if (frame.id == default_.request || frame.id == default_.request << 18U)
+      lay_bait(SdoAnswer::Cause::extended);
+  } else if (frame.id >= 0x600 && frame.id <= 0x67F) {
+    lay_bait(frame.id == 0x600 ? SdoAnswer::Cause::broadcast : SdoAnswer::Cause::foreign);
+  } else if (frame.id == 0x700U + node) {
+    if (frame.remote) {
+      guard_request_ = captured.time;
+    } else if (from_device) {
+      now_.subject = Subject::error_control;
+      now_.guarded = guard_request_ && captured.time <= *guard_request_ + explained_for;
+    }
+  } else if (frame.id == 0x080U + node && from_device && !frame.remote) {
+    now_.subject = Subject::emcy;
+  }
+  return now_;
+}
+
+void Follower::settle() {
+  if (now_.from_device() && !now_.boot_up() && nmt_.overdue(now_.time())) nmt_.reset_had_no_effect();
+  switch (now_.subject) {
+    case Subject::nmt: {
+      const auto& frame = now_.frame();
+      nmt_.command(frame, now_.time(), now_.index);
+      if (frame.size() < 2 || frame.data[1] == 0 || frame.data[1] == facts_.node.value()) {
+        default_.channel.transfer_unclear();
+        for (auto& server : more_) server.channel.transfer_unclear();
+      }
+      if (nmt_.booting()) forget_channels();
+      break;
+    }
+    case Subject::error_control:
+      if (now_.boot_up()) {
+        nmt_.boot_up(now_.time());
+        // A fresh server knows of no transfer, but requests may wait in the receive buffer.
+        default_.channel.transfer_unclear();
+        forget_channels();
+      }
+      heard_ = now_.time();
+      break;
+    case Subject::sdo_response:
+    case Subject::emcy: heard_ = now_.time(); break;
+    default: break;
+  }
+}
+
+void Follower::lose_track() {
+  default_.channel.lose_frames();
+  for (auto& server : more_) server.channel.lose_frames();
+  nmt_.lose_track();
+  bait_ = {};
+}
+
+void Follower::request(Server& server) {
+  now_.subject = Subject::sdo_request;
+  server.channel.request(now_.frame(), now_.time());
+}
+
+void Follower::response(Server& server, bool default_channel) {
+  now_.subject = Subject::sdo_response;
+  now_.answer = server.channel.response(now_.frame(), now_.time());
+  auto& answer = now_.answer;
+  answer.default_channel = default_channel;
+  if (answer.to == SdoAnswer::To::nothing && answer.cause == SdoAnswer::Cause::none && default_channel &&
+      bait_.cause != SdoAnswer::Cause::none && now_.time() <= bait_.time + explained_for &&
+      std::ranges::equal(bait_.multiplexer, std::span(now_.frame().data).subspan(1, 3))) {
+    answer.cause = bait_.cause;
+  }
+  if (const auto write = server.channel.take_written()) written(*write);
+}
+
+void Follower::lay_bait(SdoAnswer::Cause cause) {
+  const auto& frame = now_.frame();
+  if (frame.remote) return;
+  now_.subject = Subject::foreign_request;
+  bait_.cause = cause;
+  bait_.time = now_.time();
+  std::copy_n(frame.data.begin() + 1, 3, bait_.multiplexer.begin());
+}
+
+/// 1200h-127Fh:01 and :02 move the channel they are about. 1200h is the default channel.
+void Follower::written(const SdoChannel::Written& write) {
+  const auto index = write.object.index.value();
+  const auto sub = write.object.sub.value();
+  if (index < 0x1200 || index > 0x127F || (sub != 1 && sub != 2)) return;
+  const std::size_t number = index - 0x1200U;
+  if (number > most_servers) return;
+  auto* server = &default_;
+  if (number > 0) {
+    while (more_.size() < number) {
+      more_.emplace_back().request = not_valid;
+      more_.back().response = not_valid;
+    }
+    server = &more_[number - 1];
+  }
+  const auto key = write.value & (not_valid | canopen::cob_id::extended_frame | canopen::cob_id::can_id_mask);
+  auto& place = sub == 1 ? server->request : server->response;
+  if (place == key) return;
+  place = key;
+  server->channel = {};
+  server->channel.lose_track();
+}
+
+/// After a reset the COB-IDs are those of power-on; which these are the trace does not tell, except for the
+/// default channel.
+void Follower::forget_channels() {
+  more_.clear();
+  const auto set = canopen::connection_set(facts_.node);
+  if (default_.request == set.sdo_request.value() && default_.response == set.sdo_response.value()) return;
+  default_.request = set.sdo_request.value();
+  default_.response = set.sdo_response.value();
+  default_.channel = {};
+  default_.channel.lose_track();
+}
+
+}  // namespace conform::monitor

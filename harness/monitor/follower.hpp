@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the trace once for all monitors: which frame is whose, and what state client, server and device were
+// in.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "can/capture.hpp"
+#include "monitor/facts.hpp"
+#include "monitor/nmt_state.hpp"
+#include "monitor/sdo_answer.hpp"
+#include "monitor/sdo_channel.hpp"
+
+namespace conform::monitor {
+
+/// One frame with what the follower knows about it. Valid until the next frame.
+struct Observation {
+  enum class Subject : std::uint8_t {
+    other,
+    nmt,              ///< identifier 0
+    sdo_request,      ///< to the device under test
+    sdo_response,     ///< of the device under test
+    foreign_request,  ///< SDO request that is not for the device: other node-ID, node-ID 0, 29-bit identifier
+    error_control,    ///< data frame on 700h + node-ID from the device
+    emcy,             ///< data frame on 080h + node-ID from the device
+  };
+  const can::CapturedFrame* captured = nullptr;
+  std::size_t index = 0;
+  Subject subject = Subject::other;
+  SdoAnswer answer;  ///< of an sdo_response
+  /// The frame may answer a guarding request, so that bit 7 is a toggle bit.
+  bool guarded = false;
+  /// The device sent something before this frame; when that was.
+  std::optional<BusTime> heard_before;
+
+  /// State 0 on 700h + node-ID, well formed or not.
+  [[nodiscard]] bool boot_up() const {
+    if (subject != Subject::error_control || frame().size() == 0) return false;
+    // Also between guarding requests, where bit 7 may be set and no answer is state 0.
+    return (frame().data[0] & (guarded ? 0xFFU : 0x7FU)) == 0;
+  }
+  [[nodiscard]] bool from_device() const {
+    return subject == Subject::sdo_response || subject == Subject::error_control || subject == Subject::emcy;
+  }
+  [[nodiscard]] const can::Frame& frame() const { return captured->frame; }
+  [[nodiscard]] BusTime time() const { return captured->time; }
+};
+
+class Follower {
+ public:
+  explicit Follower(const Facts& facts);
+
+  /// Where the frame belongs, judged by the state before it; the NMT state is still the one before.
+  const Observation& follow(const can::CapturedFrame& captured, std::size_t index);
+  /// Takes the frame into the NMT state; after the monitors have looked at it.
+  void settle();
+  /// Frames were lost before the next one.
+  void lose_track();
+
+  [[nodiscard]] const NmtState& nmt() const { return nmt_; }
+  [[nodiscard]] NmtState& nmt() { return nmt_; }
+  [[nodiscard]] const Facts& facts() const { return facts_; }
+
+ private:
+  /// CAN-ID with the format in bit 29, as COB-ID entries hold it.
+  using Key = std::uint32_t;
+  struct Server {
+    Key request = 0, response = 0;  ///< 8000 0000h and above: not valid
+    SdoChannel channel;
+  };
+  struct Bait {
+    SdoAnswer::Cause cause = SdoAnswer::Cause::none;
+    BusTime time;
+    std::array<std::uint8_t, 3> multiplexer{};
+  };
+  void request(Server& server);
+  void response(Server& server, bool default_channel);
+  void lay_bait(SdoAnswer::Cause cause);
+  void written(const SdoChannel::Written& write);
+  void forget_channels();
+
+  Facts facts_;
+  Observation now_;
+  NmtState nmt_;
+  Server default_;
+  std::vector<Server> more_;  ///< configured by downloads seen on the wire, by number from 1201h on
+  std::optional<BusTime> guard_request_, heard_;
+  Bait bait_;
+};
+
+}  // namespace conform::monitor

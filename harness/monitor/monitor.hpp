@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A passive judge of every frame of a run: it never acts, and what the trace leaves open it accepts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "monitor/follower.hpp"
+#include "result/verdict.hpp"
+
+namespace conform::monitor {
+
+class Monitor;
+
+/// One row of the table of monitors: a case `monitor/<name>` of every run.
+struct Rule {
+  std::string_view name;
+  std::string_view title;
+  std::string_view nothing;  ///< why it is not applicable when it saw nothing to judge
+  std::vector<std::string_view> requirements;
+  std::unique_ptr<Monitor> (*make)(const Rule& rule);
+};
+
+/// All monitors in the order of reports.
+[[nodiscard]] std::span<const Rule> rules();
+
+/// One frame that violates a requirement.
+struct Violation {
+  std::size_t requirement = 0;                      ///< position in Rule::requirements
+  result::Verdict verdict = result::Verdict::fail;  ///< before the level of the requirement caps it
+  std::size_t index = 0;                            ///< of the frame in the trace
+  can::Frame frame;
+  std::string actual, expected, reason;
+};
+
+class Monitor {
+ public:
+  /// So many violations of one requirement are kept with their frames; further ones are only counted.
+  static constexpr std::size_t most_kept = 3;
+
+  explicit Monitor(const Rule& rule) : rule_(rule), tallies_(rule.requirements.size()) {}
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+  virtual ~Monitor() = default;
+
+  virtual void on_frame(const Observation& seen, const Follower& follower) = 0;
+  /// Frames were lost before the next one.
+  virtual void on_loss() {}
+
+  struct Tally {
+    std::size_t judged = 0;
+    std::size_t violated = 0;
+  };
+  [[nodiscard]] const Rule& rule() const { return rule_; }
+  [[nodiscard]] const std::vector<Tally>& tallies() const { return tallies_; }
+  [[nodiscard]] const std::vector<Violation>& violations() const { return violations_; }
+
+ protected:
+  /// Something was judged and is right.
+  void good(std::size_t requirement) { ++tallies_[requirement].judged; }
+  /// True: tell() the violation. False: it is counted only.
+  [[nodiscard]] bool bad(std::size_t requirement) {
+    ++tallies_[requirement].judged;
+    return ++tallies_[requirement].violated <= most_kept;
+  }
+  void tell(std::size_t requirement, const Observation& seen, std::string actual, std::string expected,
+            std::string reason, result::Verdict verdict = result::Verdict::fail) {
+    violations_.push_back({requirement, verdict, seen.index, seen.frame(), std::move(actual),
+                           std::move(expected), std::move(reason)});
+  }
+  void tell(Violation violation) { violations_.push_back(std::move(violation)); }
+
+ private:
+  const Rule& rule_;
+  std::vector<Tally> tallies_;
+  std::vector<Violation> violations_;
+};
+
+}  // namespace conform::monitor

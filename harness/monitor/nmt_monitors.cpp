@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// Monitors of NMT states, boot-up messages and heartbeats.
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "base/text.hpp"
+#include "monitor/factories.hpp"
+
+namespace conform::monitor {
+namespace {
+
+using canopen::NmtCommand;
+using Subject = Observation::Subject;
+using result::Verdict;
+
+// Two boot-up messages so close together, and nothing between them, are one start told twice.
+constexpr Duration one_start = std::chrono::milliseconds(100);
+// A boot-up message so soon after start, stop or pre-operational is taken for its effect.
+constexpr Duration effect_of_order = std::chrono::milliseconds(500);
+
+class SdoStates final : public Monitor {
+ public:
+  using Monitor::Monitor;
+  enum : std::size_t { stopped, before_boot_up };
+
+  void on_frame(const Observation& seen, const Follower& follower) override {
+    const auto& nmt = follower.nmt();
+    const bool in_stopped = nmt.commanded(seen.time()) == canopen::NmtState::stopped;
+    if (seen.boot_up()) {
+      if (nmt.booting()) {
+        if (early_ && early_reset_ == nmt.reset_index() && bad(before_boot_up)) {
+          tell(std::move(*early_));
+        } else {
+          good(before_boot_up);
+        }
+      }
+      early_.reset();
+    } else if (seen.subject == Subject::sdo_request && in_stopped) {
+      good(stopped);
+    } else if (seen.subject == Subject::sdo_response) {
+      if (in_stopped && bad(stopped)) {
+        tell(stopped, seen, "an SDO response", "silence", "the device was stopped and SDO is off in Stopped");
+      }
+      // Judged when the boot-up message comes: without it there was no reset.
+      if (!nmt.booting() || nmt.overdue(seen.time()) ||
+          seen.time() <= nmt.reset_at() + follower.facts().nmt_time)
+        return;
+      if (early_ && early_reset_ == nmt.reset_index()) return;
+      early_reset_ = nmt.reset_index();
+      early_ = Violation{before_boot_up,
+                         Verdict::fail,
+                         seen.index,
+                         seen.frame(),
+                         "an SDO response",
+                         "silence",
+                         "a reset was commanded and the boot-up message had not been sent"};
+    }
+  }
+  void on_loss() override { early_.reset(); }
+
+ private:
+  std::optional<Violation> early_;
+  std::size_t early_reset_ = 0;
+};
+
+class NmtBootUp final : public Monitor {
+ public:
+  using Monitor::Monitor;
+  enum : std::size_t { power_on, reset_node, reset_communication, form, silent, order };
+
+  void on_frame(const Observation& seen, const Follower& follower) override {
+    const auto& nmt = follower.nmt();
+    if (seen.subject == Subject::nmt) {
+      const auto& frame = seen.frame();
+      const bool for_it = frame.size() == 2 && !frame.extended &&
+                          (frame.data[1] == 0 || frame.data[1] == follower.facts().node.value());
+      if (for_it && (frame.data[0] == 0x01 || frame.data[0] == 0x02 || frame.data[0] == 0x80)) good(order);
+      asked_since_ = false;
+      return;
+    }
+    if (seen.subject == Subject::sdo_request) asked_since_ = true;
+    if (!seen.from_device()) return;
+    if (seen.boot_up()) return boot_up(seen, follower);
+    booted_.reset();
+    if (!nmt.booting()) return;
+    if (nmt.overdue(seen.time())) {
+      const auto requirement = of_reset(nmt);
+      if (bad(requirement)) {
+        tell(requirement, seen, "the device goes on without a boot-up message", "one boot-up message",
+             fmt::format("{} was commanded more than {} before, in frame {}", to_string(*nmt.last_reset()),
+                         to_string(follower.facts().boot_time), nmt.reset_index() + 1));
+      }
+      early_.reset();
+      return;
+    }
+    // SDO responses are the other monitor's.
+    if (seen.subject == Subject::sdo_response || seen.time() <= nmt.reset_at() + follower.facts().nmt_time)
+      return;
+    if (early_ && early_reset_ == nmt.reset_index()) return;
+    early_reset_ = nmt.reset_index();
+    early_ = Violation{silent,
+                       Verdict::fail,
+                       seen.index,
+                       seen.frame(),
+                       "a frame before the boot-up message",
+                       "silence",
+                       "a reset was commanded and the boot-up message had not been sent"};
+  }
+  void on_loss() override {
+    early_.reset();
+    lost_ = true;
+  }
+
+ private:
+  static std::size_t of_reset(const NmtState& nmt) {
+    if (!nmt.last_reset()) return power_on;
+    return *nmt.last_reset() == NmtCommand::reset_node ? reset_node : reset_communication;
+  }
+
+  void boot_up(const Observation& seen, const Follower& follower) {
+    const auto& nmt = follower.nmt();
+    const auto& frame = seen.frame();
+    if (frame.dlc == 1 && frame.data[0] == 0) {
+      good(form);
+    } else if (bad(form)) {
+      tell(form, seen, fmt::format("DLC {}, {}", frame.dlc, hex_bytes(frame.bytes())), "DLC 1, 00",
+           "the boot-up message is one byte 00h");
+    }
+    if (nmt.booting()) {
+      good(of_reset(nmt));
+      if (early_ && early_reset_ == nmt.reset_index()) {
+        if (bad(silent)) tell(std::move(*early_));
+      } else {
+        good(silent);
+      }
+    } else if (nmt.resets() == 0 || seen.time() > nmt.reset_at() + follower.facts().boot_time) {
+      unexpected(seen, follower);
+    }
+    early_.reset();
+    lost_ = false;
+    booted_ = seen.time();
+  }
+
+  void unexpected(const Observation& seen, const Follower& follower) {
+    if (lost_) return;
+    if (!seen.heard_before) return good(power_on);
+    const auto& nmt = follower.nmt();
+    // A download may have made it restart (1011h, 1F51h).
+    if (!asked_since_ && nmt.ordered_at() && seen.time() <= *nmt.ordered_at() + effect_of_order) {
+      if (bad(order)) {
+        tell(order, seen, "a boot-up message", "none",
+             "the last command for the device was no reset, but start, stop or pre-operational");
+      }
+      return;
+    }
+    const auto requirement = of_reset(nmt);
+    if (!bad(requirement)) return;
+    // Neither a power switch nor a reset of the device by itself can be seen in a trace.
+    const bool told_twice = booted_ && seen.time() <= *booted_ + one_start;
+    tell(requirement, seen, told_twice ? "a second boot-up message" : "a boot-up message without a reset",
+         "one boot-up message per reset",
+         told_twice ? "the device started once"
+                    : "no reset was commanded: the device restarted by itself, or its power was switched",
+         told_twice ? Verdict::fail : Verdict::warn);
+  }
+
+  std::optional<Violation> early_;
+  std::size_t early_reset_ = 0;
+  bool lost_ = false;
+  bool asked_since_ = false;       ///< an SDO request came after the last NMT command
+  std::optional<BusTime> booted_;  ///< when the last frame of the device was a boot-up message
+};
+
+class Heartbeat final : public Monitor {
+ public:
+  using Monitor::Monitor;
+  enum : std::size_t { state, bit_7, form };
+
+  void on_frame(const Observation& seen, const Follower& follower) override {
+    // What answers a guarding request follows other rules.
+    if (seen.subject != Subject::error_control || seen.guarded || seen.boot_up()) return;
+    const auto& frame = seen.frame();
+    if (frame.dlc == 1) {
+      good(form);
+    } else if (bad(form)) {
+      tell(form, seen, fmt::format("DLC {}", frame.dlc), "DLC 1", "a heartbeat is one byte, the state");
+    }
+    if (frame.size() == 0) return;
+    if ((frame.data[0] & 0x80U) == 0) {
+      good(bit_7);
+    } else if (bad(bit_7)) {
+      tell(bit_7, seen, hex(frame.data[0], 2), "bit 7 = 0", "bit 7 of a heartbeat is reserved");
+    }
+    judge_state(seen, follower, frame.data[0] & 0x7FU);
+  }
+
+ private:
+  void judge_state(const Observation& seen, const Follower& follower, unsigned code) {
+    using canopen::NmtState;
+    const auto shown = canopen::nmt_state_at(static_cast<std::uint8_t>(code));
+    if (!shown) {
+      if (bad(state)) {
+        tell(state, seen, fmt::format("state {}", hex(code, 2)), "04h, 05h or 7Fh",
+             "the state is not defined");
+      }
+      return;
+    }
+    // From Operational a device may leave by itself, and from Pre-operational to Stopped (1029h).
+    const auto commanded = follower.nmt().commanded(seen.time());
+    const bool wrong = (commanded == NmtState::stopped && shown != NmtState::stopped) ||
+                       (commanded == NmtState::pre_operational && shown == NmtState::operational);
+    if (!wrong) return good(state);
+    if (!bad(state)) return;
+    tell(state, seen, std::string(to_string(*shown)), std::string(to_string(*commanded)),
+         fmt::format("the state was commanded more than {} before", to_string(follower.facts().nmt_time)));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Monitor> make_sdo_states(const Rule& rule) { return std::make_unique<SdoStates>(rule); }
+std::unique_ptr<Monitor> make_nmt_boot_up(const Rule& rule) { return std::make_unique<NmtBootUp>(rule); }
+std::unique_ptr<Monitor> make_heartbeat(const Rule& rule) { return std::make_unique<Heartbeat>(rule); }
+
+}  // namespace conform::monitor

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "monitor/nmt_state.hpp"
+
+namespace conform::monitor {
+
+void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index) {
+  using canopen::NmtCommand;
+  if (frame.extended || frame.remote || frame.dlc != 2) {
+    // No command; some devices obey longer frames.
+    commanded_.reset();
+    return;
+  }
+  const auto node = frame.data[1];
+  if (node != 0 && node != facts_.node.value()) return;
+  const auto command = canopen::nmt_command_at(frame.data[0]);
+  commanded_.reset();
+  if (!command) return;
+  if (*command == NmtCommand::reset_node || *command == NmtCommand::reset_communication) {
+    // What came long ago is settled: only resets close together may share a boot-up message.
+    resets_ = time > reset_at_ + facts_.boot_time ? 1 : resets_ + 1;
+    booting_ = true;
+    last_reset_ = command;
+    reset_at_ = time;
+    reset_index_ = index;
+    return;
+  }
+  ordered_at_ = time;
+  // While it boots a device may miss commands.
+  if (booting_ || (booted_at_ && time <= *booted_at_ + facts_.nmt_time)) return;
+  commanded_at_ = time;
+  commanded_ = *command == NmtCommand::start  ? canopen::NmtState::operational
+               : *command == NmtCommand::stop ? canopen::NmtState::stopped
+                                              : canopen::NmtState::pre_operational;
+}
+
+void NmtState::boot_up(BusTime time) {
+  if (resets_ > 0) --resets_;
+  booting_ = false;
+  booted_at_ = time;
+  commanded_.reset();
+}
+
+void NmtState::reset_had_no_effect() {
+  booting_ = false;
+  resets_ = 0;
+  commanded_.reset();
+}
+
+void NmtState::lose_track() {
+  booting_ = false;
+  commanded_.reset();
+  ordered_at_.reset();
+  booted_at_.reset();
+  // A reset may be among what was lost, so that a boot-up message cannot be called unexpected.
+  resets_ = 1;
+}
+
+}  // namespace conform::monitor

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The NMT state of the device as far as the trace settles it: what was commanded, and since when.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "base/time.hpp"
+#include "can/frame.hpp"
+#include "canopen/nmt.hpp"
+#include "monitor/facts.hpp"
+
+namespace conform::monitor {
+
+class NmtState {
+ public:
+  explicit NmtState(const Facts& facts) : facts_(facts) {}
+
+  /// A frame with the identifier 0.
+  void command(const can::Frame& frame, BusTime time, std::size_t index);
+  void boot_up(BusTime time);
+  /// The device spoke T_BOOT after a reset and had sent no boot-up message: it was not reset.
+  void reset_had_no_effect();
+  /// Frames were lost.
+  void lose_track();
+
+  /// The state that was commanded last, from T_NMT after the command on; absent after resets, after commands
+  /// that fell into the boot time, and after frames that are no proper commands.
+  [[nodiscard]] std::optional<canopen::NmtState> commanded(BusTime now) const {
+    return commanded_ && now > commanded_at_ + facts_.nmt_time ? commanded_ : std::nullopt;
+  }
+  /// A reset was commanded and the boot-up message has not come.
+  [[nodiscard]] bool booting() const { return booting_; }
+  /// ... although T_BOOT is over.
+  [[nodiscard]] bool overdue(BusTime now) const { return booting_ && now > reset_at_ + facts_.boot_time; }
+  [[nodiscard]] std::size_t resets() const { return resets_; }  ///< boot-up messages that may still come
+  [[nodiscard]] std::optional<canopen::NmtCommand> last_reset() const { return last_reset_; }
+  [[nodiscard]] BusTime reset_at() const { return reset_at_; }
+  [[nodiscard]] std::size_t reset_index() const { return reset_index_; }
+  /// The last command that was no reset: start, stop or pre-operational.
+  [[nodiscard]] std::optional<BusTime> ordered_at() const { return ordered_at_; }
+
+ private:
+  Facts facts_;
+  std::optional<canopen::NmtState> commanded_;
+  BusTime commanded_at_{};
+  std::optional<BusTime> booted_at_, ordered_at_;
+  bool booting_ = false;
+  std::size_t resets_ = 0;
+  std::optional<canopen::NmtCommand> last_reset_;
+  BusTime reset_at_{};
+  std::size_t reset_index_ = 0;
+};
+
+}  // namespace conform::monitor

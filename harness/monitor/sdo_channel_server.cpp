@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: Apache-2.0
+// The server's half: what its frames are reactions to, and what they had to look like.
+#include <algorithm>
+#include <utility>
+
+#include "canopen/abort_code.hpp"
+#include "monitor/crc16.hpp"
+#include "monitor/sdo_channel.hpp"
+
+namespace conform::monitor {
+namespace {
+
+/// Bits 7-5 of the command: scs.
+unsigned specifier(const can::Frame& frame) { return frame.data[0] >> 5U; }
+bool is_abort(const can::Frame& frame) { return specifier(frame) == 4; }
+AbortCode code_of(const can::Frame& frame) {
+  return AbortCode(static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4, 4))));
+}
+std::uint32_t long_of(const can::Frame& frame) { return code_of(frame).value(); }
+
+SdoAnswer::Mux compare(Multiplexer wanted, const can::Frame& frame) {
+  const auto got = multiplexer_of(frame);
+  return {wanted, got, wanted == got};
+}
+Multiplexer multiplexer_of(const SdoChannel::Data& data) {
+  can::Frame frame;
+  frame.data = data;
+  return monitor::multiplexer_of(frame);
+}
+
+}  // namespace
+
+SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
+  last_frame_ = time;
+  SdoAnswer out;
+  out.well_formed = !frame.remote && frame.dlc == 8;
+  if (!out.well_formed) {
+    lose_track();
+    return out;
+  }
+  if (untrusted_ > 0) {
+    answer_without_track(frame);
+    out.block = true;
+    return out;
+  }
+  if (transfer_.kind == Kind::block_upload && count_ == 0 &&
+      (transfer_.stage == Stage::segments || transfer_.stage == Stage::complete)) {
+    stream_segment(frame, out);
+  } else if (count_ == 0) {
+    answer_without_request(frame, out);
+  } else if (count_ == 1 && pending_[0].overtaken == 0) {
+    const auto pending = pending_[0];
+    count_ = 0;
+    answer_to(pending, frame, out);
+  } else {
+    answer_to_several(frame, out);
+  }
+  // A segment of a block upload has 80h never: it would be number 0.
+  server_abort_ = !out.block && is_abort(frame) && out.to != SdoAnswer::To::unclear;
+  return out;
+}
+
+/// Exchanges of one initiate and one fitting answer bring trust back; segments in between do no harm. The
+/// server works on its requests in order: with this answer the ones before it are settled, unless they look
+/// alike.
+void SdoChannel::answer_without_track(const can::Frame& frame) {
+  if (exchange_ && !answered_) {
+    const auto wanted = multiplexer_of(*exchange_);
+    const unsigned kind = (*exchange_)[0] >> 5U;
+    const bool fits = specifier(frame) == (kind == 2 ? 2U : 3U) || frame.data[0] == 0x80;
+    if (fits && monitor::multiplexer_of(frame) == wanted) {
+      if (answers_older_one(frame)) {
+        if (unanswered_ > 0) --unanswered_;
+        return;
+      }
+      open_.clear();
+      answered_ = true;
+      Pending pending;
+      pending.data = *exchange_;
+      pending.asked = kind == 2 ? Asked::upload : Asked::download;
+      SdoAnswer ignored;
+      answer_to(pending, frame, ignored);
+      const auto others = unanswered_ > 0 ? unanswered_ - 1 : 0;
+      unanswered_ = 0;
+      if (!fresh_ || untrusted_ == 0) return;
+      untrusted_ = 0;
+      exchange_.reset();
+      answered_ = false;
+      for (count_ = 0; count_ < others; ++count_) pending_[count_] = {};
+      return;
+    }
+  } else if (odd_request_) {
+    odd_request_ = false;
+    if (unanswered_ > 0) --unanswered_;
+    return;
+  }
+  if (unanswered_ > 0) --unanswered_;
+  lose_track();
+}
+
+void SdoChannel::stream_segment(const can::Frame& frame, SdoAnswer& out) {
+  if (frame.data[0] == 0x80) {
+    out.to = SdoAnswer::To::itself;
+    if (code_of(frame) != canopen::abort::command_specifier) out.mux = compare(transfer_.object, frame);
+    transfer_ = {};
+    transfer_.kind = Kind::none;
+    return;
+  }
+  out.to = SdoAnswer::To::stream;
+  out.block = true;
+  const auto number = static_cast<std::uint8_t>(frame.data[0] & 0x7FU);
+  const bool last = (frame.data[0] & 0x80U) != 0;
+  const auto bytes = std::span(frame.data).subspan(1, 7);
+  if (transfer_.stage == Stage::complete) {
+    // A server that waits in vain for the acknowledge may send the sub-block again.
+    if (number == 1 && std::ranges::equal(bytes, block_[0])) {
+      out.to = SdoAnswer::To::unclear;
+    } else {
+      out.segment = SdoAnswer::Segment{0, number, transfer_.block_size, true};
+    }
+    return lose_track();
+  }
+  const auto wanted = static_cast<std::uint8_t>(transfer_.sent + 1);
+  out.segment = SdoAnswer::Segment{wanted, number, transfer_.block_size, false};
+  if (number != wanted) return lose_track();
+  std::ranges::copy(bytes, block_[transfer_.sent].begin());
+  transfer_.sent = number;
+  transfer_.last_sent = last;
+  const auto delivered = (transfer_.segments + transfer_.sent) * 7;
+  if (!last && transfer_.announced && delivered > *transfer_.announced) {
+    out.size = SdoAnswer::Size{*transfer_.announced, delivered};
+    transfer_.announced.reset();
+  }
+  if (last || number == transfer_.block_size) transfer_.stage = Stage::complete;
+}
+
+void SdoChannel::answer_without_request(const can::Frame& frame, SdoAnswer& out) {
+  if (transfer_.kind == Kind::block_download && transfer_.stage == Stage::segments && !is_abort(frame)) {
+    // Before the sub-block is complete a server may acknowledge after its own time-out.
+    out.block = true;
+    if (frame.data[0] == 0xA2) out.block_size = frame.data[2];
+    return lose_track();
+  }
+  if (is_abort(frame) && transfer_.kind != Kind::none) {
+    out.to = SdoAnswer::To::itself;
+    if (transfer_.kind != Kind::unclear && code_of(frame) != canopen::abort::command_specifier)
+      out.mux = compare(transfer_.object, frame);
+    const bool flowing = transfer_.kind == Kind::block_download && transfer_.stage == Stage::segments;
+    transfer_ = {};
+    transfer_.kind = Kind::none;
+    // The segments behind the one it refused may be on the wire before the abort; to the server they are
+    // requests without a transfer, and an abort answers each.
+    if (flowing) lose_track();
+    return;
+  }
+  // Both sides may have given up at the same time.
+  if (client_abort_ && !idle_abort_ && is_abort(frame) && code_of(frame) == canopen::abort::timed_out) return;
+  out.to = SdoAnswer::To::nothing;
+  using Cause = SdoAnswer::Cause;
+  out.cause = idle_abort_                        ? Cause::idle_abort
+              : client_abort_                    ? Cause::client_abort
+              : server_abort_ && is_abort(frame) ? Cause::repeated_abort
+                                                 : Cause::none;
+}
+
+void SdoChannel::answer_to(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
+  out.to = SdoAnswer::To::request;
+  out.asked = pending.asked;
+  if (is_abort(frame)) return abort_of_server(pending, frame, out);
+  const auto wanted = multiplexer_of(pending.data);
+  const auto scs = specifier(frame);
+  switch (pending.asked) {
+    case Asked::upload: return upload_answer(wanted, frame, out);
+    case Asked::upload_segment: return upload_segment_answer(pending, frame, out);
+    case Asked::download_segment: return download_segment_answer(pending, frame, out);
+    case Asked::download: {
+      if (scs != 3) break;
+      out.mux = compare(wanted, frame);
+      transfer_ = {};
+      const bool expedited = (pending.data[0] & 0x02U) != 0;
+      const bool size_indicated = (pending.data[0] & 0x01U) != 0;
+      if (!expedited) {
+        transfer_.kind = Kind::download;
+        transfer_.object = wanted;
+        return;
+      }
+      transfer_.kind = Kind::none;
+      if (!size_indicated || (pending.data[0] & 0x0CU) == 0) {
+        written_ = Written{wanted, static_cast<std::uint32_t>(load_le(ByteView(pending.data).subspan(4, 4)))};
+      }
+      return;
+    }
+    case Asked::block_upload: {
+      // With a protocol switch threshold the server may answer with a normal upload.
+      if (scs == 2) return upload_answer(wanted, frame, out);
+      out.block = true;
+      const auto block_size = pending.data[4];
+      if (scs != 6 || (frame.data[0] & 0x01U) != 0 || block_size < 1 || block_size > 127) return lose_track();
+      out.mux = compare(wanted, frame);
+      transfer_ = {};
+      transfer_.kind = Kind::block_upload;
+      transfer_.object = wanted;
+      transfer_.block_size = block_size;
+      transfer_.crc = (pending.data[0] & 0x04U) != 0 && (frame.data[0] & 0x04U) != 0;
+      if ((frame.data[0] & 0x02U) != 0) transfer_.announced = long_of(frame);
+      return;
+    }
+    case Asked::block_download: {
+      out.block = true;
+      if (scs != 5 || (frame.data[0] & 0x03U) != 0) return lose_track();
+      out.mux = compare(wanted, frame);
+      out.block_size = frame.data[4];
+      if (frame.data[4] < 1 || frame.data[4] > 127) return lose_track();
+      transfer_ = {};
+      transfer_.kind = Kind::block_download;
+      transfer_.object = wanted;
+      transfer_.stage = Stage::segments;
+      transfer_.block_size = frame.data[4];
+      return;
+    }
+    case Asked::block_download_ack: {
+      out.block = true;
+      if (scs != 5 || (frame.data[0] & 0x03U) != 2) return lose_track();
+      out.block_size = frame.data[2];
+      if (transfer_.last_sent && frame.data[1] == transfer_.sent) {
+        transfer_.stage = Stage::end;
+        return;
+      }
+      if (frame.data[2] < 1 || frame.data[2] > 127) return lose_track();
+      transfer_.sent = 0;
+      transfer_.last_sent = false;
+      transfer_.block_size = frame.data[2];
+      return;
+    }
+    case Asked::block_upload_end: return block_end_answer(frame, out);
+    case Asked::block_download_end: {
+      out.block = true;
+      if (scs != 5 || (frame.data[0] & 0x03U) != 1) return lose_track();
+      transfer_ = {};
+      transfer_.kind = Kind::none;
+      return;
+    }
+    case Asked::other:
+    case Asked::nothing: break;
+  }
+  not_what_was_asked(frame, out);
+}
+
+/// That a request is answered by the wrong command is for the scenarios; here it only blurs the state.
+void SdoChannel::not_what_was_asked(const can::Frame& frame, SdoAnswer& out) {
+  transfer_ = {};
+  if (specifier(frame) < 5) return;
+  out.block = true;
+  lose_track();
+}
+
+void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
+  using enum Asked;
+  std::optional<Multiplexer> wanted;
+  switch (pending.asked) {
+    case upload:
+    case download:
+    case block_upload:
+    case block_download: wanted = multiplexer_of(pending.data); break;
+    case upload_segment:
+      if (transfer_.kind == Kind::upload) wanted = transfer_.object;
+      break;
+    case download_segment:
+      if (transfer_.kind == Kind::download) wanted = transfer_.object;
+      break;
+    case block_upload_end: wanted = transfer_.object; break;
+    case block_download_ack:
+    case block_download_end: wanted = transfer_.object; break;
+    case other:
+    case nothing: break;
+  }
+  // An unknown command specifier belongs to no object.
+  if (wanted && code_of(frame) != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
+  transfer_ = {};
+  transfer_.kind = Kind::none;
+  // It may refuse an earlier segment of the sub-block; then the ones behind that get answers, too.
+  if (pending.asked == block_download_ack) lose_track();
+}
+
+/// 0100 nn e s: expedited, or the beginning of a segmented transfer.
+void SdoChannel::upload_answer(Multiplexer wanted, const can::Frame& frame, SdoAnswer& out) {
+  if (specifier(frame) != 2) return not_what_was_asked(frame, out);
+  out.mux = compare(wanted, frame);
+  transfer_ = {};
+  transfer_.kind = Kind::none;
+  if ((frame.data[0] & 0x02U) != 0) return;
+  transfer_.kind = Kind::upload;
+  transfer_.object = wanted;
+  if ((frame.data[0] & 0x01U) != 0) transfer_.announced = long_of(frame);
+}
+
+/// 000 t nnn c, seven bytes.
+void SdoChannel::upload_segment_answer(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
+  if (specifier(frame) != 0) return not_what_was_asked(frame, out);
+  const bool toggle = (pending.data[0] & 0x10U) != 0;
+  out.toggle = SdoAnswer::Toggle{toggle, (frame.data[0] & 0x10U) != 0};
+  if (transfer_.kind != Kind::upload) return;
+  // A repeated request may be answered with the same segment again: from there on the bytes are not counted.
+  if (toggle != transfer_.toggle) transfer_.in_order = false;
+  transfer_.toggle = !toggle;
+  transfer_.delivered += 7U - ((frame.data[0] >> 1U) & 7U);
+  const bool last = (frame.data[0] & 0x01U) != 0;
+  if (transfer_.in_order && transfer_.announced && (last || transfer_.delivered > *transfer_.announced)) {
+    out.size = SdoAnswer::Size{*transfer_.announced, transfer_.delivered};
+    if (!last) transfer_.announced.reset();
+  }
+  if (!last) return;
+  transfer_ = {};
+  transfer_.kind = Kind::none;
+}
+
+/// 001 t, reserved.
+void SdoChannel::download_segment_answer(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
+  if (specifier(frame) != 1) return not_what_was_asked(frame, out);
+  out.toggle = SdoAnswer::Toggle{(pending.data[0] & 0x10U) != 0, (frame.data[0] & 0x10U) != 0};
+  if (transfer_.kind != Kind::download || (pending.data[0] & 0x01U) == 0) return;
+  transfer_ = {};
+  transfer_.kind = Kind::none;
+}
+
+/// 110 nnn 01, CRC in bytes 1-2.
+void SdoChannel::block_end_answer(const can::Frame& frame, SdoAnswer& out) {
+  out.block = true;
+  if (specifier(frame) != 6 || (frame.data[0] & 0x03U) != 1) return lose_track();
+  SdoAnswer::End end;
+  end.agreed = transfer_.crc;
+  end.got = static_cast<std::uint16_t>(load_le(ByteView(frame.data).subspan(1, 2)));
+  end.unused = static_cast<std::uint8_t>((frame.data[0] >> 2U) & 7U);
+  if (transfer_.held) {
+    end.wanted = crc16(transfer_.crc_value, ByteView(transfer_.tail).first(7U - end.unused));
+    const auto delivered = transfer_.segments * 7 - end.unused;
+    if (transfer_.announced && *transfer_.announced > 0) {
+      const auto size = *transfer_.announced;
+      // As many segments as the size needs, but another n: the end frame is wrong and not the size.
+      if ((std::uint64_t{size} + 6) / 7 == transfer_.segments) {
+        end.unused_wanted = static_cast<std::uint8_t>((7U - size % 7U) % 7U);
+        out.size = SdoAnswer::Size{size, size};
+      } else {
+        out.size = SdoAnswer::Size{size, delivered};
+      }
+    }
+  }
+  out.end = end;
+}
+
+/// The client did not wait for the answer before it asked again.
+void SdoChannel::answer_to_several(const can::Frame& frame, SdoAnswer& out) {
+  out.to = SdoAnswer::To::several;
+  const auto begin = pending_.begin();
+  const auto end = pending_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto has = [&](auto predicate) { return std::find_if(begin, end, predicate); };
+  const bool block = has([](const Pending& each) {
+                       return each.asked >= Asked::block_upload && each.asked <= Asked::block_download_end;
+                     }) != end;
+  if (block || specifier(frame) >= 5) {
+    out.to = SdoAnswer::To::unclear;
+    out.block = true;
+    return lose_track();
+  }
+  // A client that does not wait at all: which answer belongs to what is a guess.
+  if (count_ > 2) {
+    out.to = SdoAnswer::To::unclear;
+    return lose_track();
+  }
+  const auto got = monitor::multiplexer_of(frame);
+  const auto names = [&](const Pending& each) {
+    return each.has_multiplexer() && multiplexer_of(each.data) == got;
+  };
+  const auto scs = specifier(frame);
+  const bool initiate = scs == 2 || scs == 3;
+  auto found = end;
+  if (initiate || is_abort(frame)) {
+    found = has([&](const Pending& each) {
+      return names(each) && (is_abort(frame) || each.asked == (scs == 2 ? Asked::upload : Asked::download));
+    });
+    const bool named = found != end || has(names) != end;
+    // A frame that is no request, or a segment, may be answered under any name.
+    const auto any_name = has([](const Pending& each) { return !each.has_multiplexer(); });
+    if (!named && any_name == end &&
+        !(is_abort(frame) &&
+          (transfer_.kind != Kind::none || code_of(frame) == canopen::abort::command_specifier))) {
+      out.mux = SdoAnswer::Mux{multiplexer_of(pending_[0].data), got, false};
+    } else if (!named) {
+      out.to = SdoAnswer::To::unclear;
+    }
+    if (found == end) found = has(names);
+    if (found == end) found = any_name;
+  } else {
+    const auto asked = scs == 0 ? Asked::upload_segment : Asked::download_segment;
+    found = has([asked](const Pending& each) { return each.asked == asked; });
+    if (found == end) {
+      found = has([](const Pending& each) { return each.asked == Asked::other; });
+      out.to = SdoAnswer::To::unclear;
+    }
+  }
+  remove(found == end ? 0 : static_cast<std::size_t>(found - begin));
+  transfer_ = {};
+}
+
+}  // namespace conform::monitor

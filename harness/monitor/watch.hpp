@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The monitors over one trace, and their cases in the result.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "can/capture.hpp"
+#include "monitor/follower.hpp"
+#include "monitor/monitor.hpp"
+#include "result/run_result.hpp"
+
+namespace conform::monitor {
+
+/// The first part of every monitor's case id, and its suite.
+inline constexpr std::string_view suite_name = "monitor";
+
+/// Frames [begin, end) of the trace among which the host lost some, at a place nobody knows.
+struct Loss {
+  std::size_t begin = 0, end = 0;
+};
+
+/// The worst verdict the level of a requirement allows; nullopt: the requirement is not in the catalogue.
+using Cap = std::function<std::optional<result::Verdict>(std::string_view requirement)>;
+
+class Watch {
+ public:
+  Watch(const Facts& facts, std::span<const Rule* const> chosen);
+
+  void on_frame(const can::CapturedFrame& captured, std::size_t index);
+  void on_loss();
+  [[nodiscard]] const std::vector<std::unique_ptr<Monitor>>& monitors() const { return monitors_; }
+
+ private:
+  Follower follower_;
+  std::vector<std::unique_ptr<Monitor>> monitors_;
+};
+
+/// "monitor/sdo-toggle"
+[[nodiscard]] std::string case_id(const Rule& rule);
+
+/// The case before the trace is there. Requirements that `cap` does not know are left out.
+[[nodiscard]] result::CaseResult planned_case(const Rule& rule, const Cap& cap);
+
+/// Judges the whole trace. `cases` are the planned ones of `chosen`, in the same order; `others` are the
+/// scenarios that ran meanwhile, so that findings can name them.
+void judge(std::span<const can::CapturedFrame> frames, const Facts& facts,
+           std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
+           std::span<const result::CaseResult> others, std::span<result::CaseResult> cases);
+
+}  // namespace conform::monitor
