@@ -35,6 +35,22 @@ struct RunCommand {
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
+struct JudgeCommand {
+  std::string capture;  ///< pcapng or candump log
+  std::vector<std::string> select;
+  std::vector<std::string> requirements;
+  std::vector<std::string> exclude;
+  std::string suites;
+  std::optional<std::uint32_t> node;
+  std::string profile;    ///< device profile file
+  std::string interface;  ///< of a capture with several
+  bool strict = false;
+  bool quiet = false;
+  std::string color = "auto";
+  std::string junit, markdown;
+};
+[[nodiscard]] int judge_command(const JudgeCommand& options);
+
 struct LintCommand {
   std::vector<std::string> files;  ///< empty: all of the suites
   std::string suites;
@@ -72,6 +88,8 @@ struct BenchCommand {
   std::string interface;
   std::uint32_t node = 5;
   std::uint64_t round_trips = 20000;
+  std::uint64_t bytes = 0;      ///< throughput instead: of a block transfer, at most 1 MiB
+  std::uint32_t simulate = 0;  ///< throughput on a simulated bus of this bit rate
 };
 [[nodiscard]] int bench_command(const BenchCommand& options);
 

@@ -6,9 +6,11 @@
 
 #include "base/text.hpp"
 #include "cli/commands.hpp"
+#include "cli/coverage.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
 #include "defects/defect.hpp"
+#include "monitor/watch.hpp"
 #include "steps/condition.hpp"
 #include "steps/step.hpp"
 
@@ -33,6 +35,7 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   out += paragraph("CCT", join(requirement.cct, ", "));
   out += paragraph("proof",
                    requirement.proof.empty() ? "" : requirement.proof + ": " + requirement.proof_reason);
+  out += paragraph("left out", requirement.not_judged);
   out += paragraph("note", requirement.note);
   out += paragraph("source", "suites/" + requirement.file + ":" + std::to_string(requirement.line));
   std::string scenarios;
@@ -41,6 +44,10 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
       if (std::ranges::find(each.requirements, requirement.id) == each.requirements.end()) continue;
       scenarios += "    " + each.id + "\n";
     }
+  }
+  for (const auto& rule : monitor::rules()) {
+    if (std::ranges::find(rule.requirements, requirement.id) != rule.requirements.end())
+      scenarios += "    " + monitor::case_id(rule) + "\n";
   }
   out += scenarios.empty() ? "\n  No scenario decides it yet.\n" : "\n  Decided by\n" + scenarios;
   std::string defects;
@@ -120,10 +127,11 @@ std::string word_list() {
 }  // namespace
 
 int explain_command(const ExplainCommand& options) {
-  if (options.markdown && options.topic != "verbs") {
-    return report_error({"--markdown goes with 'verbs' only", {}, {}}, exit_usage);
+  const bool about_coverage = options.topic == "coverage";
+  if (options.markdown && options.topic != "verbs" && !about_coverage) {
+    return report_error({"--markdown goes with 'verbs' and 'coverage' only", {}, {}}, exit_usage);
   }
-  if (options.markdown || options.topic == "words") {
+  if ((options.markdown && !about_coverage) || options.topic == "words") {
     print(options.markdown ? verbs_page() : word_list());
     return 0;
   }
@@ -131,6 +139,11 @@ int explain_command(const ExplainCommand& options) {
   if (!root) return report_error(root.error(), exit_usage);
   auto suites = load_suites(*root, use_colour("auto", 2));
   if (!suites) return report_error(suites.error(), exit_usage);
+  if (about_coverage) {
+    const auto rules = coverage(*suites);
+    print(options.markdown ? coverage_page(rules) : coverage_summary(rules));
+    return 0;
+  }
   if (const auto* requirement = suites->catalogue.find(options.topic)) {
     print(explain_requirement(*requirement, *suites));
     return 0;
@@ -165,11 +178,12 @@ int explain_command(const ExplainCommand& options) {
   for (const auto& verb : steps::verbs()) known.push_back(verb.name);
   for (const auto& defect : refnode::defects()) known.push_back(defect.id);
   const auto near = did_you_mean(options.topic, known);
-  return report_error({"nothing is known about '" + options.topic + "'",
-                       {},
-                       near.empty() ? "a requirement id, a verb, a defect, 'verbs' or 'conditions'"
-                                    : "did you mean '" + std::string(near) + "'?"},
-                      exit_usage);
+  return report_error(
+      {"nothing is known about '" + options.topic + "'",
+       {},
+       near.empty() ? "a requirement id, a verb, a defect, 'verbs', 'conditions' or 'coverage'"
+                    : "did you mean '" + std::string(near) + "'?"},
+      exit_usage);
 }
 
 }  // namespace conform::cli

@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "cli/cct_cases.hpp"
 #include "cli/commands.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
+#include "engine/monitor_cases.hpp"
 #include "scenario/selection.hpp"
 
 namespace conform::cli {
@@ -18,13 +20,18 @@ int list_command(const ListCommand& options) {
   auto suites = load_suites(*root, use_colour("auto", 2));
   if (!suites) return report_error(suites.error(), exit_usage);
   const scenario::Selection selection{options.select, options.requirements, {}};
+  if (options.cct) {
+    const bool everything = options.select.empty() && options.requirements.empty();
+    const auto page = cct_page(suites->suite, suites->catalogue, selection, everything);
+    print(page.empty() ? "no case of CiA's tool corresponds\n" : page);
+    return page.empty() ? exit_usage : 0;
+  }
   std::string out;
-  std::size_t shown = 0;
+  std::size_t shown = 0, watching = 0;
   for (const auto& file : suites->suite.files) {
     bool heading = false;
     for (const auto& each : file.scenarios) {
       if (!selection.takes(each, "", suites->catalogue)) continue;
-      if (options.cct && each.cct.empty()) continue;
       if (!heading) out += fmt::format("{}{}\n", out.empty() ? "" : "\n", file.title);
       heading = true;
       ++shown;
@@ -33,9 +40,20 @@ int list_command(const ListCommand& options) {
       if (!each.cct.empty()) out += "      CCT " + join(each.cct, ", ") + "\n";
     }
   }
+  const bool only_named = !options.select.empty() && !engine::names_a_monitor(selection, suites->catalogue);
+  if (!only_named) {
+    const auto monitors = engine::chosen_monitors(selection, suites->catalogue);
+    if (!monitors.empty())
+      out += fmt::format("{}Monitors: judge every frame of every run\n", out.empty() ? "" : "\n");
+    for (const auto* rule : monitors) {
+      const std::vector<std::string> ids(rule->requirements.begin(), rule->requirements.end());
+      out += fmt::format("  {}\n      {}\n      {}\n", monitor::case_id(*rule), rule->title, join(ids, ", "));
+    }
+    watching = monitors.size();
+  }
   print(out);
-  print(fmt::format("\n{} scenarios\n", shown));
-  return shown == 0 ? exit_usage : 0;
+  print(fmt::format("\n{} scenarios, {} monitors\n", shown, watching));
+  return shown + watching == 0 ? exit_usage : 0;
 }
 
 }  // namespace conform::cli

@@ -69,6 +69,40 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
 
+  JudgeCommand judge;
+  auto* judge_sub = app.add_subcommand("judge", "Judge a recorded trace by the monitors, without a device");
+  judge_sub->add_option("capture", judge.capture, "Capture: pcapng, or a log of candump -l")
+      ->required()
+      ->type_name("CAPTURE");
+  judge_sub->add_option("select", judge.select, "Monitors: ids, * and ? allowed (default: all)")
+      ->type_name("ID");
+  judge_sub->add_option("-n,--node", judge.node, "Node-ID of the device, 1 to 127")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  judge_sub
+      ->add_option("-d,--device,--profile", judge.profile,
+                   "Device profile (YAML): node-ID, times, known deviations")
+      ->type_name("FILE");
+  judge_sub->add_option("-i,--interface", judge.interface, "Which interface, where the capture has several")
+      ->type_name("NAME");
+  judge_sub
+      ->add_option("-r,--requirement", judge.requirements,
+                   "Only monitors that decide this requirement (* allowed); repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  judge_sub
+      ->add_option("-x,--exclude", judge.exclude, "Leave out these monitors (* and ? allowed); repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  judge_sub->add_option("--junit", judge.junit, "Write JUnit XML")->type_name("FILE");
+  judge_sub->add_option("--markdown", judge.markdown, "Write a short report in Markdown")->type_name("FILE");
+  judge_sub->add_flag("--strict", judge.strict,
+                      "Deviations from recommended and optional rules fail, too, instead of warn");
+  judge_sub->add_flag("-q,--quiet", judge.quiet, "Print only what did not pass, and the summary");
+  judge_sub->add_option("--color", judge.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+
   LintCommand lint;
   auto* lint_sub = app.add_subcommand("lint", "Check scenario files, without a bus");
   lint_sub->add_option("files", lint.files, "Scenario files (default: the whole suites)")->type_name("FILE");
@@ -84,17 +118,18 @@ int dispatch(int argc, char** argv) {
   list_sub->add_option("-r,--requirement", list.requirements, "Only scenarios that decide this requirement")
       ->allow_extra_args(false)
       ->type_name("ID");
-  list_sub->add_flag("--cct", list.cct, "Only scenarios that match a case of CiA's conformance test tool");
+  list_sub->add_flag("--cct", list.cct, "Compare with the cases of CiA's conformance test tool");
 
   ExplainCommand explain;
   auto* explain_sub = app.add_subcommand(
-      "explain", "Explain a requirement, a verb or a defect; list the verbs or the conditions");
+      "explain", "Explain a requirement, a verb or a defect; list verbs, conditions or what is covered");
   explain_sub
       ->add_option("topic", explain.topic,
-                   "An id such as OD-1003-06, a verb such as download, or: verbs, conditions")
+                   "An id such as OD-1003-06, a verb such as download, or: verbs, conditions, coverage")
       ->required()
       ->type_name("TOPIC");
-  explain_sub->add_flag("--markdown", explain.markdown, "With 'verbs': the whole reference page as Markdown");
+  explain_sub->add_flag("--markdown", explain.markdown,
+                        "With 'verbs' and 'coverage': the whole page as Markdown");
 
   SelftestCommand selftest;
   auto* selftest_sub =
@@ -113,12 +148,16 @@ int dispatch(int argc, char** argv) {
   BenchCommand bench;
   auto* bench_sub = app.add_subcommand("bench", "Round trips per second through the harness");
   bench_sub->group("");
-  bench_sub->add_option("--interface", bench.interface)->required();
+  auto* bench_bus = bench_sub->add_option("--interface", bench.interface);
+  auto* bench_simulation =
+      bench_sub->add_option("--simulate", bench.simulate)->check(CLI::Range(1000, 1'000'000));
+  bench_bus->excludes(bench_simulation);
   bench_sub->add_option("--node", bench.node);
   bench_sub->add_option("--round-trips", bench.round_trips);
+  bench_sub->add_option("--bytes", bench.bytes)->check(CLI::Range(10, 1 << 20));
 
   std::string suites;
-  for (auto* sub : {run_sub, lint_sub, list_sub, explain_sub, selftest_sub}) {
+  for (auto* sub : {run_sub, judge_sub, lint_sub, list_sub, explain_sub, selftest_sub}) {
     sub->add_option("--suites", suites, "Folder of the suites (default: those that came with the program)")
         ->type_name("FOLDER");
   }
@@ -127,8 +166,9 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
-  run.suites = lint.suites = list.suites = explain.suites = selftest.suites = suites;
+  run.suites = judge.suites = lint.suites = list.suites = explain.suites = selftest.suites = suites;
   if (run_sub->parsed()) return run_command(run);
+  if (judge_sub->parsed()) return judge_command(judge);
   if (lint_sub->parsed()) return lint_command(lint);
   if (list_sub->parsed()) return list_command(list);
   if (explain_sub->parsed()) return explain_command(explain);

@@ -20,6 +20,7 @@
 #include "cli/selftest.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
+#include "engine/monitor_cases.hpp"
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
@@ -125,7 +126,8 @@ class LiveReports {
   bool failed_ = false;
 };
 
-void print_plan(const std::vector<engine::PlannedCase>& plan, const scenario::Catalogue& catalogue) {
+void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Monitors& monitors,
+                const scenario::Catalogue& catalogue) {
   std::string out;
   std::size_t held_back = 0;
   for (const auto& planned : plan) {
@@ -136,6 +138,10 @@ void print_plan(const std::vector<engine::PlannedCase>& plan, const scenario::Ca
                                                          : "would run";
     out += fmt::format("{:9}  {:9}  {}  {}\n", what, to_string(planned.scenario->risk), result.name(),
                        join(result.requirements, ", "));
+  }
+  for (const auto* rule : monitors) {
+    const auto result = monitor::planned_case(*rule, [](std::string_view) { return result::Verdict::fail; });
+    out += fmt::format("{:9}  {:9}  {}  {}\n", "watches", "", result.name(), join(result.requirements, ", "));
   }
   out += fmt::format("{} cases, {} would run; nothing was sent\n", plan.size(), plan.size() - held_back);
   print(out);
@@ -181,7 +187,8 @@ int run_command(const RunCommand& options) {
   {
     auto everything = run_options.plan;
     everything.allowed = scenario::Risk::motion;
-    if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty()) {
+    if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty() &&
+        !engine::names_a_monitor(everything.selection, suites->catalogue)) {
       return report_error(
           {"nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is"},
           exit_usage);
@@ -218,7 +225,7 @@ int run_command(const RunCommand& options) {
     }
     print_plan(
         engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), run_options.plan),
-        suites->catalogue);
+        engine::chosen_monitors(run_options.plan.selection, suites->catalogue), suites->catalogue);
     return 0;
   }
 

@@ -11,6 +11,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
+SUITES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../suites")
 
 
 def run(*arguments, **options):
@@ -59,6 +60,58 @@ class CommandLine(unittest.TestCase):
                 done = run(*arguments)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
                 self.assertIn(said, done.stderr + done.stdout)
+
+    def test_a_capture_is_judged_with_the_exit_codes_of_a_run(self):
+        pcapng, log = self.path("run.pcapng"), self.path("run.log")
+        profile = os.path.join(SUITES, "devices/reference-node.yaml")
+        done = run("run", "--simulate", "cia301/sdo/upload", "--capture", pcapng, "--candump", log)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        for capture in (pcapng, log):
+            done = run("judge", capture, "--profile", profile, "--junit", self.path("j.xml"), "--markdown", self.path("j.md"))
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("pass     monitor/sdo-responses", done.stdout)
+            self.assertEqual("inferred" in done.stdout, capture == log)
+            self.assertTrue(ElementTree.parse(self.path("j.xml")).getroot().findall(".//testcase"))
+            self.assertTrue(os.path.getsize(self.path("j.md")))
+        done = run("judge", pcapng, "--node", "77")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("nothing was heard of node 77; heard was node 1", done.stdout)
+        done = run("run", "--simulate", "cia301/sdo/upload", "--defect", "sdo-double-response", "--capture", pcapng)
+        self.assertIn("during", done.stdout)
+        done = run("judge", pcapng, "--profile", profile, "monitor/sdo-*")
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("FAIL: SDO-GEN-04: frame ", done.stdout)
+        self.assertNotIn("monitor/heartbeat", done.stdout)
+
+    def test_what_cannot_be_judged_exits_2_with_a_reason(self):
+        good, bad = self.path("good.log"), self.path("bad.log")
+        with open(good, "w", encoding="ascii") as file:
+            file.write("(0000000001.000000) can0 701#00\n")
+        with open(bad, "w", encoding="ascii") as file:
+            file.write("this is no capture\n")
+        for arguments, said in [
+            (["judge", good], "node-ID"),
+            (["judge", bad, "--node", "1"], "bad.log"),
+            (["judge", self.path("none.log"), "--node", "1"], "none.log"),
+            (["judge", good, "--node", "128"], ""),
+            (["judge", good, "--node", "1", "monitor/no-such"], "nothing is selected"),
+            (["judge", good, "--node", "1", "--profile", "/no/such/file.yaml"], "/no/such/file.yaml"),
+            (["judge"], ""),
+        ]:
+            with self.subTest(arguments=arguments):
+                done = run(*arguments)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertIn(said, done.stderr + done.stdout)
+        self.assertEqual(run("judge", good, "--node", "1").returncode, 0)
+
+    def test_monitors_are_listed_explained_and_chosen(self):
+        self.assertIn("monitor/sdo-toggle", run("list", "monitor").stdout)
+        self.assertIn("monitor/sdo-frame-form", run("explain", "SDO-GEN-02").stdout)
+        self.assertIn("monitor/heartbeat", run("run", "--simulate", "cia301/sdo/upload").stdout)
+        self.assertNotIn("monitor/", run("run", "--simulate", "cia301/sdo/upload", "-x", "monitor").stdout)
+        only = run("run", "--simulate", "monitor/sdo-multiplexer")
+        self.assertEqual(only.returncode, 0)
+        self.assertNotIn("cia301/", only.stdout)
 
     def test_a_missing_interface_exits_3_and_says_what_to_type(self):
         done = run("run", "--interface", "nocan77", "--node", "5")
@@ -131,6 +184,16 @@ class CommandLine(unittest.TestCase):
                 if case.find("error") is None:
                     self.assertEqual(self.summary(case), whole[case.get("classname"), case.get("name")])
         self.assertGreater(finished, 0)
+
+    def test_list_compares_with_the_cases_of_cias_tool(self):
+        page = run("list", "--cct").stdout
+        self.assertLess(page.index("  2.13 "), page.index("  1.0 "))
+        self.assertRegex(page, r"2\.7 .*\n +cia301/sdo/errors/unknown-command\n +rules SDO-ERR-01")
+        self.assertIn("Scenarios without a case in CiA's tool", page)
+        self.assertIn("127 cases of CiA's tool", page)
+        only = run("list", "--cct", "cia301/sdo/errors").stdout
+        self.assertIn("1 cases of CiA's tool", only)
+        self.assertEqual(run("list", "--cct", "cia301/sdo/load").returncode, 2)
 
     def test_list_and_explain_show_requirements(self):
         self.assertIn("OD-1003-06", run("list", "cia301/dictionary/1003-error-history").stdout)

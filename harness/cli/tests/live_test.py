@@ -62,7 +62,9 @@ class Live(unittest.TestCase):
         self.capture = os.path.join(folder.name, "run.pcapng")
 
     def cases(self):
-        return ElementTree.parse(self.junit).getroot().findall(".//testcase")
+        """The scenarios; monitors come behind them and are judged even when the run ends early."""
+        found = ElementTree.parse(self.junit).getroot().findall(".//testcase")
+        return [case for case in found if case.get("classname") != "monitor"]
 
     def test_the_conformant_node_passes_without_a_warning(self):
         with Node():

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// `judge`: the monitors over a recorded trace, without a device.
+#include <fmt/format.h>
+
+#include "base/files.hpp"
+#include "base/text.hpp"
+#include "cli/commands.hpp"
+#include "cli/judge.hpp"
+#include "cli/suite_folder.hpp"
+#include "cli/terminal.hpp"
+#include "reports/console.hpp"
+#include "reports/junit.hpp"
+#include "reports/markdown.hpp"
+
+namespace conform::cli {
+namespace {
+
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
+
+Result<device::Profile> profile_for(const JudgeCommand& options) {
+  const auto node = NodeId(static_cast<std::uint8_t>(options.node.value_or(1)));
+  if (options.profile.empty()) {
+    if (!options.node)
+      return fail("the node-ID of the device is missing", {}, "--node 1..127, or --profile FILE");
+    return device::default_profile(node);
+  }
+  auto document = device::load_profile_file(options.profile);
+  if (!document) return std::unexpected(document.error());
+  if (document->diagnostics.has_errors())
+    return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), options.profile);
+  if (options.node) document->profile.node = node;
+  return std::move(document->profile);
+}
+
+}  // namespace
+
+int judge_command(const JudgeCommand& options) {
+  auto root = find_suites(options.suites);
+  if (!root) return report_error(root.error(), exit_usage);
+  auto suites = load_suites(*root, use_colour(options.color, 2));
+  if (!suites) return report_error(suites.error(), exit_usage);
+  auto profile = profile_for(options);
+  if (!profile) return report_error(profile.error(), exit_usage);
+  auto content = read_file(options.capture, most_bytes);
+  if (!content) return report_error(content.error(), exit_usage);
+  auto recording = read_recording(*content, options.capture, options.interface);
+  if (!recording) return report_error(recording.error(), exit_usage);
+  if (recording->capture.size() == 0)
+    return report_error({"no frame is in the capture", options.capture, {}}, exit_usage);
+
+  JudgeOptions how;
+  how.selection = {options.select, options.requirements, options.exclude};
+  how.strict = options.strict;
+  auto run = judge(*recording, *profile, suites->catalogue, how);
+  if (run.cases.empty()) {
+    return report_error(
+        {"nothing is selected: no monitor matches", {}, "'canopen-conform list monitor' shows what there is"},
+        exit_usage);
+  }
+  run.tool = "canopen-conform " CONFORM_VERSION;
+  run.started_utc_ns = recording->info.epoch_ns;
+  run.properties.insert(run.properties.begin(), {{"suite.digest", suite_digest(*root)},
+                                                 {"capture.file", options.capture},
+                                                 {"can.interface", recording->info.interface_name}});
+
+  const reports::Style style{use_colour(options.color, 1), terminal_width(), 0};
+  for (const auto& each : run.cases) {
+    const bool quiet =
+        each.verdict == result::Verdict::pass || each.verdict == result::Verdict::not_applicable;
+    if (!options.quiet || !quiet) print(reports::case_line(each, style) + "\n");
+  }
+  bool failed = false;
+  const auto write = [&failed](const std::string& path, const std::string& text) {
+    if (path.empty()) return;
+    if (auto written = write_file_atomically(path, text); !written) {
+      failed = true;
+      report_error(written.error(), 0);
+    }
+  };
+  if (!options.junit.empty())
+    write(options.junit, reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"}));
+  if (!options.markdown.empty()) write(options.markdown, reports::markdown(run));
+  print(reports::summary(run, style));
+  const auto code = result::exit_code(run);
+  return failed && code == 0 ? exit_environment : code;
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "legal_variants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "base/text.hpp"
+#include "can/simulated_bus.hpp"
+#include "engine/engine.hpp"
+#include "neighbours.hpp"
+#include "node.hpp"
+#include "variants/variant.hpp"
+
+namespace conform::cli {
+namespace {
+
+using result::Verdict;
+
+// std::uniform_int_distribution may differ between libraries; this does not, and the bias is of no interest.
+std::uint64_t below(std::mt19937_64& random, std::uint64_t limit) { return random() % limit; }
+
+device::Access access_of(refnode::Access access, device::Access declared) {
+  switch (access) {
+    case refnode::Access::ro: return device::Access::ro;
+    case refnode::Access::wo: return device::Access::wo;
+    case refnode::Access::constant: return device::Access::constant;
+    case refnode::Access::rw: break;
+  }
+  return device::is_writable(declared) && device::is_readable(declared) ? declared : device::Access::rw;
+}
+
+/// The description of the node as it is: what the maker of such a device would write.
+device::Profile describe(const device::Profile& reference, const refnode::ObjectDictionary& dictionary,
+                         const Combination& combination) {
+  device::Profile out = reference;
+  const auto held = [&dictionary](Multiplexer mux) {
+    return dictionary.entry(mux.index.value(), mux.sub.value());
+  };
+  const auto gone = [&held](Multiplexer mux) { return held(mux) == nullptr; };
+  std::erase_if(out.objects, [&gone](const device::Entry& entry) { return gone(entry.mux); });
+  std::erase_if(out.safe_objects, gone);
+  for (device::Entry& entry : out.objects) {
+    const refnode::Entry& node_entry = *held(entry.mux);
+    entry.access = access_of(node_entry.access, entry.access);
+    // A default that is the standard's need not be declared, another one is.
+    if (entry.default_value || node_entry.default_value != node_entry.value ||
+        entry.mux.index == Index(0x1017)) {
+      entry.default_value = node_entry.default_value;
+      entry.default_adds_node_id = false;
+    }
+  }
+  std::erase_if(out.errors, [&](const device::ErrorTrigger& error) {
+    if (error.heartbeat_node) {
+      const auto* consumer = dictionary.entry(0x1016, 1);
+      return consumer == nullptr || consumer->access != refnode::Access::rw;
+    }
+    return (error.raise && gone(error.raise->object)) || (error.clear && gone(error.clear->object));
+  });
+  if (out.store_fault && gone(out.store_fault->arm.object)) out.store_fault.reset();
+  if (held({Index(0x1018), SubIndex(2)}) == nullptr) out.identity.product.reset();
+  if (held({Index(0x1018), SubIndex(3)}) == nullptr) out.identity.revision.reset();
+  if (held({Index(0x1018), SubIndex(4)}) == nullptr) out.identity.serial.reset();
+  for (const std::string& id : combination.variants) {
+    const refnode::Variant* variant = refnode::find_variant(id);
+    if (variant == nullptr) continue;
+    for (const auto word : variant->lacks) out.claims.erase(std::string(word));
+    for (const auto word : variant->gains) out.claims.insert(std::string(word));
+  }
+  // Nothing is mapped variably without PDOs.
+  if (!out.claimed("rpdo") && !out.claimed("tpdo")) out.claims.erase("variable mapping");
+  if (combination.neighbours) out.claims.erase("only node on the bus");
+  out.boot_time = std::chrono::seconds(5);
+  return out;
+}
+
+std::string details_of(const result::Finding& finding) {
+  return fmt::format("    {}:{}: {} {} -> {} ({}); passes: {}\n", finding.position.file,
+                     finding.position.line, to_string(finding.verdict), finding.step, finding.actual,
+                     finding.reason, join(finding.accepts, ", "));
+}
+
+std::vector<Complaint> complaints_of(const result::RunResult& run, const std::set<std::string>& may_warn) {
+  std::vector<Complaint> out;
+  if (run.aborted) out.push_back({"aborted", "    " + *run.aborted + "\n"});
+  for (const std::string& note : run.notes) out.push_back({"note", "    " + note + "\n"});
+  for (const auto& each : run.cases) {
+    const std::size_t before = out.size();
+    for (const auto& judgement : each.judgements) {
+      if (judgement.verdict == Verdict::pass || judgement.verdict == Verdict::not_applicable) continue;
+      if (judgement.verdict == Verdict::warn && may_warn.contains(judgement.requirement)) continue;
+      Complaint complaint;
+      complaint.what =
+          fmt::format("{} {} in {}", to_string(judgement.verdict), judgement.requirement, each.name());
+      for (const auto& finding : judgement.findings) complaint.details += details_of(finding);
+      out.push_back(std::move(complaint));
+    }
+    const bool told = out.size() > before;
+    const bool bad = each.verdict == Verdict::fail || each.verdict == Verdict::inconclusive ||
+                     each.verdict == Verdict::error;
+    if (bad && !told) {
+      Complaint complaint{fmt::format("{} in {}", to_string(each.verdict), each.name()), {}};
+      complaint.details = "    " + each.reason + "\n";
+      out.push_back(std::move(complaint));
+    }
+    if (out.size() > before) {
+      for (const auto& finding : each.setup_findings) out.back().details += details_of(finding);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string Combination::text() const {
+  std::string out = fmt::format("--node {} --bus-seed {} --bit-rate {}", node, seed, bit_rate);
+  if (!described) out += " --undescribed";
+  if (neighbours) out += " --neighbours";
+  if (!variants.empty()) out += " --variants " + join(variants, ",");
+  return out;
+}
+
+Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
+  std::mt19937_64 random(seed * 0x9E3779B97F4A7C15ULL + number);
+  Combination out;
+  out.seed = random() % 1'000'000'000;
+  do {
+    out.node = static_cast<int>(1 + below(random, 127));
+  } while (out.node == Neighbours::first_node || out.node == Neighbours::second_node);
+  out.described = below(random, 2) == 0;
+  out.neighbours = below(random, 3) == 0;
+  constexpr std::uint32_t rates[] = {125'000, 250'000, 500'000, 800'000, 1'000'000};
+  out.bit_rate = rates[below(random, std::size(rates))];
+  // From a few variants to as many as go together.
+  constexpr std::uint64_t percents[] = {2, 5, 10, 25, 60};
+  const std::uint64_t percent = percents[below(random, std::size(percents))];
+  const auto all = refnode::variants();
+  std::vector<const refnode::Variant*> rows;
+  for (const auto& row : all) rows.push_back(&row);
+  for (std::size_t i = rows.size(); i > 1; --i) std::swap(rows[i - 1], rows[below(random, i)]);
+  std::vector<const refnode::Variant*> chosen;
+  for (const auto* row : rows) {
+    if (below(random, 100) >= percent) continue;
+    if (std::ranges::all_of(chosen, [row](const auto* other) { return refnode::compatible(*row, *other); }))
+      chosen.push_back(row);
+  }
+  // In the order of the tables, so that the same set is the same node.
+  std::ranges::sort(chosen, [](const auto* one, const auto* other) { return one < other; });
+  for (const auto* row : chosen) out.variants.emplace_back(row->id);
+  return out;
+}
+
+Result<std::vector<Complaint>> judge_combination(const Combination& combination, const LoadedSuites& suites,
+                                                 const device::Profile& reference,
+                                                 const std::vector<std::string>& only) {
+  auto node = refnode::Node::create({.node_id = static_cast<std::uint8_t>(combination.node),
+                                     .defects = {},
+                                     .storage = {},
+                                     .choices = {},
+                                     .variants = combination.variants});
+  if (!node) return std::unexpected(node.error());
+  const NodeId node_id(static_cast<std::uint8_t>(combination.node));
+  device::Profile profile = combination.described ? describe(reference, (*node)->dictionary(), combination)
+                                                  : device::default_profile(node_id);
+  profile.node = node_id;
+
+  can::SimulatedBus::Options bus_options;
+  bus_options.seed = combination.seed;
+  bus_options.bit_rate = combination.bit_rate;
+  can::SimulatedBus bus(bus_options);
+  bus.attach(**node, "reference node");
+  Neighbours neighbours;
+  if (combination.neighbours) bus.attach(neighbours, "neighbours");
+  engine::RunOptions options;
+  options.plan.seed = combination.seed;
+  options.plan.selection.patterns = only;
+  can::Capture capture;
+  const auto run = engine::run(bus.transport(), profile, suites.suite, suites.catalogue, options, capture);
+
+  std::set<std::string> may_warn;
+  for (const std::string& id : combination.variants) {
+    for (const auto requirement : refnode::find_variant(id)->warns) {
+      if (const auto canonical = suites.catalogue.canonical(requirement))
+        may_warn.insert(std::string(*canonical));
+    }
+  }
+  return complaints_of(run, may_warn);
+}
+
+Combination shrink(Combination combination, const std::string& what, const LoadedSuites& suites,
+                   const device::Profile& reference) {
+  const auto still_wrong = [&](const Combination& candidate) {
+    const auto complaints = judge_combination(candidate, suites, reference);
+    return complaints && std::ranges::find(*complaints, what, &Complaint::what) != complaints->end();
+  };
+  const auto attempt = [&](auto change) {
+    Combination candidate = combination;
+    change(candidate);
+    if (still_wrong(candidate)) combination = std::move(candidate);
+  };
+  // Halves first: most rows have nothing to do with it.
+  for (std::size_t part = (combination.variants.size() + 1) / 2; part >= 1; part /= 2) {
+    for (std::size_t at = 0; at < combination.variants.size();) {
+      const std::size_t size = combination.variants.size();
+      attempt([at, part](Combination& candidate) {
+        auto& rows = candidate.variants;
+        const auto first = rows.begin() + static_cast<std::ptrdiff_t>(at);
+        rows.erase(first, first + static_cast<std::ptrdiff_t>(std::min(part, rows.size() - at)));
+      });
+      if (combination.variants.size() == size) at += part;
+    }
+  }
+  attempt([](Combination& candidate) { candidate.neighbours = false; });
+  attempt([](Combination& candidate) { candidate.bit_rate = 500'000; });
+  attempt([](Combination& candidate) { candidate.node = 1; });
+  attempt([](Combination& candidate) { candidate.described = true; });
+  attempt([](Combination& candidate) { candidate.seed = 1; });
+  return combination;
+}
+
+}  // namespace conform::cli

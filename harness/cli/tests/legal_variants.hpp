@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The other half of the proof: the whole suite against nodes that are different and right. Whatever legal
+// variants are combined, no requirement may fail, nothing may stay inconclusive, and only what the catalogue
+// tolerates warns.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "cli/suite_folder.hpp"
+#include "device/profile.hpp"
+
+namespace conform::cli {
+
+/// One node on one bus.
+struct Combination {
+  std::vector<std::string> variants;
+  int node = 1;
+  bool described = true;    ///< with a profile that says what the node is; else the default profile
+  bool neighbours = false;  ///< other nodes talk on the bus
+  std::uint32_t bit_rate = 500'000;
+  std::uint64_t seed = 1;  ///< of the bus and of the plan
+
+  /// As options of the program legal_variants.
+  [[nodiscard]] std::string text() const;
+};
+
+/// The combination number `number` of the series that `seed` begins.
+[[nodiscard]] Combination draw_combination(std::uint64_t seed, std::uint64_t number);
+
+/// What is wrong with a verdict.
+struct Complaint {
+  std::string what;  ///< "fail OD-1003-06 in cia301/...", the same for the same mistake
+  std::string details;
+};
+
+/// Runs the suite; empty when all verdicts are as they ought to be. `reference` is the profile of the node by
+/// default; the profile used is made from it and from the node's own dictionary. `only`: patterns of cases.
+[[nodiscard]] Result<std::vector<Complaint>> judge_combination(const Combination& combination,
+                                                               const LoadedSuites& suites,
+                                                               const device::Profile& reference,
+                                                               const std::vector<std::string>& only = {});
+
+/// Leaves out whatever is not needed for a complaint `what`.
+[[nodiscard]] Combination shrink(Combination combination, const std::string& what, const LoadedSuites& suites,
+                                 const device::Profile& reference);
+
+}  // namespace conform::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// A right device is never failed: each legal variant alone, and some combinations. The program legal_variants
+// runs as many more as there is time for.
+#include <set>
+
+#include "catch.hpp"
+#include "legal_variants.hpp"
+#include "variants/variant.hpp"
+
+using namespace conform;
+
+namespace {
+
+const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
+
+const cli::LoadedSuites& suites() {
+  static const cli::LoadedSuites loaded = [] {
+    auto out = cli::load_suites(suites_folder, false);
+    INFO((out ? std::string() : out.error().text()));
+    REQUIRE(out.has_value());
+    return std::move(*out);
+  }();
+  return loaded;
+}
+
+const device::Profile& reference() {
+  static const device::Profile loaded = [] {
+    auto out = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
+    REQUIRE(out.has_value());
+    return std::move(out->profile);
+  }();
+  return loaded;
+}
+
+void check(const cli::Combination& combination) {
+  const auto complaints = cli::judge_combination(combination, suites(), reference());
+  INFO("legal_variants " << combination.text());
+  REQUIRE(complaints.has_value());
+  for (const auto& complaint : *complaints) FAIL_CHECK(complaint.what << "\n" << complaint.details);
+}
+
+}  // namespace
+
+TEST_CASE("a node as it is by default passes, described or not, alone or among others") {
+  for (const bool described : {true, false}) {
+    for (const bool neighbours : {true, false}) {
+      cli::Combination combination;
+      combination.described = described;
+      combination.neighbours = neighbours;
+      check(combination);
+    }
+  }
+}
+
+TEST_CASE("each legal variant alone is never failed") {
+  bool described = true;
+  for (const auto& variant : refnode::variants()) {
+    cli::Combination combination;
+    combination.variants = {std::string(variant.id)};
+    combination.node = 5;
+    combination.described = described = !described;
+    check(combination);
+  }
+}
+
+TEST_CASE("combinations of legal variants are never failed") {
+  for (std::uint64_t number = 0; number < 40; ++number) check(cli::draw_combination(1, number));
+}
+
+TEST_CASE("rows of the variants are sound") {
+  std::set<std::string_view> ids, groups;
+  for (const auto& variant : refnode::variants()) {
+    INFO(variant.id);
+    CHECK(ids.insert(variant.id).second);
+    groups.insert(variant.group);
+    CHECK_FALSE(variant.summary.empty());
+    CHECK_FALSE(variant.legal.empty());
+    for (const auto word : variant.lacks) CHECK(device::is_feature(word));
+    for (const auto word : variant.gains) CHECK(device::is_feature(word));
+    for (const auto id : variant.warns) CHECK(suites().catalogue.canonical(id).has_value());
+  }
+  for (const auto& variant : refnode::variants()) {
+    for (const auto word : variant.excludes) {
+      INFO(variant.id << " excludes " << word);
+      CHECK((ids.contains(word) || groups.contains(word)));
+    }
+  }
+}
+
+TEST_CASE("the same seed draws the same combination") {
+  CHECK(cli::draw_combination(7, 3).text() == cli::draw_combination(7, 3).text());
+  CHECK(cli::draw_combination(7, 3).text() != cli::draw_combination(7, 4).text());
+}
