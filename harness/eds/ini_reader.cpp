@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/ini_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "base/text.hpp"
+#include "eds/section_name.hpp"
+
+namespace conform::eds {
+namespace {
+
+Field to_field(const IniEntry& entry) { return {entry.value, entry.value_at, entry.key_at, true}; }
+
+/// The decimal number behind `prefix` in a key, as in Line12.
+std::optional<std::uint64_t> numbered(std::string_view key, std::string_view prefix, int base = 10) {
+  if (key.size() <= prefix.size() || !same_word(key.substr(0, prefix.size()), prefix)) return std::nullopt;
+  key.remove_prefix(prefix.size());
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number, base);
+  if (error != std::errc() || end != key.data() + key.size()) return std::nullopt;
+  return number;
+}
+
+/// The fields of one section, taken one after the other; what nobody takes is unknown.
+class Taker {
+ public:
+  Taker(const IniSection& section, Remarks& remarks) : section_(section), remarks_(remarks) {
+    taken_.resize(section.entries.size());
+    for (std::size_t i = 0; i < section.entries.size(); ++i) {
+      const auto [known, is_new] = first_.try_emplace(lower(section.entries[i].key), i);
+      if (!is_new) again_.push_back({i, known->second});
+    }
+  }
+
+  template <typename Section>
+  void fields(Section& into, std::span<const FieldRow<Section>> rows) {
+    for (const auto& row : rows) field(row.key, into.*row.field);
+  }
+
+  void field(std::string_view key, Field& into) {
+    const auto found = first_.find(lower(key));
+    if (found == first_.end()) return;
+    taken_[found->second] = true;
+    if (!into.present) into = to_field(section_.entries[found->second]);
+  }
+
+  /// Every entry with a number behind `prefix`, repeated ones included.
+  void numbers(std::string_view prefix, std::vector<NumberedField>& into, int base = 10) {
+    for (std::size_t i = 0; i < section_.entries.size(); ++i) {
+      if (taken_[i]) continue;
+      const auto number = numbered(section_.entries[i].key, prefix, base);
+      if (!number) continue;
+      taken_[i] = true;
+      into.push_back({*number, to_field(section_.entries[i])});
+    }
+  }
+
+  void rest_is_known() { taken_.assign(taken_.size(), true); }
+
+  /// Remarks what is left over. A repeated key is one mistake, not two.
+  void finish() {
+    for (const auto& [place, first] : again_) {
+      const auto& entry = section_.entries[place];
+      remarks_.add(Deviation::duplicate_entry, entry.key_at, entry.key, section_.entries[first].key_at);
+      taken_[place] = true;
+    }
+    for (std::size_t i = 0; i < section_.entries.size(); ++i) {
+      const auto& entry = section_.entries[i];
+      if (!taken_[i]) remarks_.add(Deviation::unknown_entry, entry.key_at, entry.key);
+    }
+  }
+
+ private:
+  struct Again {
+    std::size_t place;
+    std::size_t first;
+  };
+  const IniSection& section_;
+  Remarks& remarks_;
+  std::unordered_map<std::string, std::size_t> first_;
+  std::vector<Again> again_;
+  std::vector<bool> taken_;
+};
+
+/// Objects while they are collected: sections come in any order.
+struct Pile {
+  struct Builder {
+    Object object;
+    bool described = false;
+    Position first;
+    std::map<SubIndex, Entry> subs;
+  };
+  std::map<Index, Builder> objects;
+
+  Builder& at(Index index, Position position) {
+    auto& builder = objects[index];
+    if (!builder.first.known()) builder.first = position;
+    builder.object.index = index;
+    return builder;
+  }
+
+  std::vector<Object> finish(Remarks& remarks) {
+    std::vector<Object> out;
+    out.reserve(objects.size());
+    for (auto& [index, builder] : objects) {
+      if (!builder.described) {
+        remarks.add(Deviation::sub_without_object, builder.first, to_string(index));
+        if (builder.subs.empty()) continue;
+        builder.object.entry.at = builder.first;
+      }
+      for (auto& [sub, entry] : builder.subs) builder.object.subs.push_back({sub, std::move(entry)});
+      out.push_back(std::move(builder.object));
+    }
+    return out;
+  }
+};
+
+class Reader {
+ public:
+  Reader(const IniFile& file, std::string name) : file_(file) {
+    out_.name = std::move(name);
+    out_.remarks = file.remarks();
+  }
+
+  EdsFile read() {
+    for (const auto& section : file_.sections()) {
+      const auto name = parse_section_name(section.name);
+      // Of a section that is there twice the first counts; the others have been remarked.
+      if (file_.find(section.name) != &section) continue;
+      if (name.odd_form) out_.remarks.add(Deviation::section_name_form, section.at, section.name);
+      take(section, name);
+    }
+    out_.objects = pile_.finish(out_.remarks);
+    for (auto& [number, module] : modules_) {
+      module.fixed_objects = fixed_[number].finish(out_.remarks);
+      out_.modules.push_back(std::move(module));
+    }
+    out_.format = is_dcf() ? Format::dcf : Format::eds;
+    return std::move(out_);
+  }
+
+ private:
+  void take(const IniSection& section, const SectionName& name) {
+    Taker taker(section, out_.remarks);
+    switch (name.kind) {
+      case SectionKind::unknown:
+        if (!section.name.empty()) out_.remarks.add(Deviation::unknown_section, section.at, section.name);
+        return;
+      case SectionKind::tools:
+      case SectionKind::dynamic_channels:
+      case SectionKind::module_comments: taker.rest_is_known(); break;
+      case SectionKind::file_info: info(taker, section, out_.file_info, file_info_fields); break;
+      case SectionKind::device_info:
+        info(taker, section, out_.device_info, device_info_fields);
+        taker.numbers("BaudRate_", out_.device_info.baud_rates);
+        break;
+      case SectionKind::commissioning: commissioning(taker, section); break;
+      case SectionKind::dummy_usage:
+        out_.dummy_usage.at = section.at;
+        out_.dummy_usage.present = true;
+        taker.numbers("Dummy", out_.dummy_usage.entries, 16);
+        break;
+      case SectionKind::mandatory_objects:
+        list(taker, section, out_.mandatory_objects, "SupportedObjects");
+        break;
+      case SectionKind::optional_objects:
+        list(taker, section, out_.optional_objects, "SupportedObjects");
+        break;
+      case SectionKind::manufacturer_objects:
+        list(taker, section, out_.manufacturer_objects, "SupportedObjects");
+        break;
+      case SectionKind::comments: list(taker, section, out_.comments, "Lines", "Line"); break;
+      case SectionKind::supported_modules: list(taker, section, out_.supported_modules, "NrOfEntries"); break;
+      case SectionKind::names:
+        list(taker, section, pile_.at(name.index, section.at).object.names, "NrOfEntries");
+        break;
+      case SectionKind::values:
+        list(taker, section, pile_.at(name.index, section.at).object.values, "NrOfEntries");
+        break;
+      case SectionKind::denotations:
+        list(taker, section, pile_.at(name.index, section.at).object.denotations, "NrOfEntries");
+        break;
+      case SectionKind::links:
+        list(taker, section, pile_.at(name.index, section.at).object.links, "ObjectLinks");
+        break;
+      case SectionKind::object:
+      case SectionKind::sub_object: object(taker, section, name, pile_); break;
+      default: module(taker, section, name); break;
+    }
+    taker.finish();
+  }
+
+  template <typename Info, std::size_t count>
+  static void info(Taker& taker, const IniSection& section, Info& into,
+                   const std::array<FieldRow<Info>, count>& rows) {
+    into.at = section.at;
+    into.present = true;
+    taker.fields(into, std::span<const FieldRow<Info>>(rows));
+  }
+
+  static void list(Taker& taker, const IniSection& section, NumberedList& into, std::string_view count,
+                   std::string_view prefix = {}) {
+    into.name = section.name;
+    into.at = section.at;
+    into.present = true;
+    taker.field(count, into.count);
+    taker.numbers(prefix, into.entries);
+  }
+
+  void commissioning(Taker& taker, const IniSection& section) {
+    if (out_.commissioning.present)
+      out_.remarks.add(Deviation::two_commissionings, section.at, section.name, out_.commissioning.at);
+    // The standard writes one m, so what is right English is the deviation here.
+    if (same_word(section.name, "DeviceCommissioning"))
+      out_.remarks.add(Deviation::commissioning_spelling, section.at, section.name);
+    const auto first = out_.commissioning.at;
+    info(taker, section, out_.commissioning, commissioning_fields);
+    if (first.known()) out_.commissioning.at = first;
+  }
+
+  void object(Taker& taker, const IniSection& section, const SectionName& name, Pile& pile) {
+    auto& builder = pile.at(name.index, section.at);
+    const bool is_sub = name.kind == SectionKind::sub_object || name.kind == SectionKind::fixed_sub_object;
+    // Written in two ways ([1018sub1] and [1018sub01]) they are still one; what came first counts.
+    auto& entry = is_sub ? builder.subs[name.sub] : builder.object.entry;
+    if (entry.at.known())
+      out_.remarks.add(Deviation::duplicate_section, section.at, section.name, entry.at);
+    else
+      entry.at = section.at;
+    taker.fields(entry, std::span<const FieldRow<Entry>>(entry_fields));
+    if (is_sub) return;
+    builder.described = true;
+    taker.fields(builder.object, std::span<const FieldRow<Object>>(object_fields));
+  }
+
+  void module(Taker& taker, const IniSection& section, const SectionName& name) {
+    auto& into = modules_[name.module];
+    into.number = name.module;
+    if (!into.at.known()) into.at = section.at;
+    switch (name.kind) {
+      case SectionKind::module_info:
+        into.has_info = true;
+        into.at = section.at;
+        taker.fields(into, std::span<const FieldRow<Module>>(module_fields));
+        break;
+      case SectionKind::fixed_list: list(taker, section, into.fixed_list, "NrOfEntries"); break;
+      case SectionKind::extension_list: list(taker, section, into.extension_list, "NrOfEntries"); break;
+      case SectionKind::extension: {
+        SubExtension extension;
+        extension.index = name.index;
+        extension.entry.at = section.at;
+        taker.fields(extension.entry, std::span<const FieldRow<Entry>>(entry_fields));
+        taker.field("Count", extension.count);
+        taker.field("ObjExtend", extension.obj_extend);
+        into.extensions.push_back(std::move(extension));
+        break;
+      }
+      default: object(taker, section, name, fixed_[name.module]); break;
+    }
+  }
+
+  /// A DCF is an EDS with more in it; the extension of the file's name says little.
+  [[nodiscard]] bool is_dcf() const {
+    const auto configured = [](const Entry& entry) {
+      return entry.parameter_value.present || entry.upload_file.present || entry.download_file.present ||
+             entry.denotation.present;
+    };
+    return out_.commissioning.present || out_.file_info.last_eds.present ||
+           std::ranges::any_of(out_.objects, [&](const Object& object) {
+             return object.values.present || object.denotations.present || configured(object.entry) ||
+                    std::ranges::any_of(object.subs, [&](const auto& sub) { return configured(sub.entry); });
+           });
+  }
+
+  const IniFile& file_;
+  EdsFile out_;
+  Pile pile_;
+  std::map<std::uint64_t, Module> modules_;
+  std::map<std::uint64_t, Pile> fixed_;
+};
+
+}  // namespace
+
+EdsFile read_ini(const IniFile& file, std::string file_name) {
+  return Reader(file, std::move(file_name)).read();
+}
+
+}  // namespace conform::eds
