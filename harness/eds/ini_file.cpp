@@ -96,7 +96,7 @@ class IniParser {
   }
 
   void remark(Deviation what, std::size_t offset, std::string_view detail = {}, Position first = {}) {
-    file_.remarks_.add(what, at(std::max<std::size_t>(number_, 1), offset), std::string(detail), first);
+    file_.remarks_.add(what, at(std::max<std::size_t>(number_, 1), offset), detail, first);
   }
 
   void line_end(LineEnd kind) {

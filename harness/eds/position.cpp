@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eds/position.hpp"
 
-#include <utility>
-
 namespace conform::eds {
 
 std::string to_string(Position position) {
@@ -10,7 +8,7 @@ std::string to_string(Position position) {
   return std::to_string(position.line) + ":" + std::to_string(position.column);
 }
 
-void Remarks::add(Deviation what, Position at, std::string detail, Position first) {
+void Remarks::add(Deviation what, Position at, std::string_view detail, Position first) {
   const auto kind = static_cast<std::size_t>(what);
   if (counts_.size() <= kind) counts_.resize(kind + 1);
   if (++counts_[kind] > most_of_a_kind) {

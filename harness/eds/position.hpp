@@ -74,7 +74,7 @@ class Remarks {
  public:
   static constexpr std::size_t most_of_a_kind = 1000;
 
-  void add(Deviation what, Position at, std::string detail = {}, Position first = {});
+  void add(Deviation what, Position at, std::string_view detail = {}, Position first = {});
   [[nodiscard]] const std::vector<Remark>& all() const { return all_; }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
 

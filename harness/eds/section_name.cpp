@@ -58,7 +58,8 @@ std::optional<std::uint32_t> hex_prefix(std::string_view& text, std::size_t usua
     count = usual_digits;
   if (count == 0 || count > 8) return std::nullopt;
   std::uint32_t value = 0;
-  (void)std::from_chars(text.data(), text.data() + count, value, 16);
+  for (const char c : text.substr(0, count))
+    value = value * 16U + static_cast<std::uint32_t>(c <= '9' ? c - '0' : c - 'a' + 10);
   if (usual_digits != 0 ? count != usual_digits : count > 1 && text.front() == '0') odd = true;
   text.remove_prefix(count);
   return value;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/lint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/text.hpp"
+#include "eds/expand.hpp"
+#include "eds/lint_rules.hpp"
+
+namespace conform::eds {
+namespace {
+
+/// The order of the page.
+constexpr std::array groups = {
+    &structure_rules, &number_rules,     &value_rules,      &info_rules,    &list_rules,
+    &object_rules,    &predefined_rules, &sub_object_rules, &compact_rules, &pdo_rules,
+    &mapping_rules,   &identity_rules,   &module_rules,
+};
+
+std::vector<RuleGroup> tables() {
+  std::vector<RuleGroup> out;
+  for (const auto* group : groups) out.push_back(group->table);
+  return out;
+}
+
+}  // namespace
+
+std::string_view to_string(Severity severity) {
+  switch (severity) {
+    case Severity::note: return "note";
+    case Severity::warning: return "warning";
+    case Severity::error: return "error";
+  }
+  return "note";
+}
+
+std::size_t LintReport::count(Severity severity) const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      findings, [severity](const auto& finding) { return finding.rule->severity == severity; }));
+}
+
+void Findings::add(const Rule& rule, Position at, std::string message, std::string hint) {
+  // What the file leaves out altogether is a matter of its first line.
+  if (!at.known()) at = {1, 1};
+  if (!known_.emplace(at, &rule, message).second) return;
+  if (++counts_[&rule] > most_of_a_rule) {
+    ++report_.left_out;
+    return;
+  }
+  report_.findings.push_back({&rule, at, std::move(message), std::move(hint)});
+}
+
+LintReport Findings::finish() {
+  std::ranges::stable_sort(report_.findings, {},
+                           [](const auto& finding) { return std::pair(finding.at, finding.rule->code); });
+  return std::move(report_);
+}
+
+LintReport lint(const EdsFile& file) {
+  auto expanded = expand(file);
+  const auto& objects = expanded ? *expanded : file.objects;
+  Subject subject{file, objects, {}, {}};
+  if (!expanded) {
+    subject.expansion_fault = expanded.error().what;
+    for (const auto& object : file.objects) {
+      if (!subject.expansion_at.known()) subject.expansion_at = object.compact_sub_obj.at;
+    }
+  }
+  Findings findings;
+  for (const auto* group : groups) group->check(subject, findings);
+  return findings.finish();
+}
+
+std::span<const RuleGroup> rule_groups() {
+  static const auto all = tables();
+  return all;
+}
+
+const Rule* find_rule(std::string_view code) {
+  for (const auto& group : rule_groups()) {
+    for (const auto* rule : group.rules) {
+      if (rule->code == code) return rule;
+    }
+  }
+  return nullptr;
+}
+
+std::string lint_table_markdown() {
+  std::string out =
+      "# Lint of device descriptions\n\n"
+      "`canopen-conform eds lint FILE` checks EDS, DCF, XDD and XDC. A finding is an opinion about the file, never about the "
+      "device. Codes are never given to another rule.\n\n"
+      "| severity | meaning |\n|---|---|\n"
+      "| error | the file contradicts the standard or itself |\n"
+      "| warning | legal or not, tools will disagree about it |\n"
+      "| note | worth a look |\n";
+  for (const auto& group : rule_groups()) {
+    out += fmt::format("\n## {}\n\n| code | severity | mistake | source |\n|---|---|---|---|\n", group.title);
+    for (const auto* rule : group.rules)
+      out += fmt::format("| {} | {} | {} | {} |\n", rule->code, to_string(rule->severity), rule->title,
+                         rule->source);
+  }
+  return out;
+}
+
+std::string section_name(Index index, std::optional<SubIndex> sub) {
+  if (sub) return fmt::format("[{:04X}sub{:X}]", index.value(), sub->value());
+  return fmt::format("[{:04X}]", index.value());
+}
+
+void each_described(const Subject& subject, const std::function<void(const Spot&)>& look) {
+  for (const auto& object : subject.file.objects) {
+    look({object, {}, object.entry});
+    for (const auto& sub : object.subs) look({object, sub.sub, sub.entry});
+  }
+}
+
+const Field& effective_value(const Entry& entry) {
+  return entry.parameter_value.empty() ? entry.default_value : entry.parameter_value;
+}
+
+}  // namespace conform::eds

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// PDOs as a whole: how many, communication and mapping parameters in pairs, whether mappings can change.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "eds/lint_rules.hpp"
+#include "eds/type_table.hpp"
+
+namespace conform::eds {
+namespace {
+
+constexpr std::string_view counts = "CiA 306, [DeviceInfo]";
+constexpr std::string_view pdos = "CiA 301, 7.5.2";
+
+constexpr Rule rpdo_count{"EDS300", Severity::error, "NrOfRXPDO is not the number of RPDOs", counts};
+constexpr Rule tpdo_count{"EDS301", Severity::error, "NrOfTXPDO is not the number of TPDOs", counts};
+constexpr Rule no_mapping{"EDS302", Severity::error, "A PDO has no mapping parameter", pdos};
+constexpr Rule no_communication{"EDS303", Severity::error, "A PDO mapping has no communication parameter",
+                                pdos};
+constexpr Rule count_is_const{"EDS304", Severity::warning,
+                              "Mapping entries can be written, but sub-index 00h cannot", pdos};
+constexpr Rule entries_are_const{"EDS305", Severity::note,
+                                 "Sub-index 00h of a mapping can be written, but its entries cannot", pdos};
+constexpr Rule granularity_zero{"EDS306", Severity::warning,
+                                "Granularity 0 says that no mapping can change, but one can be written",
+                                counts};
+constexpr Rule mapping_without_cob_id{"EDS307", Severity::warning,
+                                      "A mapping can be written although the COB-ID of its PDO cannot", pdos};
+constexpr Rule compact_without{"EDS308", Severity::warning, "CompactPDO is given, but the device has no PDOs",
+                               counts};
+constexpr Rule finer_than_granularity{"EDS309", Severity::warning,
+                                      "A mappable object is shorter than the granularity", counts};
+constexpr Rule no_pdo{"EDS310", Severity::note,
+                      "Objects can be mapped, but there is no PDO of that direction", pdos};
+constexpr Rule no_cob_id{"EDS311", Severity::error, "A PDO has no COB-ID (sub-index 01h)", pdos};
+
+constexpr const Rule* all[] = {&rpdo_count,       &tpdo_count,
+                               &no_mapping,       &no_communication,
+                               &count_is_const,   &entries_are_const,
+                               &granularity_zero, &mapping_without_cob_id,
+                               &compact_without,  &finer_than_granularity,
+                               &no_pdo,           &no_cob_id};
+
+struct Direction {
+  unsigned communication;  ///< first index
+  unsigned mapping;
+  std::string_view key;
+  Field DeviceInfo::* count;
+  const Rule* rule;
+};
+constexpr Direction directions[] = {
+    {0x1400, 0x1600, "NrOfRXPDO", &DeviceInfo::nr_of_rx_pdo, &rpdo_count},
+    {0x1800, 0x1A00, "NrOfTXPDO", &DeviceInfo::nr_of_tx_pdo, &tpdo_count},
+};
+constexpr unsigned range = 0x200;
+
+bool writable(const Entry* entry) {
+  const auto allowed = entry == nullptr ? std::nullopt : access(*entry);
+  return allowed && can_be_written(*allowed);
+}
+
+std::uint64_t number_of_pdos(const Subject& subject, const Direction& direction) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(subject.objects, [&](const Object& object) {
+    return between(object.index, direction.communication, direction.communication + range - 1);
+  }));
+}
+
+void check_counts(const Subject& subject, Findings& findings) {
+  const auto& info = subject.file.device_info;
+  // Modules bring PDOs of their own.
+  if (!info.present || is_modular(subject.file)) return;
+  bool some = false;
+  for (const auto& direction : directions) {
+    const auto& field = info.*direction.count;
+    const auto said = number_of(field);
+    const auto found = number_of_pdos(subject, direction);
+    some = some || found > 0 || said.value_or(0) > 0;
+    if (!said && !field.empty()) continue;
+    if (said.value_or(0) != found)
+      findings.add(*direction.rule, place_of(field, info.at),
+                   fmt::format("{} says {}, but there are {} communication parameters", direction.key,
+                               field.empty() ? "nothing" : std::to_string(*said), found));
+  }
+  if (!some && number_of(info.compact_pdo).value_or(0) > 0)
+    findings.add(compact_without, info.compact_pdo.at, "CompactPDO is given, but the device has no PDOs");
+}
+
+void check_mapping_access(const Subject& subject, const Object& mapping, const Object* communication,
+                          Findings& findings) {
+  const auto* zero = mapping.find(SubIndex(0));
+  if (zero == nullptr) return;
+  const auto* first_writable = static_cast<const SubObject*>(nullptr);
+  bool any = false;
+  for (const auto& sub : mapping.subs) {
+    if (sub.sub == SubIndex(0)) continue;
+    any = true;
+    if (first_writable == nullptr && writable(&sub.entry)) first_writable = &sub;
+  }
+  const auto name = section_name(mapping.index, SubIndex(0));
+  const bool changeable = writable(zero);
+  if (first_writable != nullptr && !changeable && access(*zero))
+    findings.add(count_is_const, place_of(zero->access_type, zero->at),
+                 fmt::format("{}: it cannot be written, but {} can", name,
+                             section_name(mapping.index, first_writable->sub)),
+                 "a mapping is changed by writing 0 to sub-index 00h first");
+  if (changeable && any && first_writable == nullptr)
+    findings.add(entries_are_const, place_of(zero->access_type, zero->at),
+                 fmt::format("{}: only the number of objects can be written", name));
+  if (!changeable) return;
+  if (number_of(subject.file.device_info.granularity) == 0U)
+    findings.add(granularity_zero, place_of(zero->access_type, zero->at),
+                 fmt::format("{}: it can be written, but Granularity is 0", name));
+  const auto* cob_id = communication == nullptr ? nullptr : communication->find(SubIndex(1));
+  if (cob_id != nullptr && access(*cob_id) && !writable(cob_id))
+    findings.add(mapping_without_cob_id, place_of(zero->access_type, zero->at),
+                 fmt::format("{}: the PDO must be made invalid first, but {} is {}", name,
+                             section_name(communication->index, SubIndex(1)), cob_id->access_type.text));
+}
+
+void check_pairs(const Subject& subject, Findings& findings) {
+  for (const auto& object : subject.objects) {
+    for (const auto& direction : directions) {
+      const auto other = [&](unsigned from, unsigned to) {
+        return find_object(subject.objects,
+                           Index(static_cast<std::uint16_t>(object.index.value() - from + to)));
+      };
+      if (between(object.index, direction.communication, direction.communication + range - 1)) {
+        if (other(direction.communication, direction.mapping) == nullptr)
+          findings.add(no_mapping, object.entry.at,
+                       fmt::format("{}: its mapping parameter is missing", section_name(object.index)));
+        if (!object.subs.empty() && object.find(SubIndex(1)) == nullptr)
+          findings.add(no_cob_id, object.entry.at,
+                       fmt::format("{}: sub-index 01h is missing", section_name(object.index)));
+      }
+      if (between(object.index, direction.mapping, direction.mapping + range - 1)) {
+        const auto* communication = other(direction.mapping, direction.communication);
+        if (communication == nullptr)
+          findings.add(no_communication, object.entry.at,
+                       fmt::format("{}: its communication parameter is missing", section_name(object.index)));
+        check_mapping_access(subject, object, communication, findings);
+      }
+    }
+  }
+}
+
+void check_mappable(const Subject& subject, Findings& findings) {
+  const auto granularity = number_of(subject.file.device_info.granularity).value_or(0);
+  const bool modular = is_modular(subject.file);
+  bool no_rpdo = !modular && number_of_pdos(subject, directions[0]) == 0;
+  bool no_tpdo = !modular && number_of_pdos(subject, directions[1]) == 0;
+  each_described(subject, [&](const Spot& spot) {
+    const auto mapping = pdo_mapping(spot.entry);
+    if (mapping == PdoMapping::no || !spot.has_value()) return;
+    const auto type = data_type(spot.entry);
+    const auto* info = type ? find_type(*type) : nullptr;
+    if (info != nullptr && info->bits > 0 && info->bits < granularity && granularity <= 64)
+      findings.add(finer_than_granularity, place_of(spot.entry.pdo_mapping, spot.entry.at),
+                   fmt::format("{}: {} has {} bits, Granularity is {}", spot.name(), info->name, info->bits,
+                               granularity));
+    const auto allowed = access(spot.entry);
+    if (no_rpdo && (allowed == Access::wo || allowed == Access::rww || mapping == PdoMapping::rpdo_only)) {
+      no_rpdo = false;
+      findings.add(no_pdo, place_of(spot.entry.pdo_mapping, spot.entry.at),
+                   fmt::format("{}: there is no RPDO to map it into", spot.name()));
+    }
+    if (no_tpdo && (allowed == Access::ro || allowed == Access::rwr || mapping == PdoMapping::tpdo_only)) {
+      no_tpdo = false;
+      findings.add(no_pdo, place_of(spot.entry.pdo_mapping, spot.entry.at),
+                   fmt::format("{}: there is no TPDO to map it into", spot.name()));
+    }
+  });
+}
+
+void check(const Subject& subject, Findings& findings) {
+  check_counts(subject, findings);
+  check_pairs(subject, findings);
+  check_mappable(subject, findings);
+}
+
+}  // namespace
+
+constinit const Group pdo_rules{{"PDOs", all}, check};
+
+}  // namespace conform::eds

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the files lint_*.cpp share: each holds the rules of one group and the function that applies them.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "eds/lint.hpp"
+
+namespace conform::eds {
+
+/// What is looked at: the file and its dictionary in full (expand.hpp).
+struct Subject {
+  const EdsFile& file;
+  const std::vector<Object>& objects;
+  std::string expansion_fault;  ///< why `objects` lacks what is implied, or empty
+  Position expansion_at;
+};
+
+class Findings {
+ public:
+  void add(const Rule& rule, Position at, std::string message, std::string hint = {});
+  [[nodiscard]] LintReport finish();
+
+ private:
+  LintReport report_;
+  std::map<const Rule*, std::size_t> counts_;
+  std::set<std::tuple<Position, const Rule*, std::string>> known_;
+};
+
+struct Group {
+  RuleGroup table;
+  void (*check)(const Subject& subject, Findings& findings);
+};
+
+extern const Group structure_rules;
+extern const Group number_rules;
+extern const Group value_rules;
+extern const Group info_rules;
+extern const Group list_rules;
+extern const Group object_rules;
+extern const Group predefined_rules;
+extern const Group sub_object_rules;
+extern const Group compact_rules;
+extern const Group pdo_rules;
+extern const Group mapping_rules;
+extern const Group identity_rules;
+extern const Group module_rules;
+
+/// "[1018]" or "[1018sub1]": a section as the standard spells it.
+[[nodiscard]] std::string section_name(Index index, std::optional<SubIndex> sub = {});
+
+/// The place of a field, or of what should contain it.
+[[nodiscard]] inline Position place_of(const Field& field, Position otherwise) {
+  return field.at.known() ? field.at : otherwise;
+}
+
+/// Where an entry stands in the dictionary.
+struct Spot {
+  const Object& object;
+  std::optional<SubIndex> sub;  ///< nothing: the section of the object itself
+  const Entry& entry;
+  [[nodiscard]] std::string name() const { return section_name(object.index, sub); }
+  /// The entry has a value of its own, and is not only the head of a structure.
+  [[nodiscard]] bool has_value() const { return sub.has_value() || !is_structured(object); }
+};
+
+/// Everything that sections of objects and sub-objects describe, in ascending order.
+void each_described(const Subject& subject, const std::function<void(const Spot&)>& look);
+
+/// The number that an entry has at power-on: ParameterValue of a DCF before DefaultValue.
+[[nodiscard]] const Field& effective_value(const Entry& entry);
+
+inline bool between(Index index, unsigned first, unsigned last) {
+  return index.value() >= first && index.value() <= last;
+}
+inline bool is_communication_parameter(Index index) {
+  return between(index, 0x1400, 0x15FF) || between(index, 0x1800, 0x19FF);
+}
+inline bool is_mapping_parameter(Index index) {
+  return between(index, 0x1600, 0x17FF) || between(index, 0x1A00, 0x1BFF);
+}
+/// Modules add objects and PDOs that the file of the coupler only announces.
+inline bool is_modular(const EdsFile& file) {
+  return !file.supported_modules.entries.empty() || !file.modules.empty();
+}
+
+}  // namespace conform::eds
