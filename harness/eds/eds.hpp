@@ -95,6 +95,7 @@ struct SubObject {
 
 struct Object {
   Index index;
+  bool described = true;  ///< false: only sub-objects have sections, `entry` is empty
   Entry entry;
   Field sub_number, compact_sub_obj;
   std::vector<SubObject> subs;              ///< ascending, each sub-index once

@@ -113,6 +113,7 @@ struct Pile {
         remarks.add(Deviation::sub_without_object, builder.first, to_string(index));
         if (builder.subs.empty()) continue;
         builder.object.entry.at = builder.first;
+        builder.object.described = false;
       }
       for (auto& [sub, entry] : builder.subs) builder.object.subs.push_back({sub, std::move(entry)});
       out.push_back(std::move(builder.object));
@@ -268,10 +269,10 @@ class Reader {
   /// A DCF is an EDS with more in it; the extension of the file's name says little.
   [[nodiscard]] bool is_dcf() const {
     const auto configured = [](const Entry& entry) {
-      return entry.parameter_value.present || entry.upload_file.present || entry.download_file.present ||
-             entry.denotation.present;
+      return !entry.parameter_value.empty() || !entry.upload_file.empty() || !entry.download_file.empty() ||
+             !entry.denotation.empty();
     };
-    return out_.commissioning.present || out_.file_info.last_eds.present ||
+    return out_.commissioning.present || !out_.file_info.last_eds.empty() ||
            std::ranges::any_of(out_.objects, [&](const Object& object) {
              return object.values.present || object.denotations.present || configured(object.entry) ||
                     std::ranges::any_of(object.subs, [&](const auto& sub) { return configured(sub.entry); });

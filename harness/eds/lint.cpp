@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 #include "base/text.hpp"
@@ -55,8 +56,9 @@ void Findings::add(const Rule& rule, Position at, std::string message, std::stri
 }
 
 LintReport Findings::finish() {
-  std::ranges::stable_sort(report_.findings, {},
-                           [](const auto& finding) { return std::pair(finding.at, finding.rule->code); });
+  std::ranges::sort(report_.findings, [](const Finding& a, const Finding& b) {
+    return std::tie(a.at, a.rule->code, a.message) < std::tie(b.at, b.rule->code, b.message);
+  });
   return std::move(report_);
 }
 
@@ -114,7 +116,7 @@ std::string section_name(Index index, std::optional<SubIndex> sub) {
 
 void each_described(const Subject& subject, const std::function<void(const Spot&)>& look) {
   for (const auto& object : subject.file.objects) {
-    look({object, {}, object.entry});
+    if (object.described) look({object, {}, object.entry});
     for (const auto& sub : object.subs) look({object, sub.sub, sub.entry});
   }
 }

@@ -145,9 +145,10 @@ void check_device_info(const EdsFile& file, Findings& findings) {
 
 void check_commissioning(const EdsFile& file, Findings& findings) {
   const auto& info = file.commissioning;
-  const auto is_named_dcf = lower(file.name).ends_with(".dcf");
+  const auto name = lower(file.name);
   if (!info.present) {
-    if (!file.is_xml() && (file.format == Format::dcf || is_named_dcf))
+    // Some editors save their projects as EDS with a few configured values in it: that is no DCF.
+    if (!file.is_xml() && (name.ends_with(".dcf") || (file.format == Format::dcf && !name.ends_with(".eds"))))
       findings.add(no_commissioning, {},
                    "a DCF without [DeviceComissioning] says neither node-ID nor bit rate");
     return;

@@ -19,8 +19,8 @@ constexpr Rule no_list{"EDS151", Severity::warning, "There is no [OptionalObject
                        lists};
 constexpr Rule wrong_count{"EDS152", Severity::error, "SupportedObjects is not the number of listed objects",
                            lists};
-constexpr Rule numbering{"EDS153", Severity::warning, "The entries of a list are not numbered 1, 2, 3...",
-                         lists};
+constexpr Rule numbering{"EDS153", Severity::warning,
+                         "The entries of a list are not numbered in a row from 1 on", lists};
 constexpr Rule not_described{"EDS154", Severity::error, "A listed object has no section", lists};
 constexpr Rule not_listed{"EDS155", Severity::error, "A described object is in no list", lists};
 constexpr Rule wrong_list{"EDS156", Severity::error, "An object is in a list for other indices", lists};
@@ -86,6 +86,8 @@ class Check {
     }
     std::uint64_t expected = 1;
     for (const auto& entry : list.entries) {
+      // A number that is there twice has its own finding.
+      if (entry.number + 1 == expected) continue;
       if (entry.number != expected) {
         findings_.add(numbering, entry.field.key_at,
                       fmt::format("[{}]: entry {} where {} is expected", list.name, entry.number, expected));

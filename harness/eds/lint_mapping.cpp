@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 #include "eds/lint_rules.hpp"
@@ -112,7 +113,8 @@ class Check {
     const auto value = number_of(field);
     if (!value || *value > 0xFFFF'FFFF) return 0;
     if (*value == 0) {
-      add(gap, field, sub.sub, "nothing is mapped here, but sub-index 00h counts it");
+      if (!std::exchange(said_gap_, true))
+        add(gap, field, sub.sub, "nothing is mapped here, but sub-index 00h counts it");
       return 0;
     }
     const auto mapped = unpack(*value);
@@ -173,6 +175,7 @@ class Check {
   const Subject& subject_;
   const Object& mapping_;
   bool is_tpdo_;
+  bool said_gap_ = false;  ///< once for each mapping
   Findings& findings_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view descriptions = "CiA 306, object descriptions";
 
-constexpr Rule no_name{"EDS200", Severity::error, "ParameterName is missing", descriptions};
+constexpr Rule no_name{"EDS200", Severity::warning, "ParameterName is missing", descriptions};
 constexpr Rule bad_object_type{"EDS201", Severity::error, "ObjectType is none of the object codes",
                                "CiA 301, 7.4.3"};
 constexpr Rule no_data_type{"EDS202", Severity::error, "A variable has no DataType", descriptions};
@@ -52,7 +52,9 @@ class Check {
           fmt::format("ObjectType {} is no object code", shortened(entry.object_type.text)));
     if (!spot_.sub) structure(code);
     const bool compact = number_of(spot_.object.compact_sub_obj).value_or(0) > 0;
-    if (spot_.sub || (!is_structured(spot_.object) && code == ObjectCode::var) || compact) variable(code);
+    if (spot_.sub ||
+        (!is_structured(spot_.object) && (code == ObjectCode::var || code == ObjectCode::domain)) || compact)
+      variable(code);
     if (number_of(entry.obj_flags).value_or(0) > 3 && *number_of(entry.obj_flags) <= 0xFFFF'FFFF)
       add(unknown_flags, entry.obj_flags,
           fmt::format("ObjFlags {} has bits besides 0 and 1", shortened(entry.obj_flags.text)));

@@ -31,7 +31,7 @@ constexpr Rule mapping_without_cob_id{"EDS307", Severity::warning,
 constexpr Rule compact_without{"EDS308", Severity::warning, "CompactPDO is given, but the device has no PDOs",
                                counts};
 constexpr Rule finer_than_granularity{"EDS309", Severity::warning,
-                                      "A mappable object is shorter than the granularity", counts};
+                                      "Mappable objects are shorter than the granularity", counts};
 constexpr Rule no_pdo{"EDS310", Severity::note,
                       "Objects can be mapped, but there is no PDO of that direction", pdos};
 constexpr Rule no_cob_id{"EDS311", Severity::error, "A PDO has no COB-ID (sub-index 01h)", pdos};
@@ -150,15 +150,15 @@ void check_mappable(const Subject& subject, Findings& findings) {
   const bool modular = is_modular(subject.file);
   bool no_rpdo = !modular && number_of_pdos(subject, directions[0]) == 0;
   bool no_tpdo = !modular && number_of_pdos(subject, directions[1]) == 0;
+  std::size_t finer = 0;
+  std::string first_finer;
   each_described(subject, [&](const Spot& spot) {
     const auto mapping = pdo_mapping(spot.entry);
     if (mapping == PdoMapping::no || !spot.has_value()) return;
     const auto type = data_type(spot.entry);
     const auto* info = type ? find_type(*type) : nullptr;
-    if (info != nullptr && info->bits > 0 && info->bits < granularity && granularity <= 64)
-      findings.add(finer_than_granularity, place_of(spot.entry.pdo_mapping, spot.entry.at),
-                   fmt::format("{}: {} has {} bits, Granularity is {}", spot.name(), info->name, info->bits,
-                               granularity));
+    if (info != nullptr && info->bits > 0 && info->bits < granularity && finer++ == 0)
+      first_finer = fmt::format("{} has {} bits", spot.name(), info->bits);
     const auto allowed = access(spot.entry);
     if (no_rpdo && (allowed == Access::wo || allowed == Access::rww || mapping == PdoMapping::rpdo_only)) {
       no_rpdo = false;
@@ -171,6 +171,13 @@ void check_mappable(const Subject& subject, Findings& findings) {
                    fmt::format("{}: there is no TPDO to map it into", spot.name()));
     }
   });
+  // One number is wrong, however many objects contradict it.
+  if (finer > 0 && granularity <= 64) {
+    const auto& field = subject.file.device_info.granularity;
+    findings.add(finer_than_granularity, field.at,
+                 fmt::format("Granularity is {}, but {} mappable objects are shorter; {}",
+                             shortened(field.text), finer, first_finer));
+  }
 }
 
 void check(const Subject& subject, Findings& findings) {

@@ -77,7 +77,7 @@ class Check {
   }
 
   void count(bool compact) {
-    if (compact || (xml_ && object_.sub_number.empty())) return;
+    if (compact || !object_.described || (xml_ && object_.sub_number.empty())) return;
     const auto described = static_cast<std::size_t>(
         std::ranges::count_if(object_.subs, [](const auto& sub) { return sub.sub != SubIndex(0xFF); }));
     if (object_.sub_number.empty())

@@ -132,9 +132,11 @@ class Check {
                const std::optional<Number>& value, std::string_view key, const Field& field) {
     const auto& entry = spot_.entry;
     if (low && high && *low > *high) {
-      findings_.add(limits_crossed, entry.low_limit.at,
-                    fmt::format("{}: LowLimit {} is above HighLimit {}", spot_.name(),
-                                shortened(entry.low_limit.text), shortened(entry.high_limit.text)));
+      findings_.add(
+          limits_crossed, entry.low_limit.at,
+          fmt::format("{}: LowLimit {} is above HighLimit {}", spot_.name(), shortened(entry.low_limit.text),
+                      shortened(entry.high_limit.text)),
+          type_.kind == TypeKind::signed_integer ? fmt::format("the data type is {}", type_.name) : "");
       return;
     }
     if (!value) return;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// libFuzzer target: no bytes may crash, hang or exhaust the reader of device descriptions, the expansion or
+// the lint. The input is a file; a first byte of 0 or 1 is cut off, and 1 makes the name that of a DCF.
+// Seeds: the fixtures of the tests.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "base/check.hpp"
+#include "eds/expand.hpp"
+#include "eds/lint.hpp"
+#include "eds/read.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace conform;
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  const bool dcf = !text.empty() && text.front() == 1;
+  if (!text.empty() && static_cast<unsigned char>(text.front()) <= 1) text.remove_prefix(1);
+  const auto file = eds::read(text, dcf ? "fuzz.dcf" : "fuzz.eds");
+  if (!file) {
+    CONFORM_CHECK(file.error().where.starts_with("fuzz."));
+    return 0;
+  }
+  for (std::size_t i = 1; i < file->objects.size(); ++i)
+    CONFORM_CHECK(file->objects[i - 1].index < file->objects[i].index);
+  if (const auto objects = eds::expand(*file)) {
+    for (const auto& object : *objects) {
+      for (std::size_t i = 1; i < object.subs.size(); ++i)
+        CONFORM_CHECK(object.subs[i - 1].sub < object.subs[i].sub);
+      CONFORM_CHECK(eds::find_object(*objects, object.index) == &object);
+    }
+  }
+  const auto report = eds::lint(*file);
+  for (const auto& finding : report.findings) {
+    CONFORM_CHECK(finding.at.known());
+    CONFORM_CHECK(!finding.message.empty() && finding.message.size() < 1000);
+    CONFORM_CHECK(eds::find_rule(finding.rule->code) == finding.rule);
+  }
+  // A word alone, without the sections around it.
+  (void)eds::parse_number(text);
+  (void)eds::parse_real(text);
+  return 0;
+}
