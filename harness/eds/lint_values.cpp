@@ -36,7 +36,6 @@ constexpr const Rule* all[] = {&value_range, &limit_range, &outside_limits, &lim
 struct Value {
   bool negative = false;
   std::uint64_t magnitude = 0;
-  friend constexpr bool operator==(const Value&, const Value&) = default;
   friend constexpr std::strong_ordering operator<=>(const Value& a, const Value& b) {
     if (a.negative != b.negative) return b.negative <=> a.negative;
     return a.negative ? b.magnitude <=> a.magnitude : a.magnitude <=> b.magnitude;
