@@ -45,7 +45,7 @@ struct NumberedField {
 /// entries are in the order of the file, repeated numbers included: any of them could be the one that was
 /// meant.
 struct NumberedList {
-  std::string name;  ///< of the section, as spelled
+  std::string name;  ///< of the section, as spelled, shortened for messages
   Position at;       ///< of the section
   bool present = false;
   Field count;

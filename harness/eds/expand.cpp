@@ -60,8 +60,7 @@ class Expander {
   Result<std::vector<Object>> run() {
     std::vector<Object> out = file_.objects;
     for (auto& object : out) {
-      expand_subs(object);
-      if (count_ > most_implied) return too_many(object.compact_sub_obj.at);
+      if (!expand_subs(object)) return too_many(object.compact_sub_obj.at);
     }
     const auto mask = number_of(file_.device_info.compact_pdo).value_or(0);
     if (mask != 0) {
@@ -74,13 +73,18 @@ class Expander {
 
  private:
   [[nodiscard]] std::unexpected<Error> too_many(Position at) const {
-    return fail(fmt::format("more than {} entries are implied by CompactSubObj", most_implied),
+    return fail(fmt::format("more than {} entries or {} bytes are implied by CompactSubObj", most_implied,
+                            most_implied_bytes),
                 file_.name + ":" + to_string(at));
   }
 
-  void expand_subs(Object& object) {
+  /// False when that would be too much.
+  bool expand_subs(Object& object) {
     const auto count = std::min<std::uint64_t>(number_of(object.compact_sub_obj).value_or(0), most_subs);
-    if (count == 0) return;
+    if (count == 0) return true;
+    // Each implied entry repeats the texts of the main section.
+    for (const auto& row : entry_fields) bytes_ += (object.entry.*row.field).text.size() * count;
+    if (bytes_ > most_implied_bytes || count_ + count > most_implied) return false;
     const auto by = object.compact_sub_obj.at;
     const auto names = by_number(object.names);
     const auto values = by_number(object.values);
@@ -108,6 +112,7 @@ class Expander {
     }
     std::ranges::move(subs, std::back_inserter(object.subs));
     std::ranges::sort(object.subs, {}, &SubObject::sub);
+    return true;
   }
 
   void expand_pdos(std::vector<Object>& out, const Field& total, std::uint16_t first, std::uint64_t mask) {
@@ -167,6 +172,7 @@ class Expander {
 
   const EdsFile& file_;
   std::size_t count_ = 0;
+  std::uint64_t bytes_ = 0;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // The dictionary in full: what CompactSubObj and CompactPDO say in short, written out.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "base/error.hpp"
@@ -11,6 +12,8 @@ namespace conform::eds {
 
 /// At most so many entries are implied in one file; more is refused.
 inline constexpr std::size_t most_implied = 100'000;
+/// At most so many bytes of names and values are repeated by that.
+inline constexpr std::size_t most_implied_bytes = 64U * 1024U * 1024U;
 
 /// All objects, ascending by index, with those entries that are only implied. An implied entry has
 /// `Entry::implied_by`, the place of the CompactSubObj or CompactPDO; what is described stays as it is.

@@ -207,7 +207,7 @@ class Reader {
 
   static void list(Taker& taker, const IniSection& section, NumberedList& into, std::string_view count,
                    std::string_view prefix = {}) {
-    into.name = section.name;
+    into.name = shortened(section.name);
     into.at = section.at;
     into.present = true;
     taker.field(count, into.count);

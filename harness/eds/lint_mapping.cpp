@@ -167,8 +167,8 @@ class Check {
                  : can_be_written(*allowed) && *allowed != Access::rwr && mappable != PdoMapping::tpdo_only;
     if (!fits)
       add(wrong_direction, field, sub,
-          fmt::format("{} is {}{}, so it cannot be in {}", name, entry->access_type.text,
-                      subject_.file.is_xml() ? " and mapped as " + entry->pdo_mapping.text : "",
+          fmt::format("{} is {}{}, so it cannot be in {}", name, shortened(entry->access_type.text),
+                      subject_.file.is_xml() ? " and mapped as " + shortened(entry->pdo_mapping.text) : "",
                       is_tpdo_ ? "a TPDO" : "an RPDO"));
   }
 

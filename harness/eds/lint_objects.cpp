@@ -118,7 +118,8 @@ class Check {
     if (!entry.parameter_value.empty() && allowed && !can_be_written(*allowed) &&
         entry.parameter_value.text != entry.default_value.text && !entry.default_value.empty())
       add(configured_read_only, entry.parameter_value,
-          fmt::format("ParameterValue is not the DefaultValue of an object that is {}", word.text));
+          fmt::format("ParameterValue is not the DefaultValue of an object that is {}",
+                      shortened(word.text)));
   }
 
   const Spot& spot_;

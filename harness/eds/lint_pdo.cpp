@@ -114,9 +114,10 @@ void check_mapping_access(const Subject& subject, const Object& mapping, const O
                  fmt::format("{}: it can be written, but Granularity is 0", name));
   const auto* cob_id = communication == nullptr ? nullptr : communication->find(SubIndex(1));
   if (cob_id != nullptr && access(*cob_id) && !writable(cob_id))
-    findings.add(mapping_without_cob_id, place_of(zero->access_type, zero->at),
-                 fmt::format("{}: the PDO must be made invalid first, but {} is {}", name,
-                             section_name(communication->index, SubIndex(1)), cob_id->access_type.text));
+    findings.add(
+        mapping_without_cob_id, place_of(zero->access_type, zero->at),
+        fmt::format("{}: the PDO must be made invalid first, but {} is {}", name,
+                    section_name(communication->index, SubIndex(1)), shortened(cob_id->access_type.text)));
 }
 
 void check_pairs(const Subject& subject, Findings& findings) {

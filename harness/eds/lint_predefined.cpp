@@ -85,9 +85,9 @@ void compare(const Spot& spot, const Row& row, Findings& findings) {
   const auto allowed = access(entry);
   if (!allowed) return;
   if (row.read_only && can_be_written(*allowed))
-    findings.add(
-        too_open, entry.access_type.at,
-        fmt::format("{}: AccessType is {}, by CiA 301 it is read-only", spot.name(), entry.access_type.text));
+    findings.add(too_open, entry.access_type.at,
+                 fmt::format("{}: AccessType is {}, by CiA 301 it is read-only", spot.name(),
+                             shortened(entry.access_type.text)));
   if (!can_be_read(*allowed))
     findings.add(not_readable, entry.access_type.at,
                  fmt::format("{}: by CiA 301 it can be read", spot.name()));

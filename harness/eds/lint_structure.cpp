@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "base/text.hpp"
+#include "eds/ini_file.hpp"
 #include "eds/lint_rules.hpp"
 
 namespace conform::eds {
@@ -112,12 +117,31 @@ constexpr Row rows[] = {
     {Deviation::xml_unknown_mapping, &xml_mapping, "'{}' is no PDOmapping", {}},
 };
 
+/// The keys that an unknown one could have been meant to be.
+std::vector<std::string_view> known_keys() {
+  std::vector<std::string_view> out{"SupportedObjects", "NrOfEntries", "Lines", "ObjectLinks"};
+  const auto add = [&out](const auto& fields) {
+    for (const auto& row : fields) out.push_back(row.key);
+  };
+  add(file_info_fields);
+  add(device_info_fields);
+  add(commissioning_fields);
+  add(entry_fields);
+  add(object_fields);
+  return out;
+}
+
 void check(const Subject& subject, Findings& findings) {
+  const auto keys = known_keys();
   for (const auto& remark : subject.file.remarks.all()) {
     const auto* row = std::ranges::find(rows, remark.what, &Row::what);
     if (row == std::end(rows)) continue;
     auto hint = std::string(row->hint);
     if (remark.first.known()) hint = fmt::format("the first one, in line {}, counts", remark.first.line);
+    if (remark.what == Deviation::unknown_entry) {
+      const auto meant = did_you_mean(remark.detail, keys);
+      if (!meant.empty() && !same_word(meant, remark.detail)) hint = fmt::format("did you mean {}?", meant);
+    }
     findings.add(*row->rule, remark.at, fmt::format(fmt::runtime(row->message), remark.detail),
                  std::move(hint));
   }

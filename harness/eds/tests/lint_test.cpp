@@ -116,6 +116,26 @@ TEST_CASE("A finding points at the very text") {
   CHECK(line.substr(finding.at.column - 1) == "300");
 }
 
+TEST_CASE("A misspelled key is told with the one that was meant") {
+  const auto report = lint(*eds::read("[1000]\nAcessType=ro\n", "a.eds"));
+  const auto found =
+      std::ranges::find(report.findings, "EDS020", [](const auto& finding) { return finding.rule->code; });
+  REQUIRE(found != report.findings.end());
+  CHECK(found->hint == "did you mean AccessType?");
+}
+
+TEST_CASE("A finding stays short however long the text is that it is about") {
+  const std::string text =
+      "[2000" + std::string(5000, ' ') +
+      "Value]\n[2001]\nDataType=5\nCompactSubObj=200\nParameterName=" + std::string(1'000'000, 'x') +
+      "\nAccessType=wo ;" + std::string(5000, 'y') + "\n[1001]\nAccessType=rw;" + std::string(5000, 'z') +
+      "\n";
+  const auto report = lint(*eds::read(text, "a.eds"));
+  CHECK(report.findings.size() > 5);
+  for (const auto& finding : report.findings) CHECK(finding.message.size() < 300);
+  CHECK(codes(report).contains("EDS276"));
+}
+
 TEST_CASE("Findings are in the order of the file") {
   std::string text = content(folder / "bad-junk-line.eds") + content(folder / "bad-hash-comment.eds");
   const auto report = lint(*eds::read(text, "a.eds"));
