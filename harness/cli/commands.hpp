@@ -58,6 +58,29 @@ struct LintCommand {
 };
 [[nodiscard]] int lint_command(const LintCommand& options);
 
+struct EdsLintCommand {
+  std::vector<std::string> files;
+  std::string format = "text";  ///< text, json, github, sarif
+  bool strict = false;          ///< warnings count as errors
+  bool rules = false;           ///< print the page of all rules instead
+  std::string color = "auto";
+};
+/// 0: no errors; exit_usage: errors, or a file that cannot be read.
+[[nodiscard]] int eds_lint_command(const EdsLintCommand& options);
+
+struct EdsShowCommand {
+  std::string file;
+  std::string format = "text";  ///< text, json
+};
+[[nodiscard]] int eds_show_command(const EdsShowCommand& options);
+
+struct EdsDiffCommand {
+  std::string before, after;
+  std::string format = "text";  ///< text, json
+};
+/// 0: they say the same; 1: they do not.
+[[nodiscard]] int eds_diff_command(const EdsDiffCommand& options);
+
 struct ListCommand {
   std::vector<std::string> select;
   std::vector<std::string> requirements;
@@ -88,7 +111,7 @@ struct BenchCommand {
   std::string interface;
   std::uint32_t node = 5;
   std::uint64_t round_trips = 20000;
-  std::uint64_t bytes = 0;      ///< throughput instead: of a block transfer, at most 1 MiB
+  std::uint64_t bytes = 0;     ///< throughput instead: of a block transfer, at most 1 MiB
   std::uint32_t simulate = 0;  ///< throughput on a simulated bus of this bit rate
 };
 [[nodiscard]] int bench_command(const BenchCommand& options);

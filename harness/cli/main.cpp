@@ -8,6 +8,50 @@
 
 namespace {
 
+/// The sub-commands of `eds`.
+struct EdsOptions {
+  conform::cli::EdsLintCommand lint;
+  conform::cli::EdsShowCommand show;
+  conform::cli::EdsDiffCommand diff;
+  CLI::App* lint_sub = nullptr;
+  CLI::App* show_sub = nullptr;
+  CLI::App* diff_sub = nullptr;
+
+  void add_to(CLI::App& app) {
+    app.require_subcommand(1);
+    const auto format = [](CLI::App* sub, std::string& into, const std::vector<std::string>& names,
+                           const char* help) {
+      sub->add_option("-f,--format", into, help)
+          ->check(CLI::IsMember(names).description(""))
+          ->type_name("FORMAT");
+    };
+    lint_sub =
+        app.add_subcommand("lint", "Tell what is wrong in the files; exits with 2 where there are errors");
+    lint_sub->add_option("files", lint.files, "Device descriptions")->type_name("FILE");
+    format(lint_sub, lint.format, {"text", "json", "github", "sarif"}, "Output: text, json, github or sarif");
+    lint_sub->add_flag("--strict", lint.strict, "Warnings count as errors");
+    lint_sub->add_flag("--rules", lint.rules, "Print all rules as Markdown instead");
+    lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")
+        ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+        ->type_name("WHEN");
+    show_sub = app.add_subcommand("show", "Print the object dictionary as a table");
+    show_sub->add_option("file", show.file, "Device description")->required()->type_name("FILE");
+    format(show_sub, show.format, {"text", "json"}, "Output: text or json");
+    diff_sub =
+        app.add_subcommand("diff", "Tell what changed between two files; exits with 1 where they differ");
+    diff_sub->add_option("before", diff.before, "Device description of before")
+        ->required()
+        ->type_name("BEFORE");
+    diff_sub->add_option("after", diff.after, "Device description of after")->required()->type_name("AFTER");
+    format(diff_sub, diff.format, {"text", "json"}, "Output: text or json");
+  }
+
+  [[nodiscard]] int run() const {
+    if (lint_sub->parsed()) return conform::cli::eds_lint_command(lint);
+    return show_sub->parsed() ? conform::cli::eds_show_command(show) : conform::cli::eds_diff_command(diff);
+  }
+};
+
 int dispatch(int argc, char** argv) {
   using namespace conform::cli;
   CLI::App app{
@@ -110,6 +154,11 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
 
+  EdsOptions eds;
+  auto* eds_sub =
+      app.add_subcommand("eds", "Look into device descriptions (EDS, DCF, XDD, XDC), without a device");
+  eds.add_to(*eds_sub);
+
   ListCommand list;
   auto* list_sub = app.add_subcommand("list", "Show scenarios with their requirements");
   list_sub
@@ -170,6 +219,7 @@ int dispatch(int argc, char** argv) {
   if (run_sub->parsed()) return run_command(run);
   if (judge_sub->parsed()) return judge_command(judge);
   if (lint_sub->parsed()) return lint_command(lint);
+  if (eds_sub->parsed()) return eds.run();
   if (list_sub->parsed()) return list_command(list);
   if (explain_sub->parsed()) return explain_command(explain);
   if (selftest_sub->parsed()) return selftest_command(selftest);
