@@ -24,7 +24,7 @@ constexpr Rule not_readable{"EDS233", Severity::warning, "An object of CiA 301 c
 constexpr const Rule* all[] = {&other_type, &other_code, &too_open, &not_readable};
 
 constexpr unsigned u8 = 0x05, u16 = 0x06, u32 = 0x07, text = 0x09;
-constexpr int any_sub = -1;  // every sub-index from 01h on
+constexpr int any_sub = -1;  // 01h to FEh
 constexpr int head = -2;     // the object itself
 
 struct Row {
@@ -100,8 +100,9 @@ void check(const Subject& subject, Findings& findings) {
     const int sub = spot.sub ? spot.sub->value() : 0;
     for (const auto& row : rows) {
       if (!between(spot.object.index, row.first, row.last)) continue;
-      const bool fits = row.sub == head ? !spot.sub && is_head
-                                        : !is_head && (row.sub == sub || (row.sub == any_sub && sub > 0));
+      const bool fits = row.sub == head
+                            ? !spot.sub && is_head
+                            : !is_head && (row.sub == sub || (row.sub == any_sub && sub > 0 && sub < 0xFF));
       if (fits) compare(spot, row, findings);
     }
   });
