@@ -78,6 +78,8 @@ struct SelftestCommand {
   std::uint64_t seed = 1;
   bool verbose = false;
   std::vector<std::string> defects;
+  bool whole = false;
+  unsigned jobs = 0;     ///< 0: the machine's cores
   std::string markdown;  ///< file for docs/proof.md
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);

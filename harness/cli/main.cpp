@@ -138,6 +138,11 @@ int dispatch(int argc, char** argv) {
   selftest_sub->add_option("--defect", selftest.defects, "Only this defect; repeatable")
       ->allow_extra_args(false)
       ->type_name("ID");
+  selftest_sub->add_flag("--whole", selftest.whole,
+                         "Run the whole suite for every defect, to see with -v what else it spoils");
+  selftest_sub->add_option("-j,--jobs", selftest.jobs, "Threads (default: the machine's cores)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("NUMBER");
   selftest_sub->add_option("--seed", selftest.seed, "Seed of the simulation (default 1)")
       ->type_name("NUMBER");
   selftest_sub

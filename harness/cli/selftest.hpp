@@ -34,7 +34,7 @@ struct DefectVerdict {
   std::vector<std::string> violates;  ///< canonical ids
   std::vector<std::string>
       killed_by;  ///< violated requirements whose verdict became worse, as "OD-1003-06 fail in ..."
-  std::vector<std::string> proves;      ///< the ids of killed_by
+  std::vector<std::string> proves;      ///< the ids of killed_by, sorted
   std::vector<std::string> bystanders;  ///< requirements it does not list whose verdict became worse
   std::vector<std::string> unknown;     ///< ids it lists that the catalogue does not have
 };
@@ -50,9 +50,15 @@ struct KillMatrix {
   [[nodiscard]] std::vector<std::string> survivors() const;
 };
 
-/// `only`: defect ids, empty for all.
+struct KillOptions {
+  std::uint64_t seed = 1;
+  std::vector<std::string> only;  ///< defect ids, empty for all
+  /// The whole suite for every defect, to see its bystanders; otherwise what judges a requirement it violates.
+  bool whole = false;
+  unsigned jobs = 0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
+};
 [[nodiscard]] Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
-                                             const scenario::Catalogue& catalogue, std::uint64_t seed,
-                                             const std::vector<std::string>& only = {});
+                                             const scenario::Catalogue& catalogue,
+                                             const KillOptions& options);
 
 }  // namespace conform::cli
