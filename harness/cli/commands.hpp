@@ -20,7 +20,8 @@ struct RunCommand {
   std::string suites;
   std::string interface;
   bool simulate = false;
-  std::vector<std::string> defects;  ///< of the simulated reference node
+  std::vector<std::string> defects;   ///< of the simulated reference node
+  std::vector<std::string> variants;  ///< legal ones, of the same node
   std::optional<std::uint32_t> node;
   std::string device;  ///< profile file
   std::string allow;   ///< risk tier; empty: by interface

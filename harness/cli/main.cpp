@@ -28,6 +28,11 @@ int dispatch(int argc, char** argv) {
   run_sub->add_flag("--simulate", run.simulate,
                     "Run against the reference node on a simulated bus, without any device");
   run_sub
+      ->add_option("--variant", run.variants,
+                   "Legal variant of the simulated node; repeatable (canopen-refnode --list-variants)")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  run_sub
       ->add_option("--defect", run.defects,
                    "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
       ->allow_extra_args(false)

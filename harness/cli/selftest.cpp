@@ -36,11 +36,11 @@ bool worse(Verdict before, Verdict after) {
 
 }  // namespace
 
-Result<SimulatedRun> simulate(const std::vector<std::string>& defects, const device::Profile& profile,
+Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                               const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                               engine::RunOptions options, std::uint64_t seed) {
   auto node = refnode::Node::create(
-      {.node_id = profile.node.value(), .defects = defects, .storage = {}, .choices = {}});
+      {.node_id = profile.node.value(), .defects = switches.defects, .variants = switches.variants});
   if (!node) return std::unexpected(node.error());
   can::SimulatedBus::Options bus_options;
   bus_options.seed = seed;
@@ -86,7 +86,7 @@ Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::
   engine::RunOptions options;
   options.plan.slow = slow;
   options.plan.selection.requirements = std::move(requirements);
-  auto run = simulate({defect.id}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
+  auto run = simulate({.defects = {defect.id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
   if (!run) return std::unexpected(run.error());
   const auto add = [](std::vector<std::string>& to, const std::string& text) {
     if (std::ranges::find(to, text) == to.end()) to.push_back(text);

@@ -22,7 +22,12 @@ struct SimulatedRun {
   result::RunResult result;
   can::Capture capture;
 };
-[[nodiscard]] Result<SimulatedRun> simulate(const std::vector<std::string>& defects,
+/// Ids of the reference node's defects and legal variants.
+struct NodeSwitches {
+  std::vector<std::string> defects{};
+  std::vector<std::string> variants{};
+};
+[[nodiscard]] Result<SimulatedRun> simulate(const NodeSwitches& switches,
                                             const device::Profile& profile, const scenario::Suite& suite,
                                             const scenario::Catalogue& catalogue, engine::RunOptions options,
                                             std::uint64_t seed);

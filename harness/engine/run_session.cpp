@@ -53,7 +53,12 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
       dictionary_(std::move(dictionary)),
       channel_(recorder, profile.node, profile.sdo_timeout, profile.quiet_time),
       emcy_can_id_(canopen::connection_set(profile.node).emcy),
-      home_emcy_can_id_(emcy_can_id_) {}
+      home_emcy_can_id_(emcy_can_id_) {
+  channel_.set_known_size([this](Multiplexer object) -> std::optional<std::size_t> {
+    const auto* known = entry(object);
+    return known != nullptr ? known->size() : std::nullopt;
+  });
+}
 
 const steps::Value* RunSession::find(std::string_view name) const {
   const auto found = names_.find(name);

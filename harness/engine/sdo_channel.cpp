@@ -125,6 +125,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     }
     if (misplaced.empty()) misplaced = result.misplaced;
     out.push_back(to_answer(runs[i]));
+    if (jobs[i].request.upload && !out.back().size_indicated) trim(jobs[i].request.object, out.back().data);
   }
   first_request_ = recorder_.capture().size();
   for (const auto& run : runs) {
@@ -133,6 +134,12 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
   }
   if (!misplaced.empty()) return fail(misplaced, "scenario");
   return out;
+}
+
+/// Of four bytes whose number is left open (s = 0, 7.2.4.3.6) the entry's type says how many are data.
+void SdoChannel::trim(Multiplexer object, Bytes& data) const {
+  if (!known_size_) return;
+  if (const auto known = known_size_(object); known && *known > 0 && *known < data.size()) data.resize(*known);
 }
 
 bool SdoChannel::has_other_client(std::size_t first, std::size_t end) const {
@@ -170,6 +177,9 @@ Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) 
   if (!*found) return Size();
   const auto answer = canopen::decode_upload_response(recorder_.capture().frames()[**found].frame.bytes());
   if (!answer) return Size();
+  if (answer->expedited && !answer->size_indicated && known_size_) {
+    if (const auto known = known_size_(object); known && *known < answer->expedited_size()) return Size(*known);
+  }
   if (answer->expedited) return Size(answer->expedited_size());
   if (answer->size_indicated) return Size(answer->value);
   auto whole = upload(object, std::nullopt);

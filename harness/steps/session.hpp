@@ -27,6 +27,7 @@ struct SdoAnswer {
   enum class Kind : std::uint8_t { confirmed, aborted, silence, violation, gave_up };
   Kind kind = Kind::silence;  ///< gave_up: the client aborted on purpose
   Bytes data;  ///< uploads: what was delivered
+  /// false: an expedited upload with s = 0; `data` is then as long as the entry's type, where that is known.
   bool size_indicated = false;
   AbortCode code{};
   std::string detail;                ///< violation: what was wrong, in one sentence
