@@ -177,9 +177,6 @@ Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) 
   if (!*found) return Size();
   const auto answer = canopen::decode_upload_response(recorder_.capture().frames()[**found].frame.bytes());
   if (!answer) return Size();
-  if (answer->expedited && !answer->size_indicated && known_size_) {
-    if (const auto known = known_size_(object); known && *known < answer->expedited_size()) return Size(*known);
-  }
   if (answer->expedited) return Size(answer->expedited_size());
   if (answer->size_indicated) return Size(answer->value);
   auto whole = upload(object, std::nullopt);

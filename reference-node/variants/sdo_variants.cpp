@@ -46,10 +46,14 @@ How code_at(std::initializer_list<SdoStep> steps, AbortCode usual, AbortCode oth
 }
 
 /// 42h: expedited, the size is not told.
+/// A client knows the length by the type; of a string of four characters nobody would.
 void leave_out_size(VariantTarget& target) {
-  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+  const ObjectDictionary& dictionary = target.dictionary;
+  target.outbox.add_filter([&dictionary](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.sdo == nullptr || context.sdo->aborted || context.sdo->step != SdoStep::upload_initiate)
       return;
+    const auto* entry = dictionary.entry(context.sdo->index(), context.sdo->sub());
+    if (entry == nullptr || fixed_size(entry->type) == 0) return;
     for (Outgoing& outgoing : frames) {
       if ((outgoing.frame.data[0] & 0xE3U) == 0x43) outgoing.frame.data[0] = 0x42;
     }
