@@ -74,6 +74,11 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
   if (!set || set->kind != Actual::Kind::matched) return set;
   auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
   if (!sent) return std::unexpected(sent.error());
+  // What comes next may count on the usual time.
+  if (time > heartbeat_time) {
+    auto waited = session.wait_until(session.now() + time - heartbeat_time);
+    if (!waited) return std::unexpected(waited.error());
+  }
   return set;
 }
 

@@ -71,8 +71,12 @@ void expedited_only(VariantTarget& target) {
     const bool nothing_left =
         entries.empty() || (entries.size() == 1 && object->second.kind != ObjectKind::variable);
     if (!nothing_left && object->second.kind != ObjectKind::variable &&
-        entries.at(0).access == Access::constant)
-      entries.at(0).value = entries.at(0).default_value = Bytes{entries.rbegin()->first};
+        entries.at(0).access == Access::constant) {
+      // FFh is the structure of the object and not counted.
+      auto highest = std::prev(entries.end());
+      if (highest->first == 0xFF) --highest;
+      entries.at(0).value = entries.at(0).default_value = Bytes{highest->first};
+    }
     object = nothing_left ? target.dictionary.objects().erase(object) : std::next(object);
   }
   target.choices.sdo.segmented = false;
@@ -117,7 +121,8 @@ VariantTable sdo_variants() {
        .how = expedited_only,
        .group = "1008",
        .excludes = {"manufacturer", "sdo-block"},
-       .lacks = {"segmented sdo", "block sdo", "time consumer"}},
+       .lacks = {"segmented sdo", "block sdo", "time consumer"},
+       .warns = {"OD-ACC-08"}},
       {"sdo-toggle-errors-ignored", "a segment with the wrong toggle bit is ignored",
        "SDO-SUP-05, -06; SDO-SDN-04, -05", choose([](Choices& c) { c.sdo.toggle_errors_ignored = true; })},
       {.id = "sdo-block-absent",
@@ -152,8 +157,13 @@ VariantTable sdo_variants() {
        .how = choose([](Choices& c) { c.sdo.time_out.reset(); }),
        .group = "sdo-time-out",
        .warns = {"SDO-BDN-25"}},
-      {"sdo-time-out-500ms", "a transfer ends after 500 ms of silence", "SDO-SUP-18, SDO-SDN-25",
-       choose([](Choices& c) { c.sdo.time_out = milliseconds(500); }), "sdo-time-out"},
+      // With answers that take half of that time two channels at once could not be kept open.
+      {"sdo-time-out-500ms",
+       "a transfer ends after 500 ms of silence",
+       "SDO-SUP-18, SDO-SDN-25",
+       choose([](Choices& c) { c.sdo.time_out = milliseconds(500); }),
+       "sdo-time-out",
+       {"sdo-turnaround-250ms"}},
       {.id = "sdo-time-out-10s",
        .summary = "a transfer ends after 10 s of silence",
        .legal = "SDO-SUP-18, SDO-SDN-25",
