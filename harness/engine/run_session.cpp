@@ -355,6 +355,7 @@ Result<void> RunSession::command(canopen::NmtCommand command) {
   state_changed_ = true;
   if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication) {
     device_was_reset(command == canopen::NmtCommand::reset_node);
+    reset_ = *sent;
   }
   return {};
 }
@@ -375,7 +376,11 @@ Result<void> RunSession::send(const can::Frame& frame) {
   auto sent = recorder_.send(frame);
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
-  if (!frame.extended && frame.id == 0) state_changed_ = true;
+  if (!frame.extended && frame.id == 0) {
+    state_changed_ = true;
+    const bool resets = frame.size() == 2 && (frame.data[0] == 0x81 || frame.data[0] == 0x82);
+    if (resets && (frame.data[1] == 0 || frame.data[1] == node().value())) reset_ = *sent;
+  }
   return {};
 }
 
@@ -421,6 +426,8 @@ void RunSession::begin_step(bool acts, const steps::ObjectReference* object) {
 }
 
 std::vector<Change> RunSession::take_journal() { return std::exchange(journal_, {}); }
+
+std::optional<std::size_t> RunSession::take_reset() { return std::exchange(reset_, std::nullopt); }
 
 bool RunSession::take_state_changed() { return std::exchange(state_changed_, false); }
 

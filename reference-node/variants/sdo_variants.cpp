@@ -70,7 +70,10 @@ void expedited_only(VariantTarget& target) {
     });
     const bool nothing_left =
         entries.empty() || (entries.size() == 1 && object->second.kind != ObjectKind::variable);
-    if (!nothing_left && object->second.kind != ObjectKind::variable &&
+    // Mappings and the error history count something else.
+    const unsigned index = object->first;
+    const bool mapping = index >= 0x1600 && index <= 0x1BFF && (index & 0x200U) != 0;
+    if (!nothing_left && object->second.kind != ObjectKind::variable && !mapping && index != 0x1003 &&
         entries.at(0).access == Access::constant) {
       // FFh is the structure of the object and not counted.
       auto highest = std::prev(entries.end());
@@ -147,10 +150,20 @@ VariantTable sdo_variants() {
          c.sdo.next_block_size = 4;
        }),
        "block-size"},
-      {"sdo-gap-at-once", "a gap in a sub-block is acknowledged at once", "SDO-BDN-07",
-       choose([](Choices& c) { c.sdo.ack_gap_at_once = true; })},
-      {"sdo-sequence-ignored", "a sequence number that cannot be is ignored", "SDO-BDN-10, SDO-BDN-11",
-       choose([](Choices& c) { c.sdo.invalid_sequence_ignored = true; })},
+      // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is then
+      // taken for the begin of the next: only a quick server can do that, and only with one block size.
+      {"sdo-gap-at-once",
+       "a gap in a sub-block is acknowledged at once",
+       "SDO-BDN-07",
+       choose([](Choices& c) { c.sdo.ack_gap_at_once = true; }),
+       {},
+       {"turnaround", "sdo-block-size-changes"}},
+      {"sdo-sequence-ignored",
+       "a sequence number that cannot be is ignored",
+       "SDO-BDN-10, SDO-BDN-11",
+       choose([](Choices& c) { c.sdo.invalid_sequence_ignored = true; }),
+       {},
+       {"sdo-block-size-1"}},
       {.id = "sdo-no-time-out",
        .summary = "a transfer stays open for ever",
        .legal = "SDO-SUP-18, SDO-SDN-25: at most one abort",
