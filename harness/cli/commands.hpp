@@ -91,7 +91,7 @@ struct BenchCommand {
   std::string interface;
   std::uint32_t node = 5;
   std::uint64_t round_trips = 20000;
-  std::uint64_t bytes = 0;      ///< throughput instead: of a block transfer, at most 1 MiB
+  std::uint64_t bytes = 0;     ///< throughput instead: of a block transfer, at most 1 MiB
   std::uint32_t simulate = 0;  ///< throughput on a simulated bus of this bit rate
 };
 [[nodiscard]] int bench_command(const BenchCommand& options);

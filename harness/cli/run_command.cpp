@@ -155,9 +155,11 @@ int run_command(const RunCommand& options) {
         {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
         exit_usage);
   }
-  for (const auto& [option, ids] : {std::pair{"--defect", &options.defects}, {"--variant", &options.variants}}) {
+  for (const auto& [option, ids] :
+       {std::pair{"--defect", &options.defects}, {"--variant", &options.variants}}) {
     if (options.simulate || ids->empty()) continue;
-    return report_error({std::string(option) + " belongs to --simulate", {},
+    return report_error({std::string(option) + " belongs to --simulate",
+                         {},
                          std::string("on a real interface: canopen-refnode ") + option + " ID"},
                         exit_usage);
   }
@@ -277,8 +279,8 @@ int run_command(const RunCommand& options) {
   can::Capture capture;
   std::int64_t epoch = 0;
   if (options.simulate) {
-    auto simulated =
-        simulate({.defects = options.defects, .variants = options.variants}, *profile, suites->suite, suites->catalogue, run_options, options.seed);
+    auto simulated = simulate({.defects = options.defects, .variants = options.variants}, *profile,
+                              suites->suite, suites->catalogue, run_options, options.seed);
     if (!simulated) return report_error(simulated.error(), exit_usage);
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);

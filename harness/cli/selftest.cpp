@@ -86,7 +86,8 @@ Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::
   engine::RunOptions options;
   options.plan.slow = slow;
   options.plan.selection.requirements = std::move(requirements);
-  auto run = simulate({.defects = {defect.id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
+  auto run =
+      simulate({.defects = {defect.id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
   if (!run) return std::unexpected(run.error());
   const auto add = [](std::vector<std::string>& to, const std::string& text) {
     if (std::ranges::find(to, text) == to.end()) to.push_back(text);
@@ -127,9 +128,10 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row,
     }
     // What one scenario leaves behind may show in the next, and a monitor may need the traffic of scenarios
     // that judge something else.
-    whole = defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
-      return bench.monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
-    });
+    whole =
+        defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
+          return bench.monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
+        });
   }
   for (const bool slow : {false, true}) {
     if (!whole || (slow && !defect.killed_by.empty())) break;

@@ -27,8 +27,8 @@ struct NodeSwitches {
   std::vector<std::string> defects{};
   std::vector<std::string> variants{};
 };
-[[nodiscard]] Result<SimulatedRun> simulate(const NodeSwitches& switches,
-                                            const device::Profile& profile, const scenario::Suite& suite,
+[[nodiscard]] Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
+                                            const scenario::Suite& suite,
                                             const scenario::Catalogue& catalogue, engine::RunOptions options,
                                             std::uint64_t seed);
 
@@ -58,9 +58,11 @@ struct KillMatrix {
 struct KillOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> only;  ///< defect ids, empty for all
-  /// The whole suite for every defect, to see its bystanders; otherwise what judges a requirement it violates.
+  /// The whole suite for every defect, to see its bystanders; otherwise what judges a requirement it
+  /// violates.
   bool whole = false;
-  unsigned jobs = 0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
+  unsigned jobs =
+      0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
 };
 [[nodiscard]] Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
                                              const scenario::Catalogue& catalogue,

@@ -244,8 +244,8 @@ class Run {
     if (!session_.take_state_changed()) return {};
     // A device that is still booting would not hear the command, nor answer what comes next.
     if (const auto reset = session_.take_reset()) {
-      auto booted = recorder_.find(*reset + 1, boots(),
-                                   recorder_.capture().frames()[*reset].time + profile_.boot_time);
+      auto booted =
+          recorder_.find(*reset + 1, boots(), recorder_.capture().frames()[*reset].time + profile_.boot_time);
       if (!booted) return std::unexpected(booted.error());
     }
     auto sent = session_.command(canopen::NmtCommand::pre_operational);

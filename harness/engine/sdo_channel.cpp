@@ -139,7 +139,8 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
 /// Of four bytes whose number is left open (s = 0, 7.2.4.3.6) the entry's type says how many are data.
 void SdoChannel::trim(Multiplexer object, Bytes& data) const {
   if (!known_size_) return;
-  if (const auto known = known_size_(object); known && *known > 0 && *known < data.size()) data.resize(*known);
+  if (const auto known = known_size_(object); known && *known > 0 && *known < data.size())
+    data.resize(*known);
 }
 
 bool SdoChannel::has_other_client(std::size_t first, std::size_t end) const {

@@ -280,6 +280,9 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
   transfer_.kind = Kind::none;
   // It may refuse an earlier segment of the sub-block; then the ones behind that get answers, too.
   if (pending.asked == block_download_ack) lose_track();
+  // No initiate request times out: the server gave up the transfer before it, while the client's abort of
+  // that was on its way, and the answer to this request is still to come.
+  if (pending.has_multiplexer() && code_of(frame) == canopen::abort::timed_out) lose_track();
 }
 
 /// 0100 nn e s: expedited, or the beginning of a segmented transfer.

@@ -150,8 +150,8 @@ VariantTable sdo_variants() {
          c.sdo.next_block_size = 4;
        }),
        "block-size"},
-      // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is then
-      // taken for the begin of the next: only a quick server can do that, and only with one block size.
+      // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is
+      // then taken for the begin of the next: only a quick server can do that, and only with one block size.
       {"sdo-gap-at-once",
        "a gap in a sub-block is acknowledged at once",
        "SDO-BDN-07",
