@@ -32,13 +32,12 @@ endfunction()
 # Half of the compile time of a small file goes into the same headers of the standard library and fmt. One target compiles
 # them for all the others; a file must still include what it uses (clang-tidy sees no precompiled header).
 function(conform_precompiled_headers)
-  file(WRITE ${CMAKE_BINARY_DIR}/pch.cpp "")
-  add_library(conform_pch OBJECT ${CMAKE_BINARY_DIR}/pch.cpp)
+  add_library(conform_pch OBJECT ${CMAKE_SOURCE_DIR}/cmake/pch.cpp)
   target_link_libraries(conform_pch PRIVATE fmt::fmt)
   target_precompile_headers(conform_pch PRIVATE <algorithm> <array> <chrono> <cstddef> <cstdint> <expected> <functional> <map>
     <memory> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector> <fmt/format.h>)
   if(BUILD_TESTING)
-    add_library(conform_test_pch OBJECT ${CMAKE_BINARY_DIR}/pch.cpp)
+    add_library(conform_test_pch OBJECT ${CMAKE_SOURCE_DIR}/cmake/pch.cpp)
     target_link_libraries(conform_test_pch PRIVATE fmt::fmt conform_test_main)
     target_compile_options(conform_test_pch PRIVATE ${CONFORM_TEST_FLAGS})
     target_precompile_headers(conform_test_pch PRIVATE <algorithm> <array> <chrono> <cstddef> <cstdint> <expected> <functional>
