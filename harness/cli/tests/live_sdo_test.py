@@ -74,8 +74,12 @@ class LiveSdo(unittest.TestCase):
         os.makedirs(os.path.join(suites, "live"))
         with open(os.path.join(suites, "live", "megabyte.yaml"), "w", encoding="utf-8") as file:
             file.write(MEGABYTE)
-        with Node():
-            done = run(*PROFILE, "--suites", suites, "live*")
+        # A host that is late leaves a case open, which is right, and a minute of frames is long: it has three tries.
+        for _ in range(3):
+            with Node():
+                done = run(*PROFILE, "--suites", suites, "live*")
+            if done.returncode != 3:
+                break
         self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
         self.assertRegex(done.stdout, r"(?m)^pass +live/megabyte")
 
@@ -93,17 +97,19 @@ class LiveSdo(unittest.TestCase):
         self.assertEqual(quiet, busy)
 
     def test_frames_that_the_host_lost_make_a_case_inconclusive_and_never_failed(self):
+        # Without this capability the receive buffer is as small as the kernel's default: some hundred frames.
+        small = ["setpriv", "--bounding-set=-net_admin", "--inh-caps=-net_admin"]
         with Node():
-            process = subprocess.Popen(command(*PROFILE, "--junit", self.junit, "cia301/sdo/*"), stdout=subprocess.PIPE,
-                                       text=True)
+            process = subprocess.Popen(small + command(*PROFILE, "--junit", self.junit, "cia301/sdo/upload*", "cia301/sdo/segmented-*"),
+                                       stdout=subprocess.PIPE, text=True)
             seen = 0
             for line in process.stdout:
                 seen += line.startswith("pass ")
                 if seen == 5:
                     break
-            # More frames than any receive buffer holds come while the harness cannot read.
+            # More frames than the buffer holds come while the harness cannot read.
             process.send_signal(signal.SIGSTOP)
-            subprocess.run(["cangen", INTERFACE, "-g", "0", "-n", "60000", "-I", "586", "-i"], check=True)
+            subprocess.run(["cangen", INTERFACE, "-g", "0", "-n", "20000", "-I", "586", "-i"], check=True)
             process.send_signal(signal.SIGCONT)
             rest, _ = process.communicate(timeout=400)
         self.assertEqual(process.returncode, 3, rest[-3000:])
