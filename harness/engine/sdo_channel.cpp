@@ -122,6 +122,9 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
       dirty(line, true);
       line.stale = runs[i].object;
+    } else if (!result.abandoned) {
+      // A server answers in order: what was overdue does not come any more.
+      line.stale.reset();
     }
     if (misplaced.empty()) misplaced = result.misplaced;
     out.push_back(to_answer(runs[i]));

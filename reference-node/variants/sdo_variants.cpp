@@ -150,6 +150,12 @@ VariantTable sdo_variants() {
          c.sdo.next_block_size = 4;
        }),
        "block-size"},
+      {"sdo-block-size-shrinks", "the first sub-block has ten segments, the others three",
+       "7.2.4.3.11: in each acknowledge", choose([](Choices& c) {
+         c.sdo.block_size = 10;
+         c.sdo.next_block_size = 3;
+       }),
+       "block-size"},
       // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is
       // then taken for the begin of the next: only a quick server can do that, and only with one block size.
       {"sdo-gap-at-once",
@@ -157,7 +163,7 @@ VariantTable sdo_variants() {
        "SDO-BDN-07",
        choose([](Choices& c) { c.sdo.ack_gap_at_once = true; }),
        {},
-       {"turnaround", "sdo-block-size-changes"}},
+       {"turnaround", "sdo-block-size-changes", "sdo-block-size-shrinks"}},
       {"sdo-sequence-ignored",
        "a sequence number that cannot be is ignored",
        "SDO-BDN-10, SDO-BDN-11",
