@@ -54,8 +54,8 @@ int judge_command(const JudgeCommand& options) {
   how.strict = options.strict;
   // A pattern that is about no monitor selects scenarios of a run, beside which all monitors watch; here it
   // selects nothing.
-  const bool selected = how.selection.patterns.empty() ||
-                        engine::names_a_monitor(how.selection, suites->catalogue);
+  const bool selected =
+      how.selection.patterns.empty() || engine::names_a_monitor(how.selection, suites->catalogue);
   auto run = judge(*recording, *profile, suites->catalogue, how);
   if (!selected || run.cases.empty()) {
     return report_error(

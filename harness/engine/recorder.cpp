@@ -78,8 +78,8 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   if (!echo) return std::unexpected(echo.error());
   if (*echo) return **echo;
   if (transport_.health().frames_dropped == dropped) return never_sent();
-  // The host has lost frames meanwhile, and the echo was among them. The case will not be judged; the run goes
-  // on.
+  // The host has lost frames meanwhile, and the echo was among them. The case will not be judged; the run
+  // goes on.
   capture_.add({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
   return capture_.size() - 1;
 }

@@ -77,7 +77,15 @@ Result<steps::Value> RunSession::current() {
 }
 
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
-  return channel_.upload(object, std::nullopt);
+  auto answer = channel_.upload(object, std::nullopt);
+  // A transfer that was given up is no reason to end the run.
+  if (!answer && answer.error().where == "scenario") {
+    steps::SdoAnswer given_up;
+    given_up.kind = steps::SdoAnswer::Kind::gave_up;
+    given_up.detail = answer.error().what;
+    return given_up;
+  }
+  return answer;
 }
 
 Result<steps::Value> RunSession::read(Multiplexer object) {

@@ -111,7 +111,10 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)
       return std::unexpected(idle.error());
   }
-  if (auto done = run_transfers(recorder_, runs); !done) return std::unexpected(done.error());
+  if (auto done = run_transfers(recorder_, runs); !done) {
+    for (auto* line : lines) dirty(*line, true);
+    return std::unexpected(done.error());
+  }
   std::vector<steps::SdoAnswer> out;
   std::string misplaced;
   for (std::size_t i = 0; i < runs.size(); ++i) {

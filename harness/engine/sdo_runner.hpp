@@ -31,6 +31,7 @@ struct SdoRun {
   bool over = false;
   bool replied = false;
   std::size_t in_flight = 0;  ///< frames handed over whose echo has not come
+  int heard = 0;              ///< frames of the server that the client took
   BusTime since{};            ///< stamp of the frame from which the time-out counts
   BusTime not_sent_since{};   ///< for frames that do not get out at all
   bool looked_again = false;
