@@ -3,6 +3,7 @@
 // request ends waits.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -25,7 +26,10 @@ class Recorder {
       : transport_(transport),
         stop_(stop),
         most_frames_(most_frames),
-        waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {}
+        waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {
+    // In real time nobody may stand still while the capture moves to a larger place.
+    if (!transport.info().is_virtual) capture_.reserve(std::min<std::size_t>(most_frames, std::size_t{1} << 20U));
+  }
 
   [[nodiscard]] BusTime now() const { return recent_ = transport_.now(); }
   [[nodiscard]] const can::Capture& capture() const { return capture_; }

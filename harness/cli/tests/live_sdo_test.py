@@ -84,7 +84,7 @@ class LiveSdo(unittest.TestCase):
         self.assertRegex(done.stdout, r"(?m)^pass +live/megabyte")
 
     def test_a_flood_of_other_nodes_changes_no_verdict(self):
-        select = ["cia301/sdo/upload*", "cia301/sdo/download*", "cia301/sdo/segmented-*", "cia301/sdo/block-upload/*"]
+        select = ["cia301/sdo/upload/*", "cia301/sdo/download/*", "cia301/sdo/segmented-upload/*", "cia301/sdo/block-upload/*"]
         with Node():
             alone = run(*PROFILE, "--junit", self.junit, *select)
             quiet = verdicts(self.junit)
@@ -94,13 +94,16 @@ class LiveSdo(unittest.TestCase):
         self.assertEqual(alone.returncode, 0, alone.stdout[-3000:] + alone.stderr)
         self.assertEqual(beside.returncode, 0, beside.stdout[-3000:] + beside.stderr)
         self.assertGreater(len(quiet), 80)
-        self.assertEqual(quiet, busy)
+        # A monitor that had nothing to watch on the quiet bus, requests to other nodes, has it on the busy one.
+        watched = {key for key, value in quiet.items() if key[0] == "monitor" and value[0] == "skipped"}
+        self.assertEqual({key: value for key, value in quiet.items() if key not in watched},
+                         {key: value for key, value in busy.items() if key not in watched})
 
     def test_frames_that_the_host_lost_make_a_case_inconclusive_and_never_failed(self):
         # Without this capability the receive buffer is as small as the kernel's default: some hundred frames.
         small = ["setpriv", "--bounding-set=-net_admin", "--inh-caps=-net_admin"]
         with Node():
-            process = subprocess.Popen(small + command(*PROFILE, "--junit", self.junit, "cia301/sdo/upload*", "cia301/sdo/segmented-*"),
+            process = subprocess.Popen(small + command(*PROFILE, "--junit", self.junit, "cia301/sdo/upload/*", "cia301/sdo/segmented-upload/*"),
                                        stdout=subprocess.PIPE, text=True)
             seen = 0
             for line in process.stdout:
@@ -121,7 +124,7 @@ class LiveSdo(unittest.TestCase):
         judged = os.path.join(self.folder, "judged.xml")
         for defects, code in (((), 0), (("--defect", "abort-mux-zero"), 1)):
             with self.subTest(defects=defects), Node(*defects):
-                live = run(*PROFILE, "--junit", self.junit, "--capture", capture, "cia301/sdo/upload*", "cia301/nmt/boot-up*")
+                live = run(*PROFILE, "--junit", self.junit, "--capture", capture, "cia301/sdo/upload/*", "cia301/nmt/boot-up/*")
                 self.assertEqual(live.returncode, code, live.stdout[-3000:] + live.stderr)
                 said = {key: value for key, value in verdicts(self.junit).items() if key[0] == "monitor"}
                 again = subprocess.run(program("judge", capture, *PROFILE, "--node", "5", "--junit", judged),
