@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "monitor/crc16.hpp"
+#include "canopen/sdo_block.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -208,7 +208,7 @@ void SdoChannel::acknowledge(const can::Frame& frame) {
     return;
   }
   for (std::size_t i = 0; i < good; ++i) {
-    if (transfer_.held) transfer_.crc_value = crc16(transfer_.crc_value, transfer_.tail);
+    if (transfer_.held) transfer_.crc_value = canopen::block_crc(transfer_.crc_value, transfer_.tail);
     transfer_.tail = block_[i];
     transfer_.held = true;
     ++transfer_.segments;

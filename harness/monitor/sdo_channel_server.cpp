@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "canopen/abort_code.hpp"
-#include "monitor/crc16.hpp"
+#include "canopen/sdo_block.hpp"
 #include "monitor/sdo_channel.hpp"
 
 namespace conform::monitor {
@@ -335,7 +335,7 @@ void SdoChannel::block_end_answer(const can::Frame& frame, SdoAnswer& out) {
   end.got = static_cast<std::uint16_t>(load_le(ByteView(frame.data).subspan(1, 2)));
   end.unused = static_cast<std::uint8_t>((frame.data[0] >> 2U) & 7U);
   if (transfer_.held) {
-    end.wanted = crc16(transfer_.crc_value, ByteView(transfer_.tail).first(7U - end.unused));
+    end.wanted = canopen::block_crc(transfer_.crc_value, ByteView(transfer_.tail).first(7U - end.unused));
     const auto delivered = transfer_.segments * 7 - end.unused;
     if (transfer_.announced && *transfer_.announced > 0) {
       const auto size = *transfer_.announced;

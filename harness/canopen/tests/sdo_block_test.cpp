@@ -80,6 +80,12 @@ TEST_CASE("The CRC is that of the standard's example") {
   CHECK(block_crc({}) == 0);
 }
 
+TEST_CASE("The CRC of data in pieces is that of the whole") {
+  const auto first = block_crc(Bytes{'1', '2', '3'});
+  CHECK(block_crc(first, Bytes{'4', '5', '6', '7', '8', '9'}) == 0x31C3);
+  CHECK(block_crc(0x31C3, {}) == 0x31C3);
+}
+
 TEST_CASE("A block download runs through initiate, segments, acknowledge and end") {
   SdoBlockDownload client(heartbeat_time, {0xE8, 0x03}, {});
   CHECK(send(client) == SdoBytes{0xC6, 0x17, 0x10, 0x00, 2});
