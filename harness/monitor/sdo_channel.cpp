@@ -109,6 +109,7 @@ void SdoChannel::request(const can::Frame& frame, BusTime time) {
   const bool after_silence = last_frame_ && time >= *last_frame_ + silence_to_trust;
   last_frame_ = time;
   idle_abort_ = client_abort_ = server_abort_ = false;
+  confirmed_.reset();
   if (untrusted_ > 0 && !request_without_track(frame, plain, after_silence)) return;
   const bool block_segments = transfer_.kind == Kind::block_download && transfer_.stage == Stage::segments;
   const bool streaming = transfer_.kind == Kind::block_upload && transfer_.stage == Stage::segments;
@@ -192,6 +193,7 @@ void SdoChannel::block_upload_request(const can::Frame& frame) {
   }
   if (command == 2 && transfer_.stage == Stage::complete) return acknowledge(frame);
   if (command == 1 && transfer_.stage == Stage::end) {
+    confirmed_ = transfer_.object;
     transfer_ = {};
     transfer_.kind = Kind::none;
     return;

@@ -92,6 +92,8 @@ class SdoChannel {
   // Server.
   void answer_without_track(const can::Frame& frame);
   void stream_segment(const can::Frame& frame, SdoAnswer& out);
+  [[nodiscard]] bool time_out_crosses(const can::Frame& frame, SdoAnswer& out);
+  void expect_refusal();
   void answer_without_request(const can::Frame& frame, SdoAnswer& out);
   void answer_to(const Pending& pending, const can::Frame& frame, SdoAnswer& out);
   void answer_to_several(const can::Frame& frame, SdoAnswer& out);
@@ -117,6 +119,7 @@ class SdoChannel {
   Transfer transfer_;
   std::array<std::array<std::uint8_t, 7>, 127> block_{};  ///< segments of the sub-block under way
   std::optional<Written> written_;
+  std::optional<Multiplexer> confirmed_;  ///< object of the block upload that the client's last frame ended
   bool client_abort_ = false, idle_abort_ = false;  ///< the last frame of the client; nothing was open
   bool server_abort_ = false;                       ///< the last frame of the server, and no request since
 };

@@ -23,8 +23,10 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
     out.block = true;
     return out;
   }
-  if (transfer_.kind == Kind::block_upload && count_ == 0 &&
-      (transfer_.stage == Stage::segments || transfer_.stage == Stage::complete)) {
+  if (time_out_crosses(frame, out)) {
+    // The request it did not know of stays open.
+  } else if (transfer_.kind == Kind::block_upload && count_ == 0 &&
+             (transfer_.stage == Stage::segments || transfer_.stage == Stage::complete)) {
     stream_segment(frame, out);
   } else if (count_ == 0) {
     answer_without_request(frame, out);
@@ -76,6 +78,39 @@ void SdoChannel::answer_without_track(const can::Frame& frame) {
   }
   if (unanswered_ > 0) --unanswered_;
   lose_track();
+}
+
+/// The server lost patience while the client's last frame was on its way. It answers that one next: an
+/// initiate request as ever, everything else as a frame without a transfer.
+bool SdoChannel::time_out_crosses(const can::Frame& frame, SdoAnswer& out) {
+  if (!is_abort(frame) || code_of(frame) != canopen::abort::timed_out) return false;
+  if (count_ == 0 && confirmed_) {
+    // To the server the block upload was not over yet.
+    out.to = SdoAnswer::To::itself;
+    out.mux = compare(*confirmed_, frame);
+    confirmed_.reset();
+    expect_refusal();
+    return true;
+  }
+  const bool one = count_ == 1 && pending_[0].overtaken == 0;
+  if (count_ == 0 || transfer_.kind == Kind::none || (one && pending_[0].has_multiplexer())) return false;
+  out.to = SdoAnswer::To::itself;
+  if (one && transfer_.kind != Kind::unclear) out.mux = compare(transfer_.object, frame);
+  // Of the segments of a sub-block any number may still be on the way.
+  if (!one || pending_[0].asked == Asked::block_download_ack) {
+    lose_track();
+    return true;
+  }
+  transfer_ = {};
+  transfer_.kind = Kind::none;
+  expect_refusal();
+  return true;
+}
+
+/// The client's last frame has become one without a transfer.
+void SdoChannel::expect_refusal() {
+  pending_[0] = {};
+  count_ = 1;
 }
 
 void SdoChannel::answer_without_request(const can::Frame& frame, SdoAnswer& out) {
@@ -218,15 +253,18 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
     case other:
     case nothing: break;
   }
+  const auto code = code_of(frame);
+  // No initiate request times out: the server gave up the transfer before it, and names the object of that.
+  const bool late = pending.has_multiplexer() && code == canopen::abort::timed_out;
   // An unknown command specifier belongs to no object.
-  if (wanted && code_of(frame) != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
+  if (wanted && code != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
+  if (late && !out.mux->right) out.mux.reset();
   transfer_ = {};
   transfer_.kind = Kind::none;
   // It may refuse an earlier segment of the sub-block; then the ones behind that get answers, too.
   if (pending.asked == block_download_ack) lose_track();
-  // No initiate request times out: the server gave up the transfer before it, while the client's abort of
-  // that was on its way, and the answer to this request is still to come.
-  if (pending.has_multiplexer() && code_of(frame) == canopen::abort::timed_out) lose_track();
+  // The request, or the client's abort before it, was on its way: the answer is still to come.
+  if (late) lose_track();
 }
 
 /// The client did not wait for the answer before it asked again.

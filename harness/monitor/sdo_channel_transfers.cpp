@@ -15,8 +15,12 @@ void SdoChannel::stream_segment(const can::Frame& frame, SdoAnswer& out) {
   if (frame.data[0] == 0x80) {
     out.to = SdoAnswer::To::itself;
     if (code_of(frame) != canopen::abort::command_specifier) out.mux = compare(transfer_.object, frame);
+    // Before its first segment the server waits for the frame of the client that asks for it.
+    const bool crossed = transfer_.stage == Stage::segments && transfer_.sent == 0 &&
+                         code_of(frame) == canopen::abort::timed_out;
     transfer_ = {};
     transfer_.kind = Kind::none;
+    if (crossed) expect_refusal();
     return;
   }
   out.to = SdoAnswer::To::stream;
