@@ -254,17 +254,23 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
     case nothing: break;
   }
   const auto code = code_of(frame);
-  // No initiate request times out: the server gave up the transfer before it, and names the object of that.
-  const bool late = pending.has_multiplexer() && code == canopen::abort::timed_out;
   // An unknown command specifier belongs to no object.
   if (wanted && code != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
-  if (late && !out.mux->right) out.mux.reset();
+  // An initiate request does not time out: the server gave up the transfer before it. Under any other code,
+  // too, it may name the transfer that the request ends, as a refusal or because it ended that by itself.
+  bool about_another = false;
+  if (pending.has_multiplexer() && out.mux && !out.mux->right) {
+    const bool open = transfer_.kind != Kind::none && transfer_.object != Multiplexer{};
+    about_another = code == canopen::abort::timed_out || (open && out.mux->got == transfer_.object);
+    if (about_another) out.mux.reset();
+  }
   transfer_ = {};
   transfer_.kind = Kind::none;
   // It may refuse an earlier segment of the sub-block; then the ones behind that get answers, too.
   if (pending.asked == block_download_ack) lose_track();
-  // The request, or the client's abort before it, was on its way: the answer is still to come.
-  if (late) lose_track();
+  // The answer to the request itself may still be to come.
+  const bool late = pending.has_multiplexer() && code == canopen::abort::timed_out;
+  if (about_another || late) lose_track();
 }
 
 /// The client did not wait for the answer before it asked again.

@@ -97,3 +97,24 @@ TEST_CASE("The time-out of a block download may cross the end frame") {
                                        "< 80 08 20 00 01 00 04 05"}))
             .empty());
 }
+
+TEST_CASE("A server that refuses a new initiate request may name the object of the transfer it ends") {
+  for (const std::string code : {"00 00 00 08", "22 00 00 08", "01 00 04 05"}) {
+    INFO(code);
+    CHECK(told(crossing(upload, {"> 40 18 10 01 00 00 00 00", "< 80 08 10 00 " + code})).empty());
+    CHECK(told(crossing(upload, {"> 40 18 10 01 00 00 00 00", "< 80 18 10 01 " + code})).empty());
+    // The transfer may be open still.
+    CHECK(told(crossing(upload, {"> 000: 80 00", "> 40 18 10 01 00 00 00 00", "< 80 08 10 00 " + code}))
+              .empty());
+  }
+  // It ended the transfer by itself.
+  CHECK(told(crossing(upload, {"> 40 18 10 01 00 00 00 00", "< 80 08 10 00 22 00 00 08",
+                               "< 43 18 10 01 FE 5A 00 00"}))
+            .empty());
+  CHECK(told(crossing(upload, {"> 40 18 10 01 00 00 00 00", "< 80 17 10 00 00 00 00 08"})) ==
+        Told{"fail SDO-ERR-04 in frame 8"});
+  CHECK(told(crossing({}, {"> 40 18 10 01 00 00 00 00", "< 80 01 10 00 00 00 00 08"})) ==
+        Told{"fail SDO-ERR-04 in frame 6"});
+  CHECK(told(crossing({}, {"> 000: 80 00", "> 40 18 10 01 00 00 00 00", "< 80 00 00 00 00 00 00 08"})) ==
+        Told{"fail SDO-ERR-04 in frame 7"});
+}
