@@ -23,6 +23,11 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
     out.block = true;
     return out;
   }
+  if (sub_block_again(frame)) {
+    out.block = true;
+    lose_track();
+    return out;
+  }
   if (time_out_crosses(frame, out)) {
     // The request it did not know of stays open.
   } else if (transfer_.kind == Kind::block_upload && count_ == 0 &&

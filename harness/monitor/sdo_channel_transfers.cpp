@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The server's half inside a transfer: segments, and what is known when the last one has come.
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "canopen/abort_code.hpp"
 #include "canopen/sdo_block.hpp"
@@ -10,6 +12,18 @@
 namespace conform::monitor {
 
 using namespace server;
+
+/// A segment of a sub-block that the client has acknowledged, or given up, in the meantime; also one that can
+/// be taken for an abort, the last one of up to 31.
+bool SdoChannel::sub_block_again(const can::Frame& frame) {
+  const auto number = static_cast<std::size_t>(frame.data[0] & 0x7FU);
+  const auto segments = std::exchange(crossed_, std::uint8_t{0});
+  if (number >= 1 && number <= segments &&
+      std::ranges::equal(std::span(frame.data).subspan(1, 7), block_[number - 1])) {
+    return true;
+  }
+  return transfer_.kind == Kind::block_upload && count_ > 0 && is_abort(frame) && frame.data[0] != 0x80;
+}
 
 void SdoChannel::stream_segment(const can::Frame& frame, SdoAnswer& out) {
   if (frame.data[0] == 0x80) {
@@ -48,7 +62,9 @@ void SdoChannel::stream_segment(const can::Frame& frame, SdoAnswer& out) {
     out.size = SdoAnswer::Size{*transfer_.announced, delivered};
     transfer_.announced.reset();
   }
-  if (last || number == transfer_.block_size) transfer_.stage = Stage::complete;
+  if (!last && number != transfer_.block_size) return;
+  transfer_.stage = Stage::complete;
+  complete_ = number;
 }
 
 /// 0100 nn e s: expedited, or the beginning of a segmented transfer.

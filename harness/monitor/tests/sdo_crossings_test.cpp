@@ -118,3 +118,43 @@ TEST_CASE("A server that refuses a new initiate request may name the object of t
   CHECK(told(crossing({}, {"> 000: 80 00", "> 40 18 10 01 00 00 00 00", "< 80 00 00 00 00 00 00 08"})) ==
         Told{"fail SDO-ERR-04 in frame 7"});
 }
+
+TEST_CASE("A sub-block that comes again may cross whatever the client sends instead of the acknowledge") {
+  const auto again = [](const std::string& request, std::vector<std::string> behind) {
+    auto lines = block_upload;
+    lines.insert(lines.end(), {"wait 1 s", request, block_upload[3], block_upload[4]});
+    lines.insert(lines.end(), behind.begin(), behind.end());
+    return told(crossing(lines, {}));
+  };
+  CHECK(again("> 40 00 10 00 00 00 00 00", {"< 43 00 10 00 91 01 00 00"}).empty());
+  CHECK(again("> A3 00 00 00 00 00 00 00", {}).empty());
+  CHECK(again("> 80 08 10 00 00 00 04 05", {}).empty());
+  // An acknowledge of more than was sent.
+  CHECK(again("> A2 03 02 00 00 00 00 00", {"< 80 08 10 00 03 00 04 05"}).empty());
+  // The acknowledge of this sub-block, and the next one.
+  CHECK(
+      again("> A2 02 02 00 00 00 00 00", {"< 01 43 43 43 43 43 43 43", "< 02 44 44 44 44 44 44 44"}).empty());
+}
+
+TEST_CASE("The last segment of a sub-block that comes again is no abort") {
+  const std::vector<std::string> one{"> A0 08 10 00 02 00 00 00", "< C2 08 10 00 07 00 00 00",
+                                     "> A3 00 00 00 00 00 00 00", "< 81 41 41 41 41 41 41 41"};
+  CHECK(told(crossing(one, {"wait 1 s", "> A2 01 02 00 00 00 00 00", "< 81 41 41 41 41 41 41 41",
+                            "< C1 00 00 00 00 00 00 00", "> A1 00 00 00 00 00 00 00"}))
+            .empty());
+  CHECK(told(crossing(one, {"wait 1 s", "> 40 00 10 00 00 00 00 00", "< 81 41 41 41 41 41 41 41",
+                            "< 43 00 10 00 91 01 00 00"}))
+            .empty());
+  CHECK(told(crossing(one, {"wait 1 s", "> 80 08 10 00 00 00 04 05", "< 81 41 41 41 41 41 41 41"})).empty());
+  // Where no block transfer can be meant, an abort has its reserved bits 0.
+  CHECK(told(crossing({}, {"> 40 FF FF 00 00 00 00 00", "< 81 FF FF 00 00 00 02 06"})) ==
+        Told{"fail SDO-GEN-06 in frame 6"});
+}
+
+TEST_CASE("A client that acknowledges at once gets the next sub-block, also one with the same bytes") {
+  auto lines = block_upload;
+  lines.insert(lines.end(), {"> A2 02 02 00 00 00 00 00", block_upload[3], block_upload[4], block_upload[3]});
+  CHECK(told(crossing(lines, {})).empty());
+  lines.back() = "< 01 55 55 55 55 55 55 55";
+  CHECK(told(crossing(lines, {})) == Told{"fail SDO-BUP-26 in frame 13"});
+}
