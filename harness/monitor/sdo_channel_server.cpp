@@ -205,8 +205,10 @@ void SdoChannel::answer_to(const Pending& pending, const can::Frame& frame, SdoA
     case Asked::block_download_ack: {
       out.block = true;
       if (scs != 5 || (frame.data[0] & 0x03U) != 2) return lose_track();
-      out.block_size = frame.data[2];
-      if (transfer_.last_sent && frame.data[1] == transfer_.sent) {
+      const bool all = transfer_.last_sent && frame.data[1] == transfer_.sent;
+      // 0 behind the last segment: there is no next sub-block.
+      if (!all || frame.data[2] != 0) out.block_size = frame.data[2];
+      if (all) {
         transfer_.stage = Stage::end;
         return;
       }

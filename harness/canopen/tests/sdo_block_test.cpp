@@ -159,6 +159,26 @@ TEST_CASE("The block size of each acknowledge is the length of the next sub-bloc
   CHECK(result.counts.acks == 4);
 }
 
+TEST_CASE("The block size of the last acknowledge is of no sub-block, and may be 0") {
+  SdoBlockDownload client(heartbeat_time, {0xE8, 0x03}, {});
+  static_cast<void>(send(client));
+  client.on_frame(SdoBytes{0xA4, 0x17, 0x10, 0x00, 20}, 0);
+  static_cast<void>(send(client));
+  CHECK(client.on_frame(SdoBytes{0xA2, 1, 0}, 0));
+  CHECK(send(client) == SdoBytes{0xD5, 0x78, 0xA9});
+  client.on_frame(SdoBytes{0xA1}, 0);
+  CHECK(client.result().kind == Kind::confirmed);
+
+  SdoBlockDownload unfinished(buffer, counting(20), {});
+  static_cast<void>(send(unfinished));
+  unfinished.on_frame(SdoBytes{0xA4, 0x10, 0x20, 0x00, 2}, 0);
+  static_cast<void>(send(unfinished));
+  static_cast<void>(send(unfinished));
+  unfinished.on_frame(SdoBytes{0xA2, 2, 0}, 0);
+  CHECK(unfinished.result().kind == Kind::violation);
+  CHECK(unfinished.result().reply == abort::block_size);
+}
+
 TEST_CASE("A lost segment is sent again after the acknowledge of the one before") {
   for (const bool at_once : {false, true}) {
     ScriptedServer server;

@@ -160,7 +160,18 @@ TEST_CASE("A block download and the block size the server gives") {
   CHECK(with("7F", "7F") == Told{"fail SDO-GEN-04 in frame 14"});
   CHECK(with("02", "01") == Told{"fail SDO-GEN-04 in frame 14"});
   CHECK(with("80", "7F") == Told{"fail SDO-BDN-05 in frame 6"});
-  CHECK(with("7F", "00") == Told{"fail SDO-GEN-04 in frame 14", "fail SDO-BDN-05 in frame 9"});
+  CHECK(with("7F", "80") == Told{"fail SDO-GEN-04 in frame 14", "fail SDO-BDN-05 in frame 9"});
+}
+
+TEST_CASE("Behind the last segment of a block download no block size is needed") {
+  const auto with = [](const std::string& last, const std::string& taken) {
+    return told(after_exchanges({"> C2 17 10 00 0E 00 00 00", "< A0 17 10 00 02 00 00 00",
+                                 "> 01 01 02 03 04 05 06 07", "> " + last + " 08 09 0A 0B 0C 0D 0E",
+                                 "< A2 " + taken + " 00 00 00 00 00 00"}));
+  };
+  CHECK(with("82", "02").empty());
+  CHECK(with("82", "01") == Told{"fail SDO-BDN-05 in frame 9"});
+  CHECK(with("02", "02") == Told{"fail SDO-BDN-05 in frame 9"});
 }
 
 TEST_CASE("A gap in a block download may be acknowledged at once, at the end, or after a time-out") {
