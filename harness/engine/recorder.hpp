@@ -27,8 +27,10 @@ class Recorder {
         stop_(stop),
         most_frames_(most_frames),
         waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {
-    // In real time nobody may stand still while the capture moves to a larger place.
-    if (!transport.info().is_virtual) capture_.reserve(std::min<std::size_t>(most_frames, std::size_t{1} << 20U));
+    // On a kernel's socket, that is in real time, nobody may stand still while the capture moves to a larger
+    // place.
+    if (transport.info().receive_buffer > 0)
+      capture_.reserve(std::min<std::size_t>(most_frames, std::size_t{1} << 20U));
   }
 
   [[nodiscard]] BusTime now() const { return recent_ = transport_.now(); }
