@@ -78,10 +78,7 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   if (!echo) return std::unexpected(echo.error());
   if (*echo) return **echo;
   if (transport_.health().frames_dropped == dropped) return never_sent();
-  // The host has lost frames meanwhile, and the echo was among them. The case will not be judged; the run
-  // goes on.
-  capture_.add({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
-  return capture_.size() - 1;
+  return echo_lost(frame);
 }
 
 Result<void> Recorder::post(const can::Frame& frame) {
@@ -89,6 +86,11 @@ Result<void> Recorder::post(const can::Frame& frame) {
   auto sent = transport_.send(frame);
   if (!sent) return broken(sent.error());
   return {};
+}
+
+std::size_t Recorder::echo_lost(const can::Frame& frame) {
+  capture_.add({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
+  return capture_.size() - 1;
 }
 
 std::unexpected<Error> Recorder::never_sent() {

@@ -46,6 +46,9 @@ class Recorder {
   [[nodiscard]] Result<bool> listen(BusTime deadline) { return pump(deadline); }
   /// The fault of a frame whose echo never came.
   [[nodiscard]] std::unexpected<Error> never_sent();
+  /// The host has lost frames, and the echo of `frame` was among them: the case will not be judged, but the
+  /// run goes on as if the echo had come now. Capture index of the frame.
+  std::size_t echo_lost(const can::Frame& frame);
   /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as
   /// that takes.
   [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match,

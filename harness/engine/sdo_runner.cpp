@@ -95,7 +95,8 @@ class Runner {
       }
     }
     if (!frame) return false;
-    auto sent = recorder_.post(can::data_frame(run.request, frame->view()));
+    run.posted = can::data_frame(run.request, frame->view());
+    auto sent = recorder_.post(run.posted);
     if (!sent) return std::unexpected(sent.error());
     ++run.in_flight;
     ++in_flight_;
@@ -154,9 +155,11 @@ class Runner {
       if (run.looked_again) {
         if (recorder_.transport().health().frames_dropped == dropped_)
           return std::unexpected(recorder_.never_sent());
-        // The host has lost frames, the echoes among them. The case will not be judged; the run goes on.
         in_flight_ -= std::exchange(run.in_flight, 0);
-        run.since = now;
+        const auto index = recorder_.echo_lost(run.posted);
+        if (!run.first_request) run.first_request = index;
+        run.last_request = run.since = now;
+        seen_ = std::max(seen_, recorder_.capture().size());
         return {};
       }
       // The last look at the clock may be long ago.

@@ -28,6 +28,7 @@ struct SdoRun {
   std::size_t decisive = 0;                  ///< capture index of the frame that ended it
 
   // Of the runner.
+  can::Frame posted{};  ///< the latest
   bool over = false;
   bool replied = false;
   std::size_t in_flight = 0;  ///< frames handed over whose echo has not come
