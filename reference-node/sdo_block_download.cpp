@@ -111,7 +111,9 @@ SdoReply BlockDownload::end(const SdoData& request, Device& device) {
     if (crc_agreed_) add_to_crc(data_.size());
     const auto given = static_cast<std::uint16_t>(request[1] | (request[2] << 8));
     const bool wrong = given != fault.crc(crc_, data_, padded);
-    if (wrong && fault.stored_despite_wrong_crc) (void)device.dictionary.download(mux_, data_);
+    if (wrong && fault.stored_despite_wrong_crc) {
+      [[maybe_unused]] const auto stored = device.dictionary.download(mux_, data_);
+    }
     if (wrong && !fault.crc_unchecked) return refuse(abort_code::crc_wrong);
   }
   distort_length(device);

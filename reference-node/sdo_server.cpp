@@ -197,7 +197,9 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   if (choices.upload_size_indicated) put_size(reply, data->size());
   const bool crc = choices.crc && (exchange.request[0] & crc_bit) != 0;
   transfer_ = BlockUpload(exchange.mux, std::move(*data), block_size, crc);
-  if (fault.starts_at_once) (void)std::get<BlockUpload>(transfer_).start();
+  if (fault.starts_at_once) {
+    [[maybe_unused]] const auto no_answer = std::get<BlockUpload>(transfer_).start();
+  }
   return reply;
 }
 

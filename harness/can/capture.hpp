@@ -32,6 +32,9 @@ class Capture {
  public:
   void add(const BusEvent& event) { frames_.push_back({event.frame, event.time, event.direction, {}}); }
   void add(CapturedFrame frame) { frames_.push_back(std::move(frame)); }
+  /// Room for so many frames: to move a hundred megabytes in the middle of a transfer takes longer than the
+  /// device may wait. What is not used costs address space only.
+  void reserve(std::size_t frames) { frames_.reserve(frames); }
   /// Appends `text` to the comment of frame `index` (separated by "; ").
   void comment(std::size_t index, std::string text);
   [[nodiscard]] const std::vector<CapturedFrame>& frames() const { return frames_; }

@@ -34,8 +34,10 @@ bool has_set(ByteView bytes) {
 
 }  // namespace
 
-std::uint16_t block_crc(ByteView data) {
-  std::uint32_t crc = 0;
+std::uint16_t block_crc(ByteView data) { return block_crc(0, data); }
+
+std::uint16_t block_crc(std::uint16_t start, ByteView data) {
+  std::uint32_t crc = start;
   for (const auto byte : data) crc = ((crc << 8U) & 0xFFFFU) ^ crc_table[(crc >> 8U) ^ byte];
   return static_cast<std::uint16_t>(crc);
 }

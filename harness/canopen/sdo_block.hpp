@@ -26,6 +26,8 @@ namespace conform::canopen {
 
 /// x^16 + x^12 + x^5 + 1, start 0, not reflected (7.2.4.3.16): "123456789" has 31C3h.
 [[nodiscard]] std::uint16_t block_crc(ByteView data);
+/// Goes on from `start`, the CRC of what came before.
+[[nodiscard]] std::uint16_t block_crc(std::uint16_t start, ByteView data);
 
 inline constexpr std::uint8_t most_block_segments = 127;
 inline constexpr std::size_t segment_bytes = 7;

@@ -152,12 +152,13 @@ void SdoBlockDownload::on_acknowledge(ByteView bytes, std::size_t on_the_bus) {
                                  on_the_bus, on_the_bus == 1 ? "was" : "were"),
                      abort::sequence_number);
   }
-  if (!legal(ack->blksize)) return violation(wrong_block_size(ack->blksize), abort::block_size);
   base_ += ack->ackseq;
   if (base_ == total_) {
+    // There is no next sub-block that the block size could be of.
     phase_ = Phase::end;
     return;
   }
+  if (!legal(ack->blksize)) return violation(wrong_block_size(ack->blksize), abort::block_size);
   stalled_ = ack->ackseq == 0 ? stalled_ + 1 : 0;
   if (stalled_ >= most_stalled) {
     return violation(fmt::format("takes no segment in {} sub-blocks one after the other", stalled_),

@@ -20,7 +20,8 @@ struct RunCommand {
   std::string suites;
   std::string interface;
   bool simulate = false;
-  std::vector<std::string> defects;  ///< of the simulated reference node
+  std::vector<std::string> defects;   ///< of the simulated reference node
+  std::vector<std::string> variants;  ///< legal ones, of the same node
   std::optional<std::uint32_t> node;
   std::string device;  ///< profile file
   std::string allow;   ///< risk tier; empty: by interface
@@ -101,6 +102,8 @@ struct SelftestCommand {
   std::uint64_t seed = 1;
   bool verbose = false;
   std::vector<std::string> defects;
+  bool whole = false;
+  unsigned jobs = 0;     ///< 0: the machine's cores
   std::string markdown;  ///< file for docs/proof.md
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);

@@ -8,6 +8,7 @@
 #include "cli/judge.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
+#include "engine/monitor_cases.hpp"
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
@@ -51,8 +52,12 @@ int judge_command(const JudgeCommand& options) {
   JudgeOptions how;
   how.selection = {options.select, options.requirements, options.exclude};
   how.strict = options.strict;
+  // A pattern that is about no monitor selects scenarios of a run, beside which all monitors watch; here it
+  // selects nothing.
+  const bool selected =
+      how.selection.patterns.empty() || engine::names_a_monitor(how.selection, suites->catalogue);
   auto run = judge(*recording, *profile, suites->catalogue, how);
-  if (run.cases.empty()) {
+  if (!selected || run.cases.empty()) {
     return report_error(
         {"nothing is selected: no monitor matches", {}, "'canopen-conform list monitor' shows what there is"},
         exit_usage);

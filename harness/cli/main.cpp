@@ -72,6 +72,11 @@ int dispatch(int argc, char** argv) {
   run_sub->add_flag("--simulate", run.simulate,
                     "Run against the reference node on a simulated bus, without any device");
   run_sub
+      ->add_option("--variant", run.variants,
+                   "Legal variant of the simulated node; repeatable (canopen-refnode --list-variants)")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  run_sub
       ->add_option("--defect", run.defects,
                    "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
       ->allow_extra_args(false)
@@ -187,6 +192,11 @@ int dispatch(int argc, char** argv) {
   selftest_sub->add_option("--defect", selftest.defects, "Only this defect; repeatable")
       ->allow_extra_args(false)
       ->type_name("ID");
+  selftest_sub->add_flag("--whole", selftest.whole,
+                         "Run the whole suite for every defect, to see with -v what else it spoils");
+  selftest_sub->add_option("-j,--jobs", selftest.jobs, "Threads (default: the machine's cores)")
+      ->check(CLI::Range(1, 256))
+      ->type_name("NUMBER");
   selftest_sub->add_option("--seed", selftest.seed, "Seed of the simulation (default 1)")
       ->type_name("NUMBER");
   selftest_sub

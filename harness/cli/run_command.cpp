@@ -155,10 +155,13 @@ int run_command(const RunCommand& options) {
         {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
         exit_usage);
   }
-  if (!options.simulate && !options.defects.empty()) {
-    return report_error(
-        {"--defect belongs to --simulate", {}, "on a real interface: canopen-refnode --defect ID"},
-        exit_usage);
+  for (const auto& [option, ids] :
+       {std::pair{"--defect", &options.defects}, {"--variant", &options.variants}}) {
+    if (options.simulate || ids->empty()) continue;
+    return report_error({std::string(option) + " belongs to --simulate",
+                         {},
+                         std::string("on a real interface: canopen-refnode ") + option + " ID"},
+                        exit_usage);
   }
   auto root = find_suites(options.suites);
   if (!root) return report_error(root.error(), exit_usage);
@@ -246,6 +249,7 @@ int run_command(const RunCommand& options) {
   } else {
     reports.add_property("can.interface", "simulated");
     if (!options.defects.empty()) reports.add_property("simulation.defects", join(options.defects, " "));
+    if (!options.variants.empty()) reports.add_property("simulation.variants", join(options.variants, " "));
   }
 
   const bool live = ::isatty(1) != 0 && !options.quiet;
@@ -275,8 +279,8 @@ int run_command(const RunCommand& options) {
   can::Capture capture;
   std::int64_t epoch = 0;
   if (options.simulate) {
-    auto simulated =
-        simulate(options.defects, *profile, suites->suite, suites->catalogue, run_options, options.seed);
+    auto simulated = simulate({.defects = options.defects, .variants = options.variants}, *profile,
+                              suites->suite, suites->catalogue, run_options, options.seed);
     if (!simulated) return report_error(simulated.error(), exit_usage);
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);

@@ -2,7 +2,10 @@
 #include "cli/selftest.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <optional>
 #include <set>
+#include <thread>
 
 #include "can/simulated_bus.hpp"
 #include "defects/defect.hpp"
@@ -33,11 +36,11 @@ bool worse(Verdict before, Verdict after) {
 
 }  // namespace
 
-Result<SimulatedRun> simulate(const std::vector<std::string>& defects, const device::Profile& profile,
+Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                               const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                               engine::RunOptions options, std::uint64_t seed) {
   auto node = refnode::Node::create(
-      {.node_id = profile.node.value(), .defects = defects, .storage = {}, .choices = {}});
+      {.node_id = profile.node.value(), .defects = switches.defects, .variants = switches.variants});
   if (!node) return std::unexpected(node.error());
   can::SimulatedBus::Options bus_options;
   bus_options.seed = seed;
@@ -64,54 +67,119 @@ std::vector<std::string> KillMatrix::survivors() const {
   return out;
 }
 
-Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
-                               const scenario::Catalogue& catalogue, std::uint64_t seed,
-                               const std::vector<std::string>& only) {
-  KillMatrix out;
-  auto conformant = simulate({}, profile, suite, catalogue, {}, seed);
-  if (!conformant) return std::unexpected(conformant.error());
-  out.conformant = std::move(conformant->result);
-  const auto good = verdicts_of(out.conformant);
-  std::set<std::string> proven, judged;
-  for (const auto& [key, verdict] : good) {
-    if (verdict != Verdict::not_applicable) judged.insert(key.first);
-  }
-  for (const auto& row : refnode::defects()) {
-    if (!only.empty() && std::ranges::find(only, row.id) == only.end()) continue;
-    DefectVerdict defect;
-    defect.id = row.id;
-    defect.summary = row.summary;
-    for (const auto id : row.violates) {
-      if (const auto canonical = catalogue.canonical(id)) {
-        if (std::ranges::find(defect.violates, *canonical) == defect.violates.end())
-          defect.violates.push_back(*canonical);
-      } else {
-        defect.unknown.emplace_back(id);
-      }
+namespace {
+
+/// What the suite judges, and with what to run it.
+struct Bench {
+  const device::Profile& profile;
+  const scenario::Suite& suite;
+  const scenario::Catalogue& catalogue;
+  std::uint64_t seed;
+  const Verdicts& good;  ///< of the conformant node
+  /// Judged by a monitor: any frame of any scenario may show a violation.
+  const std::set<std::string>& monitored;
+};
+
+/// Runs the suite, or what judges one of `requirements`, and adds what became worse.
+Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::string> requirements,
+                    bool slow) {
+  engine::RunOptions options;
+  options.plan.slow = slow;
+  options.plan.selection.requirements = std::move(requirements);
+  auto run =
+      simulate({.defects = {defect.id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
+  if (!run) return std::unexpected(run.error());
+  const auto add = [](std::vector<std::string>& to, const std::string& text) {
+    if (std::ranges::find(to, text) == to.end()) to.push_back(text);
+  };
+  for (const auto& [key, verdict] : verdicts_of(run->result)) {
+    const auto before = bench.good.find(key);
+    if (!worse(before == bench.good.end() ? Verdict::pass : before->second, verdict)) continue;
+    const auto& [requirement, name] = key;
+    if (std::ranges::find(defect.violates, requirement) != defect.violates.end()) {
+      add(defect.killed_by, requirement + " " + std::string(to_string(verdict)) + " in " + name);
+      add(defect.proves, requirement);
+    } else {
+      add(defect.bystanders, requirement);
     }
+  }
+  return {};
+}
+
+Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
+  DefectVerdict defect;
+  defect.id = row.id;
+  defect.summary = row.summary;
+  for (const auto id : row.violates) {
+    if (const auto canonical = bench.catalogue.canonical(id)) {
+      if (std::ranges::find(defect.violates, *canonical) == defect.violates.end())
+        defect.violates.push_back(*canonical);
+    } else {
+      defect.unknown.emplace_back(id);
+    }
+  }
+  if (!whole) {
     // Scenarios of long transfers take ten times as long as all others together and are needed by few
     // defects.
     for (const bool slow : {false, true}) {
-      if (slow && !defect.killed_by.empty()) break;
-      engine::RunOptions options;
-      options.plan.slow = slow;
-      auto run = simulate({std::string(row.id)}, profile, suite, catalogue, options, seed);
-      if (!run) return std::unexpected(run.error());
-      for (const auto& [key, verdict] : verdicts_of(run->result)) {
-        const auto before = good.find(key);
-        if (!worse(before == good.end() ? Verdict::pass : before->second, verdict)) continue;
-        const auto& [requirement, name] = key;
-        if (std::ranges::find(defect.violates, requirement) != defect.violates.end()) {
-          defect.killed_by.push_back(requirement + " " + std::string(to_string(verdict)) + " in " + name);
-          if (std::ranges::find(defect.proves, requirement) == defect.proves.end())
-            defect.proves.push_back(requirement);
-          proven.insert(requirement);
-        } else if (std::ranges::find(defect.bystanders, requirement) == defect.bystanders.end()) {
-          defect.bystanders.push_back(requirement);
-        }
-      }
+      if (!defect.killed_by.empty()) break;
+      if (auto done = expose(bench, defect, defect.violates, slow); !done)
+        return std::unexpected(done.error());
     }
-    out.defects.push_back(std::move(defect));
+    // What one scenario leaves behind may show in the next, and a monitor may need the traffic of scenarios
+    // that judge something else.
+    whole =
+        defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
+          return bench.monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
+        });
+  }
+  for (const bool slow : {false, true}) {
+    if (!whole || (slow && !defect.killed_by.empty())) break;
+    if (auto done = expose(bench, defect, {}, slow); !done) return std::unexpected(done.error());
+  }
+  std::ranges::sort(defect.proves);
+  return defect;
+}
+
+}  // namespace
+
+Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
+                               const scenario::Catalogue& catalogue, const KillOptions& options) {
+  KillMatrix out;
+  auto conformant = simulate({}, profile, suite, catalogue, {}, options.seed);
+  if (!conformant) return std::unexpected(conformant.error());
+  out.conformant = std::move(conformant->result);
+  const auto good = verdicts_of(out.conformant);
+  std::set<std::string> proven, judged, monitored;
+  for (const auto& [key, verdict] : good) {
+    if (verdict == Verdict::not_applicable) continue;
+    judged.insert(key.first);
+    if (key.second.starts_with("monitor/")) monitored.insert(key.first);
+  }
+  const Bench bench{profile, suite, catalogue, options.seed, good, monitored};
+  std::vector<const refnode::Defect*> rows;
+  for (const auto& row : refnode::defects()) {
+    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
+      rows.push_back(&row);
+  }
+  // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
+  std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
+  std::atomic<std::size_t> next = 0;
+  {
+    std::vector<std::jthread> workers;
+    const auto jobs = options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned job = 0; job < jobs; ++job) {
+      workers.emplace_back([&] {
+        for (auto i = next++; i < rows.size(); i = next++) {
+          verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole));
+        }
+      });
+    }
+  }
+  for (auto& verdict : verdicts) {
+    if (!*verdict) return std::unexpected(verdict->error());
+    proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());
+    out.defects.push_back(std::move(**verdict));
   }
   std::ranges::set_difference(judged, proven, std::back_inserter(out.unproven));
   out.proven.assign(proven.begin(), proven.end());

@@ -22,8 +22,13 @@ struct SimulatedRun {
   result::RunResult result;
   can::Capture capture;
 };
-[[nodiscard]] Result<SimulatedRun> simulate(const std::vector<std::string>& defects,
-                                            const device::Profile& profile, const scenario::Suite& suite,
+/// Ids of the reference node's defects and legal variants.
+struct NodeSwitches {
+  std::vector<std::string> defects{};
+  std::vector<std::string> variants{};
+};
+[[nodiscard]] Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
+                                            const scenario::Suite& suite,
                                             const scenario::Catalogue& catalogue, engine::RunOptions options,
                                             std::uint64_t seed);
 
@@ -34,7 +39,7 @@ struct DefectVerdict {
   std::vector<std::string> violates;  ///< canonical ids
   std::vector<std::string>
       killed_by;  ///< violated requirements whose verdict became worse, as "OD-1003-06 fail in ..."
-  std::vector<std::string> proves;      ///< the ids of killed_by
+  std::vector<std::string> proves;      ///< the ids of killed_by, sorted
   std::vector<std::string> bystanders;  ///< requirements it does not list whose verdict became worse
   std::vector<std::string> unknown;     ///< ids it lists that the catalogue does not have
 };
@@ -50,9 +55,17 @@ struct KillMatrix {
   [[nodiscard]] std::vector<std::string> survivors() const;
 };
 
-/// `only`: defect ids, empty for all.
+struct KillOptions {
+  std::uint64_t seed = 1;
+  std::vector<std::string> only;  ///< defect ids, empty for all
+  /// The whole suite for every defect, to see its bystanders; otherwise what judges a requirement it
+  /// violates.
+  bool whole = false;
+  unsigned jobs =
+      0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
+};
 [[nodiscard]] Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
-                                             const scenario::Catalogue& catalogue, std::uint64_t seed,
-                                             const std::vector<std::string>& only = {});
+                                             const scenario::Catalogue& catalogue,
+                                             const KillOptions& options);
 
 }  // namespace conform::cli

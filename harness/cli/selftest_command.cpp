@@ -38,8 +38,9 @@ int selftest_command(const SelftestCommand& options) {
   if (!suites) return report_error(suites.error(), exit_usage);
   auto profile = device::load_profile_file(*root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
-  auto matrix =
-      kill_matrix(profile->profile, suites->suite, suites->catalogue, options.seed, options.defects);
+  auto matrix = kill_matrix(
+      profile->profile, suites->suite, suites->catalogue,
+      {.seed = options.seed, .only = options.defects, .whole = options.whole, .jobs = options.jobs});
   if (!matrix) return report_error(matrix.error(), exit_usage);
   const auto counts = matrix->conformant.counts();
   std::string out = fmt::format(

@@ -81,6 +81,12 @@ Result<Liveness> probe(RunSession& session, bool may_command) {
     if (*heard) {
       out.alive = true;
       out.heard = "a boot-up message, but no SDO answer";
+      auto answer = session.peek({Index(0x1000), SubIndex(0)});
+      if (!answer) return std::unexpected(answer.error());
+      if (answer->kind != Kind::silence) {
+        out.answers = true;
+        out.heard = "SDO answer after a reset";
+      }
     }
   }
   if (out.heard.empty()) out.heard = "nothing";

@@ -242,10 +242,22 @@ class Run {
 
   Result<void> enter_pre_operational() {
     if (!session_.take_state_changed()) return {};
+    // A device that is still booting would not hear the command, nor answer what comes next.
+    if (const auto reset = session_.take_reset()) {
+      auto booted =
+          recorder_.find(*reset + 1, boots(), recorder_.capture().frames()[*reset].time + profile_.boot_time);
+      if (!booted) return std::unexpected(booted.error());
+    }
     auto sent = session_.command(canopen::NmtCommand::pre_operational);
     if (!sent) return sent;
     (void)session_.take_state_changed();
     return session_.wait_until(session_.now() + profile_.nmt_time);
+  }
+
+  [[nodiscard]] steps::Session::Match boots() const {
+    return [node = profile_.node](const can::CapturedFrame& captured) {
+      return captured.direction == can::Direction::received && canopen::is_boot_up(captured.frame, node);
+    };
   }
 
   /// False: no boot-up message came.
@@ -253,13 +265,7 @@ class Run {
     const auto from = recorder_.capture().size();
     auto sent = session_.command(command);
     if (!sent) return std::unexpected(sent.error());
-    auto booted = recorder_.find(
-        from,
-        [this](const can::CapturedFrame& captured) {
-          return captured.direction == can::Direction::received &&
-                 canopen::is_boot_up(captured.frame, profile_.node);
-        },
-        recorder_.now() + profile_.boot_time);
+    auto booted = recorder_.find(from, boots(), recorder_.now() + profile_.boot_time);
     if (!booted) return std::unexpected(booted.error());
     return booted->has_value();
   }

@@ -67,6 +67,7 @@ Result<void> Recorder::produce_due() {
 
 Result<std::size_t> Recorder::send(const can::Frame& frame) {
   const auto from = capture_.size();
+  const auto dropped = transport_.health().frames_dropped;
   if (auto sent = post(frame); !sent) return std::unexpected(sent.error());
   const auto is_echo = [&frame](const can::CapturedFrame& captured) {
     return captured.direction == can::Direction::transmitted && captured.frame == frame;
@@ -75,8 +76,9 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   auto echo = find(from, is_echo, recent_ + transmit_limit);
   if (echo && !*echo) echo = find(from, is_echo, now() + transmit_limit);
   if (!echo) return std::unexpected(echo.error());
-  if (!*echo) return never_sent();
-  return **echo;
+  if (*echo) return **echo;
+  if (transport_.health().frames_dropped == dropped) return never_sent();
+  return echo_lost(frame);
 }
 
 Result<void> Recorder::post(const can::Frame& frame) {
@@ -84,6 +86,11 @@ Result<void> Recorder::post(const can::Frame& frame) {
   auto sent = transport_.send(frame);
   if (!sent) return broken(sent.error());
   return {};
+}
+
+std::size_t Recorder::echo_lost(const can::Frame& frame) {
+  capture_.add({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
+  return capture_.size() - 1;
 }
 
 std::unexpected<Error> Recorder::never_sent() {

@@ -3,6 +3,7 @@
 // request ends waits.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -25,7 +26,12 @@ class Recorder {
       : transport_(transport),
         stop_(stop),
         most_frames_(most_frames),
-        waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {}
+        waits_in_slices_(stop != nullptr || !transport.info().is_virtual) {
+    // On a kernel's socket, that is in real time, nobody may stand still while the capture moves to a larger
+    // place.
+    if (transport.info().receive_buffer > 0)
+      capture_.reserve(std::min<std::size_t>(most_frames, std::size_t{1} << 20U));
+  }
 
   [[nodiscard]] BusTime now() const { return recent_ = transport_.now(); }
   [[nodiscard]] const can::Capture& capture() const { return capture_; }
@@ -40,6 +46,9 @@ class Recorder {
   [[nodiscard]] Result<bool> listen(BusTime deadline) { return pump(deadline); }
   /// The fault of a frame whose echo never came.
   [[nodiscard]] std::unexpected<Error> never_sent();
+  /// The host has lost frames, and the echo of `frame` was among them: the case will not be judged, but the
+  /// run goes on as if the echo had come now. Capture index of the frame.
+  std::size_t echo_lost(const can::Frame& frame);
   /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as
   /// that takes.
   [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match,

@@ -53,7 +53,12 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
       dictionary_(std::move(dictionary)),
       channel_(recorder, profile.node, profile.sdo_timeout, profile.quiet_time),
       emcy_can_id_(canopen::connection_set(profile.node).emcy),
-      home_emcy_can_id_(emcy_can_id_) {}
+      home_emcy_can_id_(emcy_can_id_) {
+  channel_.set_known_size([this](Multiplexer object) -> std::optional<std::size_t> {
+    const auto* known = entry(object);
+    return known != nullptr ? known->size() : std::nullopt;
+  });
+}
 
 const steps::Value* RunSession::find(std::string_view name) const {
   const auto found = names_.find(name);
@@ -72,7 +77,15 @@ Result<steps::Value> RunSession::current() {
 }
 
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
-  return channel_.upload(object, std::nullopt);
+  auto answer = channel_.upload(object, std::nullopt);
+  // A transfer that was given up is no reason to end the run.
+  if (!answer && answer.error().where == "scenario") {
+    steps::SdoAnswer given_up;
+    given_up.kind = steps::SdoAnswer::Kind::gave_up;
+    given_up.detail = answer.error().what;
+    return given_up;
+  }
+  return answer;
 }
 
 Result<steps::Value> RunSession::read(Multiplexer object) {
@@ -350,6 +363,7 @@ Result<void> RunSession::command(canopen::NmtCommand command) {
   state_changed_ = true;
   if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication) {
     device_was_reset(command == canopen::NmtCommand::reset_node);
+    reset_ = *sent;
   }
   return {};
 }
@@ -370,7 +384,11 @@ Result<void> RunSession::send(const can::Frame& frame) {
   auto sent = recorder_.send(frame);
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
-  if (!frame.extended && frame.id == 0) state_changed_ = true;
+  if (!frame.extended && frame.id == 0) {
+    state_changed_ = true;
+    const bool resets = frame.size() == 2 && (frame.data[0] == 0x81 || frame.data[0] == 0x82);
+    if (resets && (frame.data[1] == 0 || frame.data[1] == node().value())) reset_ = *sent;
+  }
   return {};
 }
 
@@ -416,6 +434,8 @@ void RunSession::begin_step(bool acts, const steps::ObjectReference* object) {
 }
 
 std::vector<Change> RunSession::take_journal() { return std::exchange(journal_, {}); }
+
+std::optional<std::size_t> RunSession::take_reset() { return std::exchange(reset_, std::nullopt); }
 
 bool RunSession::take_state_changed() { return std::exchange(state_changed_, false); }
 

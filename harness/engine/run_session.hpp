@@ -100,6 +100,8 @@ class RunSession final : public steps::Session {
   void forget_presence() { present_.clear(); }
   /// Whether the device may have left Pre-operational since the last call.
   [[nodiscard]] bool take_state_changed();
+  /// Capture index of the latest reset command to the device since the last call.
+  [[nodiscard]] std::optional<std::size_t> take_reset();
   [[nodiscard]] bool silence_seen() const { return silence_seen_; }
   void clear_silence_seen() { silence_seen_ = false; }
   /// Uploads that judge nothing and open no window.
@@ -130,6 +132,7 @@ class RunSession final : public steps::Session {
   bool all_objects_ = false;
   bool write_refused_ = false;
   bool state_changed_ = true;
+  std::optional<std::size_t> reset_;  ///< capture index of a reset command that was not looked after yet
   bool silence_seen_ = false;
   scenario::Risk risk_ = scenario::Risk::read_only;
   const steps::ObjectReference* object_ = nullptr;

@@ -111,7 +111,10 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)
       return std::unexpected(idle.error());
   }
-  if (auto done = run_transfers(recorder_, runs); !done) return std::unexpected(done.error());
+  if (auto done = run_transfers(recorder_, runs); !done) {
+    for (auto* line : lines) dirty(*line, true);
+    return std::unexpected(done.error());
+  }
   std::vector<steps::SdoAnswer> out;
   std::string misplaced;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -122,9 +125,13 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
       dirty(line, true);
       line.stale = runs[i].object;
+    } else if (!result.abandoned) {
+      // A server answers in order: what was overdue does not come any more.
+      line.stale.reset();
     }
     if (misplaced.empty()) misplaced = result.misplaced;
     out.push_back(to_answer(runs[i]));
+    if (jobs[i].request.upload && !out.back().size_indicated) trim(jobs[i].request.object, out.back().data);
   }
   first_request_ = recorder_.capture().size();
   for (const auto& run : runs) {
@@ -133,6 +140,13 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
   }
   if (!misplaced.empty()) return fail(misplaced, "scenario");
   return out;
+}
+
+/// Of four bytes whose number is left open (s = 0, 7.2.4.3.6) the entry's type says how many are data.
+void SdoChannel::trim(Multiplexer object, Bytes& data) const {
+  if (!known_size_) return;
+  if (const auto known = known_size_(object); known && *known > 0 && *known < data.size())
+    data.resize(*known);
 }
 
 bool SdoChannel::has_other_client(std::size_t first, std::size_t end) const {

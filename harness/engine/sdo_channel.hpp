@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "canopen/sdo_transfer.hpp"
@@ -50,6 +52,11 @@ class SdoChannel {
   [[nodiscard]] std::size_t first_request() const { return first_request_; }
   [[nodiscard]] BusTime last_request() const { return last_request_; }
 
+  /// How many bytes an entry has by its type, where that is fixed: decides what an upload means that leaves
+  /// its size open.
+  using KnownSize = std::function<std::optional<std::size_t>(Multiplexer)>;
+  void set_known_size(KnownSize known_size) { known_size_ = std::move(known_size); }
+
  private:
   enum class State : std::uint8_t {
     idle,
@@ -67,8 +74,10 @@ class SdoChannel {
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
   [[nodiscard]] Result<steps::SdoAnswer> run_one(canopen::SdoRequest request,
                                                  std::optional<Duration> timeout);
+  void trim(Multiplexer object, Bytes& data) const;
 
   Recorder& recorder_;
+  KnownSize known_size_;
   Duration timeout_, quiet_;
   steps::SdoChannelIds default_ids_;
   std::map<steps::SdoChannelIds, Line> lines_;

@@ -20,6 +20,11 @@ constexpr std::size_t most_in_flight = 8;
 /// A frame that is not on the bus by then will not be.
 constexpr Duration transmit_limit = std::chrono::seconds(1);
 
+/// One answer may take T_SDO, but a megabyte of such answers would take a day: after the first minute they
+/// must be this quick on average.
+constexpr Duration patience = std::chrono::minutes(1);
+constexpr Duration per_answer = std::chrono::milliseconds(280);
+
 class Runner {
  public:
   Runner(Recorder& recorder, std::span<SdoRun> runs) : recorder_(recorder), runs_(runs) {}
@@ -27,6 +32,7 @@ class Runner {
   Result<void> run() {
     seen_ = recorder_.capture().size();
     const auto begin = recorder_.now();
+    dropped_ = recorder_.transport().health().frames_dropped;
     for (auto& run : runs_) run.since = run.not_sent_since = run.last_request = begin;
     for (;;) {
       // One frame each in turn; whoever was behind the last one that got room begins.
@@ -42,6 +48,14 @@ class Runner {
       const bool heard = seen_ < recorder_.capture().size();
       while (seen_ < recorder_.capture().size()) look_at(seen_++);
       if (std::ranges::all_of(runs_, &SdoRun::over)) return {};
+      for (const auto& run : runs_) {
+        const auto taken = run.since - begin;
+        if (run.over || taken < patience + run.heard * per_answer) continue;
+        return fail("the transfer of " + to_string(run.object) + " was given up after " +
+                        to_string(std::chrono::floor<std::chrono::seconds>(taken)) + " and " +
+                        std::to_string(run.heard) + " answers",
+                    "scenario", "at this pace it would take hours");
+      }
       // What was heard may have given the clients something to say, or ended them.
       if (handed_over || heard) continue;
       auto until = BusTime::max();
@@ -81,7 +95,8 @@ class Runner {
       }
     }
     if (!frame) return false;
-    auto sent = recorder_.post(can::data_frame(run.request, frame->view()));
+    run.posted = can::data_frame(run.request, frame->view());
+    auto sent = recorder_.post(run.posted);
     if (!sent) return std::unexpected(sent.error());
     ++run.in_flight;
     ++in_flight_;
@@ -131,12 +146,22 @@ class Runner {
     }
     if (!run.client->on_frame(bytes, run.in_flight)) return;
     run.since = captured.time;
+    ++run.heard;
     run.decisive = index;
   }
 
   Result<void> on_deadline(SdoRun& run, BusTime now) {
     if (run.in_flight > 0) {
-      if (run.looked_again) return std::unexpected(recorder_.never_sent());
+      if (run.looked_again) {
+        if (recorder_.transport().health().frames_dropped == dropped_)
+          return std::unexpected(recorder_.never_sent());
+        in_flight_ -= std::exchange(run.in_flight, 0);
+        const auto index = recorder_.echo_lost(run.posted);
+        if (!run.first_request) run.first_request = index;
+        run.last_request = run.since = now;
+        seen_ = std::max(seen_, recorder_.capture().size());
+        return {};
+      }
       // The last look at the clock may be long ago.
       run.looked_again = true;
       run.not_sent_since = recorder_.now();
@@ -157,6 +182,7 @@ class Runner {
   std::size_t seen_ = 0;
   std::size_t turn_ = 0;       ///< who hands over first
   std::size_t in_flight_ = 0;  ///< of all runs
+  std::uint64_t dropped_ = 0;  ///< frames that the host had lost when the transfers began
 };
 
 }  // namespace

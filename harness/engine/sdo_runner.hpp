@@ -28,9 +28,11 @@ struct SdoRun {
   std::size_t decisive = 0;                  ///< capture index of the frame that ended it
 
   // Of the runner.
+  can::Frame posted{};  ///< the latest
   bool over = false;
   bool replied = false;
   std::size_t in_flight = 0;  ///< frames handed over whose echo has not come
+  int heard = 0;              ///< frames of the server that the client took
   BusTime since{};            ///< stamp of the frame from which the time-out counts
   BusTime not_sent_since{};   ///< for frames that do not get out at all
   bool looked_again = false;

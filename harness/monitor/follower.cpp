@@ -131,6 +131,13 @@ void Follower::lay_bait(SdoAnswer::Cause cause) {
   std::copy_n(frame.data.begin() + 1, 3, bait_.multiplexer.begin());
 }
 
+/// CAN-IDs on which other services speak: what a device makes of such an entry, its frames there are no SDO.
+bool Follower::is_taken(Key key, bool default_channel) const {
+  const auto set = canopen::connection_set(facts_.node);
+  if (default_channel && (key == set.sdo_request.value() || key == set.sdo_response.value())) return false;
+  return key == set.emcy.value() || canopen::is_restricted(CanId{key});
+}
+
 /// 1200h-127Fh:01 and :02 move the channel they are about. 1200h is the default channel.
 void Follower::written(const SdoChannel::Written& write) {
   const auto index = write.object.index.value();
@@ -146,7 +153,8 @@ void Follower::written(const SdoChannel::Written& write) {
     }
     server = &more_[number - 1];
   }
-  const auto key = write.value & (not_valid | canopen::cob_id::extended_frame | canopen::cob_id::can_id_mask);
+  auto key = write.value & (not_valid | canopen::cob_id::extended_frame | canopen::cob_id::can_id_mask);
+  if (is_taken(key, number == 0)) key = not_valid;
   auto& place = sub == 1 ? server->request : server->response;
   if (place == key) return;
   place = key;

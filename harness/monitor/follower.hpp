@@ -80,6 +80,7 @@ class Follower {
   void request(Server& server);
   void response(Server& server, bool default_channel);
   void lay_bait(SdoAnswer::Cause cause);
+  [[nodiscard]] bool is_taken(Key key, bool default_channel) const;
   void written(const SdoChannel::Written& write);
   void forget_channels();
 

@@ -27,6 +27,7 @@ class SdoStates final : public Monitor {
   void on_frame(const Observation& seen, const Follower& follower) override {
     const auto& nmt = follower.nmt();
     const bool in_stopped = nmt.commanded(seen.time()) == canopen::NmtState::stopped;
+    if (!in_stopped) asked_in_stopped_ = false;
     if (seen.boot_up()) {
       if (nmt.booting()) {
         if (early_ && early_reset_ == nmt.reset_index() && bad(before_boot_up)) {
@@ -37,9 +38,12 @@ class SdoStates final : public Monitor {
       }
       early_.reset();
     } else if (seen.subject == Subject::sdo_request && in_stopped) {
+      asked_in_stopped_ = true;
       good(stopped);
     } else if (seen.subject == Subject::sdo_response) {
-      if (in_stopped && bad(stopped)) {
+      // The answer to a request from before may be on its way already.
+      const bool older = !asked_in_stopped_ && seen.answer.to != SdoAnswer::To::stream;
+      if (in_stopped && !older && bad(stopped)) {
         tell(stopped, seen, "an SDO response", "silence", "the device was stopped and SDO is off in Stopped");
       }
       // Judged when the boot-up message comes: without it there was no reset.
@@ -60,6 +64,7 @@ class SdoStates final : public Monitor {
   void on_loss() override { early_.reset(); }
 
  private:
+  bool asked_in_stopped_ = false;
   std::optional<Violation> early_;
   std::size_t early_reset_ = 0;
 };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "monitor/crc16.hpp"
+#include "canopen/sdo_block.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -45,6 +45,7 @@ void SdoChannel::lose_track(int exchanges) {
   answered_ = false;
   odd_request_ = false;
   count_ = 0;
+  complete_ = crossed_ = 0;
   transfer_ = {};
 }
 
@@ -109,12 +110,20 @@ void SdoChannel::request(const can::Frame& frame, BusTime time) {
   const bool after_silence = last_frame_ && time >= *last_frame_ + silence_to_trust;
   last_frame_ = time;
   idle_abort_ = client_abort_ = server_abort_ = false;
+  confirmed_.reset();
+  // By its bytes a sub-block that comes again is hardly told from the next one, where the data repeat: it is
+  // looked for only where the client was slow enough for a server to lose patience.
+  crossed_ = after_silence ? complete_ : std::uint8_t{0};
+  complete_ = 0;
   if (untrusted_ > 0 && !request_without_track(frame, plain, after_silence)) return;
   const bool block_segments = transfer_.kind == Kind::block_download && transfer_.stage == Stage::segments;
   const bool streaming = transfer_.kind == Kind::block_upload && transfer_.stage == Stage::segments;
   if (plain && block_segments && frame.data[0] != abort_command) return client_segment(frame);
   if (plain && specifier(frame) == 4) return client_abort();
   if (block_segments || (streaming && count_ == 0)) return lose_track();
+  // The server may send the sub-block again before it sees that the client wants something else.
+  const bool complete = transfer_.kind == Kind::block_upload && transfer_.stage == Stage::complete;
+  if (complete && (frame.data[0] & 0xE3U) != 0xA2) return lose_track();
   if (!plain) {
     // What a server makes of it is its own affair.
     push(frame, Asked::other);
@@ -192,6 +201,7 @@ void SdoChannel::block_upload_request(const can::Frame& frame) {
   }
   if (command == 2 && transfer_.stage == Stage::complete) return acknowledge(frame);
   if (command == 1 && transfer_.stage == Stage::end) {
+    confirmed_ = transfer_.object;
     transfer_ = {};
     transfer_.kind = Kind::none;
     return;
@@ -208,7 +218,7 @@ void SdoChannel::acknowledge(const can::Frame& frame) {
     return;
   }
   for (std::size_t i = 0; i < good; ++i) {
-    if (transfer_.held) transfer_.crc_value = crc16(transfer_.crc_value, transfer_.tail);
+    if (transfer_.held) transfer_.crc_value = canopen::block_crc(transfer_.crc_value, transfer_.tail);
     transfer_.tail = block_[i];
     transfer_.held = true;
     ++transfer_.segments;

@@ -91,7 +91,10 @@ class SdoChannel {
 
   // Server.
   void answer_without_track(const can::Frame& frame);
+  [[nodiscard]] bool sub_block_again(const can::Frame& frame);
   void stream_segment(const can::Frame& frame, SdoAnswer& out);
+  [[nodiscard]] bool time_out_crosses(const can::Frame& frame, SdoAnswer& out);
+  void expect_refusal();
   void answer_without_request(const can::Frame& frame, SdoAnswer& out);
   void answer_to(const Pending& pending, const can::Frame& frame, SdoAnswer& out);
   void answer_to_several(const can::Frame& frame, SdoAnswer& out);
@@ -116,7 +119,10 @@ class SdoChannel {
   std::vector<Data> open_;             ///< without track: the latest initiates that had no answer
   Transfer transfer_;
   std::array<std::array<std::uint8_t, 7>, 127> block_{};  ///< segments of the sub-block under way
+  std::uint8_t complete_ = 0;  ///< segments in `block_` that wait for the acknowledge
+  std::uint8_t crossed_ = 0;   ///< ... and that may come again behind the client's last frame
   std::optional<Written> written_;
+  std::optional<Multiplexer> confirmed_;  ///< object of the block upload that the client's last frame ended
   bool client_abort_ = false, idle_abort_ = false;  ///< the last frame of the client; nothing was open
   bool server_abort_ = false;                       ///< the last frame of the server, and no request since
 };

@@ -4,32 +4,12 @@
 #include <utility>
 
 #include "canopen/abort_code.hpp"
-#include "monitor/crc16.hpp"
 #include "monitor/sdo_channel.hpp"
+#include "monitor/sdo_server_frame.hpp"
 
 namespace conform::monitor {
-namespace {
 
-/// Bits 7-5 of the command: scs.
-unsigned specifier(const can::Frame& frame) { return frame.data[0] >> 5U; }
-bool is_abort(const can::Frame& frame) { return specifier(frame) == 4; }
-AbortCode code_of(const can::Frame& frame) {
-  return AbortCode(static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4, 4))));
-}
-std::uint32_t long_of(const can::Frame& frame) { return code_of(frame).value(); }
-
-SdoAnswer::Mux compare(Multiplexer wanted, const can::Frame& frame) {
-  const auto got = multiplexer_of(frame);
-  return {wanted, got, wanted == got};
-}
-Multiplexer multiplexer_of(const SdoChannel::Data& data) {
-  can::Frame frame;
-  frame.data = data;
-  return monitor::multiplexer_of(frame);
-}
-
-}  // namespace
-
+using namespace server;
 SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
   last_frame_ = time;
   SdoAnswer out;
@@ -43,8 +23,15 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
     out.block = true;
     return out;
   }
-  if (transfer_.kind == Kind::block_upload && count_ == 0 &&
-      (transfer_.stage == Stage::segments || transfer_.stage == Stage::complete)) {
+  if (sub_block_again(frame)) {
+    out.block = true;
+    lose_track();
+    return out;
+  }
+  if (time_out_crosses(frame, out)) {
+    // The request it did not know of stays open.
+  } else if (transfer_.kind == Kind::block_upload && count_ == 0 &&
+             (transfer_.stage == Stage::segments || transfer_.stage == Stage::complete)) {
     stream_segment(frame, out);
   } else if (count_ == 0) {
     answer_without_request(frame, out);
@@ -65,10 +52,10 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
 /// alike.
 void SdoChannel::answer_without_track(const can::Frame& frame) {
   if (exchange_ && !answered_) {
-    const auto wanted = multiplexer_of(*exchange_);
+    const auto wanted = object_of(*exchange_);
     const unsigned kind = (*exchange_)[0] >> 5U;
     const bool fits = specifier(frame) == (kind == 2 ? 2U : 3U) || frame.data[0] == 0x80;
-    if (fits && monitor::multiplexer_of(frame) == wanted) {
+    if (fits && multiplexer_of(frame) == wanted) {
       if (answers_older_one(frame)) {
         if (unanswered_ > 0) --unanswered_;
         return;
@@ -98,40 +85,37 @@ void SdoChannel::answer_without_track(const can::Frame& frame) {
   lose_track();
 }
 
-void SdoChannel::stream_segment(const can::Frame& frame, SdoAnswer& out) {
-  if (frame.data[0] == 0x80) {
+/// The server lost patience while the client's last frame was on its way. It answers that one next: an
+/// initiate request as ever, everything else as a frame without a transfer.
+bool SdoChannel::time_out_crosses(const can::Frame& frame, SdoAnswer& out) {
+  if (!is_abort(frame) || code_of(frame) != canopen::abort::timed_out) return false;
+  if (count_ == 0 && confirmed_) {
+    // To the server the block upload was not over yet.
     out.to = SdoAnswer::To::itself;
-    if (code_of(frame) != canopen::abort::command_specifier) out.mux = compare(transfer_.object, frame);
-    transfer_ = {};
-    transfer_.kind = Kind::none;
-    return;
+    out.mux = compare(*confirmed_, frame);
+    confirmed_.reset();
+    expect_refusal();
+    return true;
   }
-  out.to = SdoAnswer::To::stream;
-  out.block = true;
-  const auto number = static_cast<std::uint8_t>(frame.data[0] & 0x7FU);
-  const bool last = (frame.data[0] & 0x80U) != 0;
-  const auto bytes = std::span(frame.data).subspan(1, 7);
-  if (transfer_.stage == Stage::complete) {
-    // A server that waits in vain for the acknowledge may send the sub-block again.
-    if (number == 1 && std::ranges::equal(bytes, block_[0])) {
-      out.to = SdoAnswer::To::unclear;
-    } else {
-      out.segment = SdoAnswer::Segment{0, number, transfer_.block_size, true};
-    }
-    return lose_track();
+  const bool one = count_ == 1 && pending_[0].overtaken == 0;
+  if (count_ == 0 || transfer_.kind == Kind::none || (one && pending_[0].has_multiplexer())) return false;
+  out.to = SdoAnswer::To::itself;
+  if (one && transfer_.kind != Kind::unclear) out.mux = compare(transfer_.object, frame);
+  // Of the segments of a sub-block any number may still be on the way.
+  if (!one || pending_[0].asked == Asked::block_download_ack) {
+    lose_track();
+    return true;
   }
-  const auto wanted = static_cast<std::uint8_t>(transfer_.sent + 1);
-  out.segment = SdoAnswer::Segment{wanted, number, transfer_.block_size, false};
-  if (number != wanted) return lose_track();
-  std::ranges::copy(bytes, block_[transfer_.sent].begin());
-  transfer_.sent = number;
-  transfer_.last_sent = last;
-  const auto delivered = (transfer_.segments + transfer_.sent) * 7;
-  if (!last && transfer_.announced && delivered > *transfer_.announced) {
-    out.size = SdoAnswer::Size{*transfer_.announced, delivered};
-    transfer_.announced.reset();
-  }
-  if (last || number == transfer_.block_size) transfer_.stage = Stage::complete;
+  transfer_ = {};
+  transfer_.kind = Kind::none;
+  expect_refusal();
+  return true;
+}
+
+/// The client's last frame has become one without a transfer.
+void SdoChannel::expect_refusal() {
+  pending_[0] = {};
+  count_ = 1;
 }
 
 void SdoChannel::answer_without_request(const can::Frame& frame, SdoAnswer& out) {
@@ -167,7 +151,7 @@ void SdoChannel::answer_to(const Pending& pending, const can::Frame& frame, SdoA
   out.to = SdoAnswer::To::request;
   out.asked = pending.asked;
   if (is_abort(frame)) return abort_of_server(pending, frame, out);
-  const auto wanted = multiplexer_of(pending.data);
+  const auto wanted = object_of(pending.data);
   const auto scs = specifier(frame);
   switch (pending.asked) {
     case Asked::upload: return upload_answer(wanted, frame, out);
@@ -221,8 +205,10 @@ void SdoChannel::answer_to(const Pending& pending, const can::Frame& frame, SdoA
     case Asked::block_download_ack: {
       out.block = true;
       if (scs != 5 || (frame.data[0] & 0x03U) != 2) return lose_track();
-      out.block_size = frame.data[2];
-      if (transfer_.last_sent && frame.data[1] == transfer_.sent) {
+      const bool all = transfer_.last_sent && frame.data[1] == transfer_.sent;
+      // 0 behind the last segment: there is no next sub-block.
+      if (!all || frame.data[2] != 0) out.block_size = frame.data[2];
+      if (all) {
         transfer_.stage = Stage::end;
         return;
       }
@@ -261,7 +247,7 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
     case upload:
     case download:
     case block_upload:
-    case block_download: wanted = multiplexer_of(pending.data); break;
+    case block_download: wanted = object_of(pending.data); break;
     case upload_segment:
       if (transfer_.kind == Kind::upload) wanted = transfer_.object;
       break;
@@ -274,78 +260,24 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
     case other:
     case nothing: break;
   }
+  const auto code = code_of(frame);
   // An unknown command specifier belongs to no object.
-  if (wanted && code_of(frame) != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
+  if (wanted && code != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
+  // An initiate request does not time out: the server gave up the transfer before it. Under any other code,
+  // too, it may name the transfer that the request ends, as a refusal or because it ended that by itself.
+  bool about_another = false;
+  if (pending.has_multiplexer() && out.mux && !out.mux->right) {
+    const bool open = transfer_.kind != Kind::none && transfer_.object != Multiplexer{};
+    about_another = code == canopen::abort::timed_out || (open && out.mux->got == transfer_.object);
+    if (about_another) out.mux.reset();
+  }
   transfer_ = {};
   transfer_.kind = Kind::none;
   // It may refuse an earlier segment of the sub-block; then the ones behind that get answers, too.
   if (pending.asked == block_download_ack) lose_track();
-}
-
-/// 0100 nn e s: expedited, or the beginning of a segmented transfer.
-void SdoChannel::upload_answer(Multiplexer wanted, const can::Frame& frame, SdoAnswer& out) {
-  if (specifier(frame) != 2) return not_what_was_asked(frame, out);
-  out.mux = compare(wanted, frame);
-  transfer_ = {};
-  transfer_.kind = Kind::none;
-  if ((frame.data[0] & 0x02U) != 0) return;
-  transfer_.kind = Kind::upload;
-  transfer_.object = wanted;
-  if ((frame.data[0] & 0x01U) != 0) transfer_.announced = long_of(frame);
-}
-
-/// 000 t nnn c, seven bytes.
-void SdoChannel::upload_segment_answer(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
-  if (specifier(frame) != 0) return not_what_was_asked(frame, out);
-  const bool toggle = (pending.data[0] & 0x10U) != 0;
-  out.toggle = SdoAnswer::Toggle{toggle, (frame.data[0] & 0x10U) != 0};
-  if (transfer_.kind != Kind::upload) return;
-  // A repeated request may be answered with the same segment again: from there on the bytes are not counted.
-  if (toggle != transfer_.toggle) transfer_.in_order = false;
-  transfer_.toggle = !toggle;
-  transfer_.delivered += 7U - ((frame.data[0] >> 1U) & 7U);
-  const bool last = (frame.data[0] & 0x01U) != 0;
-  if (transfer_.in_order && transfer_.announced && (last || transfer_.delivered > *transfer_.announced)) {
-    out.size = SdoAnswer::Size{*transfer_.announced, transfer_.delivered};
-    if (!last) transfer_.announced.reset();
-  }
-  if (!last) return;
-  transfer_ = {};
-  transfer_.kind = Kind::none;
-}
-
-/// 001 t, reserved.
-void SdoChannel::download_segment_answer(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
-  if (specifier(frame) != 1) return not_what_was_asked(frame, out);
-  out.toggle = SdoAnswer::Toggle{(pending.data[0] & 0x10U) != 0, (frame.data[0] & 0x10U) != 0};
-  if (transfer_.kind != Kind::download || (pending.data[0] & 0x01U) == 0) return;
-  transfer_ = {};
-  transfer_.kind = Kind::none;
-}
-
-/// 110 nnn 01, CRC in bytes 1-2.
-void SdoChannel::block_end_answer(const can::Frame& frame, SdoAnswer& out) {
-  out.block = true;
-  if (specifier(frame) != 6 || (frame.data[0] & 0x03U) != 1) return lose_track();
-  SdoAnswer::End end;
-  end.agreed = transfer_.crc;
-  end.got = static_cast<std::uint16_t>(load_le(ByteView(frame.data).subspan(1, 2)));
-  end.unused = static_cast<std::uint8_t>((frame.data[0] >> 2U) & 7U);
-  if (transfer_.held) {
-    end.wanted = crc16(transfer_.crc_value, ByteView(transfer_.tail).first(7U - end.unused));
-    const auto delivered = transfer_.segments * 7 - end.unused;
-    if (transfer_.announced && *transfer_.announced > 0) {
-      const auto size = *transfer_.announced;
-      // As many segments as the size needs, but another n: the end frame is wrong and not the size.
-      if ((std::uint64_t{size} + 6) / 7 == transfer_.segments) {
-        end.unused_wanted = static_cast<std::uint8_t>((7U - size % 7U) % 7U);
-        out.size = SdoAnswer::Size{size, size};
-      } else {
-        out.size = SdoAnswer::Size{size, delivered};
-      }
-    }
-  }
-  out.end = end;
+  // The answer to the request itself may still be to come.
+  const bool late = pending.has_multiplexer() && code == canopen::abort::timed_out;
+  if (about_another || late) lose_track();
 }
 
 /// The client did not wait for the answer before it asked again.
@@ -367,9 +299,9 @@ void SdoChannel::answer_to_several(const can::Frame& frame, SdoAnswer& out) {
     out.to = SdoAnswer::To::unclear;
     return lose_track();
   }
-  const auto got = monitor::multiplexer_of(frame);
+  const auto got = multiplexer_of(frame);
   const auto names = [&](const Pending& each) {
-    return each.has_multiplexer() && multiplexer_of(each.data) == got;
+    return each.has_multiplexer() && object_of(each.data) == got;
   };
   const auto scs = specifier(frame);
   const bool initiate = scs == 2 || scs == 3;
@@ -384,7 +316,7 @@ void SdoChannel::answer_to_several(const can::Frame& frame, SdoAnswer& out) {
     if (!named && any_name == end &&
         !(is_abort(frame) &&
           (transfer_.kind != Kind::none || code_of(frame) == canopen::abort::command_specifier))) {
-      out.mux = SdoAnswer::Mux{multiplexer_of(pending_[0].data), got, false};
+      out.mux = SdoAnswer::Mux{object_of(pending_[0].data), got, false};
     } else if (!named) {
       out.to = SdoAnswer::To::unclear;
     }

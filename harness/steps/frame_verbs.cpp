@@ -217,7 +217,10 @@ class AwaitFrame final : public Action {
     if (!window) return std::unexpected(window.error());
     auto match = source_.match(session);
     if (!match) return std::unexpected(match.error());
-    const auto most = within_.most.resolve(session.profile());
+    auto most = within_.most.resolve(session.profile());
+    // What an error brings on another CAN-ID is due as late as the EMCY itself.
+    if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)
+      most += *delay->duration;
     auto found = session.find_frame(window->first, *match, window->anchor + most);
     if (!found) return std::unexpected(found.error());
     Actual out;

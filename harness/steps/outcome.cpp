@@ -173,11 +173,11 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::F
 }
 
 constexpr std::string_view measures[] = {
-    "count",    "period",        "shortest",   "longest",    "first",         "register", "latency",
-    "segments", "wrong_toggles", "difference", "unmarked",   "empty_last",    "bits",     "absent",
-    "longer",   "shorter",       "announced",  "sub_blocks", "retransmitted", "acks",     "first_ackseq",
-    "blksize",  "crc_agreed",    "crc_ok",     "crc",        "unused",        "switched", "wrong_numbers",
-    "timeouts", "surplus",       "answers"};
+    "count",         "period",        "shortest",   "longest",   "first",      "register",      "latency",
+    "segments",      "wrong_toggles", "difference", "unmarked",  "empty_last", "bits",          "absent",
+    "longer",        "shorter",       "announced",  "size_open", "sub_blocks", "retransmitted", "acks",
+    "first_ackseq",  "blksize",       "crc_agreed", "crc_ok",    "crc",        "unused",        "switched",
+    "wrong_numbers", "timeouts",      "surplus",    "answers"};
 
 /// A misspelt key is a misspelt outcome: the author knows no other word for it.
 void check_keys(const yaml::Field& field) {
@@ -424,13 +424,9 @@ std::vector<std::string> Expectation::warn_words(Scope& scope, std::optional<can
 Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::string_view level, bool strict,
                     Scope& scope) {
   using result::Verdict;
-  bool size_asked = false;
   const auto in = [&](const std::vector<Outcome>& set) -> Result<bool> {
     for (const auto& outcome : set) {
       auto hit = outcome.matches(actual, scope);
-      size_asked = std::ranges::any_of(outcome.demands, [](const Demand& d) {
-        return d.kind == Demand::Kind::size || d.kind == Demand::Kind::declared_size;
-      });
       if (!hit || *hit) return hit;
     }
     return false;
@@ -447,10 +443,6 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
   if (!hit) return std::unexpected(hit.error());
   if (*hit) {
     if (!actual.tolerated.empty()) return Grade{Verdict::warn, join(actual.tolerated, "; ")};
-    if (size_asked && actual.has_data && !actual.size_indicated) {
-      return Grade{Verdict::warn,
-                   "the expedited response leaves the size open (s = 0), so the length is not proven"};
-    }
     return Grade{};
   }
   hit = in(expectation.warn);

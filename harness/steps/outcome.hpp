@@ -31,7 +31,6 @@ struct Actual {
   Kind kind = Kind::matched;
   Bytes data;
   bool has_data = false;
-  bool size_indicated = true;             ///< false: an expedited upload that left its size open
   std::optional<canopen::DataType> type;  ///< to print `data` in the entry's own notation
   AbortCode code{};
   std::string detail;                   ///< precise words for violation and mismatched

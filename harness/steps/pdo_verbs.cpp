@@ -23,6 +23,7 @@ Actual from_answer(const SdoAnswer& answer) {
     case SdoAnswer::Kind::confirmed:
       out.kind = Actual::Kind::confirmed;
       out.data = answer.data;
+      out.measured["size_open"] = answer.size_indicated ? 0 : 1;
       out.detail = "confirmed";
       break;
     case SdoAnswer::Kind::aborted: out.kind = Actual::Kind::aborted; break;
@@ -284,7 +285,10 @@ Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool 
       if (!value) return value;
       if (value->kind == Actual::Kind::confirmed) {
         held = value->data;
-        own = held.size() * 8;
+        const auto* described = session.dictionary().find(object);
+        const bool length_told =
+            value->measured["size_open"] == 0 || (described != nullptr && described->size());
+        if (length_told) own = held.size() * 8;
       } else if (is_absent(*value)) {
         ++out.absent;
       }

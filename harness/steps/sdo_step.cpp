@@ -87,7 +87,6 @@ Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer ob
       out.kind = Actual::Kind::confirmed;
       out.has_data = upload;
       out.data = answer.data;
-      out.size_indicated = answer.size_indicated;
       break;
     case SdoAnswer::Kind::aborted:
       out.kind = Actual::Kind::aborted;
@@ -115,6 +114,8 @@ Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer ob
   };
   out.measured["segments"] = counts.segments;
   put("announced", answer.announced);
+  if (upload && answer.kind == SdoAnswer::Kind::confirmed)
+    out.measured["size_open"] = answer.size_indicated ? 0 : 1;
   if (!counts.block) return out;
   out.measured["sub_blocks"] = counts.sub_blocks;
   out.measured["retransmitted"] = counts.retransmitted;

@@ -108,7 +108,7 @@ constexpr Verb table[] = {
      "timeout: how long an answer may take (default: profile)\n"
      "fault: what the client does wrong, a phrase or a list (writing-scenarios.md has all): lose segment 2, abort after segment 3, ...\n"
      "wait: how long to listen after a fault (default: $profile.quiet_time)\n"
-     "measured: segments, announced, latency; block: sub_blocks, retransmitted, crc_agreed, crc_ok, crc, unused, switched, wrong_numbers, "
+     "measured: segments, announced, size_open, latency; block: sub_blocks, retransmitted, crc_agreed, crc_ok, crc, unused, switched, wrong_numbers, "
      "timeouts; fault: surplus, answers",
      "- upload: {object: 1003h:00, save: count}\n  checks: OD-1003-01\n  expect: {size: 1, range: 0..FEh}",
      &Transfer::parse_upload},

@@ -150,7 +150,6 @@ class Segments final : public Action {
     const auto size = so_far.announced.value_or(held);
     out.kind = Actual::Kind::confirmed;
     out.has_data = true;
-    out.size_indicated = true;
     out.data = so_far.data;
     const auto object = object_.resolve(session);
     if (const auto* entry = object ? session.dictionary().find(*object) : nullptr) out.type = entry->type;

@@ -26,12 +26,13 @@ namespace conform::steps {
 struct SdoAnswer {
   enum class Kind : std::uint8_t { confirmed, aborted, silence, violation, gave_up };
   Kind kind = Kind::silence;  ///< gave_up: the client aborted on purpose
-  Bytes data;  ///< uploads: what was delivered
+  Bytes data;                 ///< uploads: what was delivered
+  /// false: an expedited upload with s = 0; `data` is then as long as the entry's type, where that is known.
   bool size_indicated = false;
   AbortCode code{};
-  std::string detail;                ///< violation: what was wrong, in one sentence
-  std::vector<std::string> remarks;  ///< reserved bits or bytes that were not zero
-  std::size_t decisive = 0;          ///< capture index of the frame that ended it
+  std::string detail;                        ///< violation: what was wrong, in one sentence
+  std::vector<std::string> remarks;          ///< reserved bits or bytes that were not zero
+  std::size_t decisive = 0;                  ///< capture index of the frame that ended it
   std::optional<std::uint32_t> announced{};  ///< uploads: size that the server told
   canopen::TransferCounts counts{};
 };

@@ -244,6 +244,17 @@ DefectTable upload_rows() {
            first = frames.front().frame.data;
          }
        })},
+      {"new-initiate-returns-old-data",
+       "An upload request during a segmented upload is answered with four bytes of the old object",
+       {"SDO-SUP-11"},
+       Filter([transfer = Transfer{}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+         if (context.sdo == nullptr) return;
+         const bool busy = transfer.running == Transfer::Direction::upload;
+         transfer.see(*context.sdo, frames);
+         if (!busy || !upload_initiated(*context.sdo) || frames.empty()) return;
+         auto& data = frames.front().frame.data;
+         if (data[0] == 0x43) std::fill(data.begin() + 4, data.begin() + 8, std::uint8_t{0x41});
+       })},
       {"download-ignored-during-an-upload",
        "A download request during a segmented upload gets no answer",
        {"SDO-SUP-12"},

@@ -80,6 +80,12 @@ TEST_CASE("The CRC is that of the standard's example") {
   CHECK(block_crc({}) == 0);
 }
 
+TEST_CASE("The CRC of data in pieces is that of the whole") {
+  const auto first = block_crc(Bytes{'1', '2', '3'});
+  CHECK(block_crc(first, Bytes{'4', '5', '6', '7', '8', '9'}) == 0x31C3);
+  CHECK(block_crc(0x31C3, {}) == 0x31C3);
+}
+
 TEST_CASE("A block download runs through initiate, segments, acknowledge and end") {
   SdoBlockDownload client(heartbeat_time, {0xE8, 0x03}, {});
   CHECK(send(client) == SdoBytes{0xC6, 0x17, 0x10, 0x00, 2});
@@ -151,6 +157,26 @@ TEST_CASE("The block size of each acknowledge is the length of the next sub-bloc
   CHECK(server.data == request.data);
   CHECK(result.counts.sub_blocks == 4);  // 2, 1, 3, 2
   CHECK(result.counts.acks == 4);
+}
+
+TEST_CASE("The block size of the last acknowledge is of no sub-block, and may be 0") {
+  SdoBlockDownload client(heartbeat_time, {0xE8, 0x03}, {});
+  static_cast<void>(send(client));
+  client.on_frame(SdoBytes{0xA4, 0x17, 0x10, 0x00, 20}, 0);
+  static_cast<void>(send(client));
+  CHECK(client.on_frame(SdoBytes{0xA2, 1, 0}, 0));
+  CHECK(send(client) == SdoBytes{0xD5, 0x78, 0xA9});
+  client.on_frame(SdoBytes{0xA1}, 0);
+  CHECK(client.result().kind == Kind::confirmed);
+
+  SdoBlockDownload unfinished(buffer, counting(20), {});
+  static_cast<void>(send(unfinished));
+  unfinished.on_frame(SdoBytes{0xA4, 0x10, 0x20, 0x00, 2}, 0);
+  static_cast<void>(send(unfinished));
+  static_cast<void>(send(unfinished));
+  unfinished.on_frame(SdoBytes{0xA2, 2, 0}, 0);
+  CHECK(unfinished.result().kind == Kind::violation);
+  CHECK(unfinished.result().reply == abort::block_size);
 }
 
 TEST_CASE("A lost segment is sent again after the acknowledge of the one before") {

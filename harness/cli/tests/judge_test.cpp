@@ -43,8 +43,8 @@ cli::SimulatedRun live(const std::vector<std::string>& defects,
                        const std::vector<std::string>& patterns = {}) {
   engine::RunOptions options;
   options.plan.selection.patterns = patterns;
-  auto run =
-      cli::simulate(defects, world().profile, world().suites.suite, world().suites.catalogue, options, 1);
+  auto run = cli::simulate({.defects = defects}, world().profile, world().suites.suite,
+                           world().suites.catalogue, options, 1);
   INFO((run ? std::string() : run.error().text()));
   REQUIRE(run.has_value());
   return std::move(*run);

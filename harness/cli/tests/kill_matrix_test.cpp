@@ -24,7 +24,7 @@ const cli::KillMatrix& matrix() {
     REQUIRE(suites.has_value());
     auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
     REQUIRE(profile.has_value());
-    auto out = cli::kill_matrix(profile->profile, suites->suite, suites->catalogue, 1);
+    auto out = cli::kill_matrix(profile->profile, suites->suite, suites->catalogue, {});
     REQUIRE(out.has_value());
     return std::move(*out);
   }();

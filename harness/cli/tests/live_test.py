@@ -4,18 +4,12 @@
 import os
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-FOLDER, SUITES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
-INTERFACE = os.environ.get("CONFORM_TEST_CAN", "")
-if not INTERFACE:
-    print("skipped: CONFORM_TEST_CAN names no interface (scripts/with-vcan env CONFORM_TEST_CAN=vcan0 ...)")
-    sys.exit(77)
-del sys.argv[1:]
+from live_device import INTERFACE, SUITES, Node, command, run
 
 # One defect of each family of the mission, and the requirement that must be named.
 FAMILIES = [
@@ -26,32 +20,6 @@ FAMILIES = [
     ("1003-oldest-first", "OD-1003-12", "cia301/emergency/history*"),
     ("1014-lock-missing", "OD-1014-06", "cia301/cob-id*"),
 ]
-
-
-class Node:
-    """canopen-refnode on the interface, ready when its line has come."""
-
-    def __init__(self, *arguments):
-        self.process = subprocess.Popen([os.path.join(FOLDER, "canopen-refnode"), "--interface", INTERFACE, "--node", "5",
-                                         *arguments], stdout=subprocess.PIPE, text=True)
-        line = self.process.stdout.readline()
-        assert "node 5" in line, line
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.send_signal(signal.SIGTERM)
-        self.process.wait(10)
-        self.process.stdout.close()
-
-
-def command(*arguments):
-    return [os.path.join(FOLDER, "canopen-conform"), "run", "--interface", INTERFACE, "--node", "5", *arguments]
-
-
-def run(*arguments):
-    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=500)
 
 
 class Live(unittest.TestCase):
@@ -92,7 +60,7 @@ class Live(unittest.TestCase):
         begin = time.monotonic()
         done = run("--junit", self.junit, "--quiet")
         self.assertEqual(done.returncode, 3)
-        self.assertLess(time.monotonic() - begin, 10)
+        self.assertLess(time.monotonic() - begin, 20)
         for case in self.cases():
             self.assertIsNotNone(case.find("error"))
             self.assertIsNone(case.find("failure"))

@@ -42,9 +42,16 @@ class ScriptedDevice final : public can::Participant {
   bool dead = false;
 
   void attach(Sender sender, BusTime) override { send_ = std::move(sender); }
-  void on_time(BusTime) override {}
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const override { return std::nullopt; }
+  void on_time(BusTime now) override {
+    if (!later_ || later_->first > now) return;
+    const auto frame = std::exchange(later_, std::nullopt)->second;
+    send(frame);
+  }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const override {
+    return later_ ? std::optional(later_->first) : std::nullopt;
+  }
   void send(const can::Frame& frame) const { send_(frame); }
+  void send_at(BusTime time, const can::Frame& frame) { later_.emplace(time, frame); }
 
   void on_frame(const can::Frame& frame, BusTime now) override {
     if (dead) return;
@@ -96,6 +103,7 @@ class ScriptedDevice final : public can::Participant {
 
  private:
   Sender send_;
+  std::optional<std::pair<BusTime, can::Frame>> later_;
 };
 
 /// Catalogue of three made-up rules, so that tests do not depend on the real one.

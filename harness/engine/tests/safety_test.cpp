@@ -130,7 +130,8 @@ TEST_CASE("when nothing is heard every case is an error, none a failure, and the
   REQUIRE(out.run.cases.size() == 3);
   for (const auto& each : out.run.cases) CHECK(each.verdict == Verdict::error);
   CHECK(out.run.aborted.has_value());
-  CHECK(out.run.elapsed < 5s);
+  // Three requests, then a reset and the time that a device may take to boot.
+  CHECK(out.run.elapsed < 10s);
   CHECK(result::exit_code(out.run) == 3);
 }
 

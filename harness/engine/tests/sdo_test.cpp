@@ -335,3 +335,59 @@ TEST_CASE("a megabyte goes both ways within the capture's bounds") {
   CHECK(up->front().data == data);
   CHECK(bench.recorder->capture().size() < 300'000);
 }
+
+TEST_CASE("a request whose echo the host lost was sent all the same, and the run goes on") {
+  for (const bool conversation : {false, true}) {
+    can::SimulatedBus bus;
+    ScriptedDevice device;
+    device.before = [&](ScriptedDevice&, const can::Frame& frame, BusTime) {
+      // Behind this request come its answer and then the frame whose echo is lost.
+      if (frame.data[1] == 0x14) bus.drop_at_harness(bus.frame_count() + 2);
+      return false;
+    };
+    const auto out = play(bus, device,
+                          steps_of(std::string(R"(
+      - upload: {object: 1014h:00}
+)") + (conversation ? R"(
+      - talk: "> 600+N: 40 17 10 00 00 00 00 00"
+        checks: T-MUST
+)"
+                    : R"(
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+)")));
+    INFO(conversation);
+    CHECK_FALSE(out.run.aborted.has_value());
+    CHECK(out.only().verdict == Verdict::inconclusive);
+    CHECK(out.only().reason.find("the host lost") != std::string::npos);
+  }
+}
+
+TEST_CASE("an upload that would take a day is given up and judges nothing") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime now) {
+    const auto command = frame.data[0];
+    if (command == 0x40 && frame.data[1] == 0x08) {
+      self.send(can::data_frame(CanId(0x581), {0x41, 0x08, 0x10, 0x00, 0x00, 0x00, 0x10, 0x00}));
+      return true;
+    }
+    if (command != 0x60 && command != 0x70) return false;
+    // One byte of 1 MiB, just in time.
+    const auto segment = static_cast<std::uint8_t>((command & 0x10U) | 0x0CU);
+    self.send_at(now + std::chrono::milliseconds(900),
+                 can::data_frame(CanId(0x581), {segment, 0x41, 0, 0, 0, 0, 0, 0}));
+    return true;
+  };
+  const auto out = play(bus, device, steps_of(R"(
+      - upload: {object: 1008h:00}
+        checks: T-MUST
+)"));
+  INFO(out.only().reason);
+  for (const auto& each : out.only().judgements) {
+    for (const auto& finding : each.findings) UNSCOPED_INFO(finding.actual + " " + finding.reason);
+  }
+  CHECK(out.only().verdict == Verdict::inconclusive);
+  // Looked at twice before the case begins.
+  CHECK(out.run.elapsed < std::chrono::minutes(6));
+}

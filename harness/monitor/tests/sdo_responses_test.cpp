@@ -209,3 +209,23 @@ TEST_CASE("A channel that a download configures is watched like the default one"
   refused[3] = "< 80 01 12 02 00 00 00 08";
   CHECK(told(after_exchanges(refused)).empty());
 }
+
+TEST_CASE("On restricted CAN-IDs, and those of other services of the device, there is no SDO channel") {
+  const auto configured = [](const std::string& request, const std::string& response,
+                             const std::vector<std::string>& rest) {
+    std::vector<std::string> lines{"> 23 01 12 01 " + request, "< 60 01 12 01 00 00 00 00",
+                                   "> 23 01 12 02 " + response, "< 60 01 12 02 00 00 00 00"};
+    lines.insert(lines.end(), rest.begin(), rest.end());
+    return told(after_exchanges(lines));
+  };
+  // NMT commands are no requests, ...
+  CHECK(configured("00 00 00 00", "C1 06 00 00", {"> 000: 81 01", "< 701: 00"}).empty());
+  // ... heartbeats and emergency messages no responses.
+  CHECK(configured("A0 06 00 00", "01 07 00 00", {"> 000: 81 01", "< 701: 00"}).empty());
+  CHECK(configured("A0 06 00 00", "01 07 00 00", {"< 701: 7F"}).empty());
+  CHECK(configured("A0 06 00 00", "81 00 00 00", {"> 6A0: 40 00 10 00 00 00 00 00", "< 081: 00 10 81 00 00"})
+            .empty());
+  CHECK(
+      configured("A0 06 00 00", "A1 06 00 00", {"> 6A0: 40 00 10 00 00 00 00 00", "< 6A1: 43 00 10 00 91"}) ==
+      Told{"fail SDO-GEN-02 in frame 10"});
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Segmented and block transfers.
+#include "canopen/sdo_block.hpp"
 #include "trace.hpp"
 
 using namespace conform;
@@ -31,13 +32,9 @@ std::string end_frame(unsigned n, std::uint16_t crc) {
          hex_bytes(Bytes{static_cast<std::uint8_t>(0xC1U | (n << 2U)), static_cast<std::uint8_t>(crc & 0xFFU),
                          static_cast<std::uint8_t>(crc >> 8U), 0, 0, 0, 0, 0});
 }
-const std::uint16_t crc_of_nine = monitor::crc16(0, Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9});
+const std::uint16_t crc_of_nine = canopen::block_crc(Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9});
 
 }  // namespace
-
-TEST_CASE("The CRC of the nine digits is 31C3h") {
-  CHECK(monitor::crc16(0, Bytes{'1', '2', '3', '4', '5', '6', '7', '8', '9'}) == 0x31C3);
-}
 
 TEST_CASE("A segmented upload delivers its size with mirrored toggle bits") {
   CHECK(told(upload({ask_0, "< 00 31 32 33 34 35 36 37", ask_1, "< 1B 38 39 00 00 00 00 00"})).empty());
@@ -163,7 +160,18 @@ TEST_CASE("A block download and the block size the server gives") {
   CHECK(with("7F", "7F") == Told{"fail SDO-GEN-04 in frame 14"});
   CHECK(with("02", "01") == Told{"fail SDO-GEN-04 in frame 14"});
   CHECK(with("80", "7F") == Told{"fail SDO-BDN-05 in frame 6"});
-  CHECK(with("7F", "00") == Told{"fail SDO-GEN-04 in frame 14", "fail SDO-BDN-05 in frame 9"});
+  CHECK(with("7F", "80") == Told{"fail SDO-GEN-04 in frame 14", "fail SDO-BDN-05 in frame 9"});
+}
+
+TEST_CASE("Behind the last segment of a block download no block size is needed") {
+  const auto with = [](const std::string& last, const std::string& taken) {
+    return told(after_exchanges({"> C2 17 10 00 0E 00 00 00", "< A0 17 10 00 02 00 00 00",
+                                 "> 01 01 02 03 04 05 06 07", "> " + last + " 08 09 0A 0B 0C 0D 0E",
+                                 "< A2 " + taken + " 00 00 00 00 00 00"}));
+  };
+  CHECK(with("82", "02").empty());
+  CHECK(with("82", "01") == Told{"fail SDO-BDN-05 in frame 9"});
+  CHECK(with("02", "02") == Told{"fail SDO-BDN-05 in frame 9"});
 }
 
 TEST_CASE("A gap in a block download may be acknowledged at once, at the end, or after a time-out") {

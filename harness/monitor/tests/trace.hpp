@@ -9,7 +9,6 @@
 
 #include "base/text.hpp"
 #include "catch.hpp"
-#include "monitor/crc16.hpp"
 #include "monitor/watch.hpp"
 
 namespace conform::monitor::testing {

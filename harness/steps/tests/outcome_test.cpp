@@ -203,15 +203,4 @@ TEST_CASE("Without an expectation success is expected, and what is only tolerate
   CHECK(out->reason == "reserved byte 3 is 01h instead of 00h");
 }
 
-TEST_CASE("A length that the response leaves open is not proven") {
-  FakeSession session;
-  Expectation expectation;
-  expectation.pass = read("{size: 4}");
-  auto actual = uploaded({1, 0, 0, 0});
-  actual.size_indicated = false;
-  CHECK(grade(expectation, actual, "mandatory", false, session)->verdict == Verdict::warn);
-  expectation.pass = read("{value: 1}");
-  CHECK(grade(expectation, actual, "mandatory", false, session)->verdict == Verdict::pass);
-}
-
 }  // namespace

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests on a real AF_CAN socket share. Argument 1 and 2: folder of the programs, folder of the suites; the
+interface is $CONFORM_TEST_CAN, and without one the tests are skipped with exit code 77."""
+import os
+import signal
+import subprocess
+import sys
+
+FOLDER, SUITES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+INTERFACE = os.environ.get("CONFORM_TEST_CAN", "")
+if not INTERFACE:
+    print("skipped: CONFORM_TEST_CAN names no interface (scripts/with-vcan env CONFORM_TEST_CAN=vcan0 ...)")
+    sys.exit(77)
+del sys.argv[1:]
+
+
+class Node:
+    """canopen-refnode on the interface, ready when its line has come."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen([os.path.join(FOLDER, "canopen-refnode"), "--interface", INTERFACE, "--node", "5",
+                                         *arguments], stdout=subprocess.PIPE, text=True)
+        line = self.process.stdout.readline()
+        assert "node 5" in line, line
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(10)
+        self.process.stdout.close()
+
+
+def program(*arguments):
+    return [os.path.join(FOLDER, "canopen-conform"), *arguments]
+
+
+def command(*arguments):
+    return program("run", "--interface", INTERFACE, "--node", "5", *arguments)
+
+
+def run(*arguments):
+    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=500)
