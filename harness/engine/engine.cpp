@@ -163,6 +163,7 @@ class Run {
     out.begin = recorder_.now();
     out.first_frame = recorder_.capture().size();
     const auto health = recorder_.transport().health();
+    recorder_.set_losses(health.frames_dropped);
     (void)recorder_.take_lateness();
     auto ran = runner_.run(planned, out);
     const bool entered = runner_.entered_steps();

@@ -67,7 +67,6 @@ Result<void> Recorder::produce_due() {
 
 Result<std::size_t> Recorder::send(const can::Frame& frame) {
   const auto from = capture_.size();
-  const auto dropped = transport_.health().frames_dropped;
   if (auto sent = post(frame); !sent) return std::unexpected(sent.error());
   const auto is_echo = [&frame](const can::CapturedFrame& captured) {
     return captured.direction == can::Direction::transmitted && captured.frame == frame;
@@ -77,7 +76,7 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
   if (echo && !*echo) echo = find(from, is_echo, now() + transmit_limit);
   if (!echo) return std::unexpected(echo.error());
   if (*echo) return **echo;
-  if (transport_.health().frames_dropped == dropped) return never_sent();
+  if (!lost_frames()) return never_sent();
   return echo_lost(frame);
 }
 

@@ -49,6 +49,11 @@ class Recorder {
   /// The host has lost frames, and the echo of `frame` was among them: the case will not be judged, but the
   /// run goes on as if the echo had come now. Capture index of the frame.
   std::size_t echo_lost(const can::Frame& frame);
+  /// Whether the host has lost frames since the last `set_losses`. Asks the kernel and reads its counters, so
+  /// not for every frame.
+  [[nodiscard]] bool lost_frames() { return transport_.health().frames_dropped != losses_; }
+  /// Frames lost until a case begins.
+  void set_losses(std::uint64_t frames) { losses_ = frames; }
   /// First frame at or after `from` that matches and is stamped not after `deadline`; receives as long as
   /// that takes.
   [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match,
@@ -90,6 +95,7 @@ class Recorder {
   can::Transport& transport_;
   const std::atomic<int>* stop_;
   std::size_t most_frames_;
+  std::uint64_t losses_ = 0;
   bool waits_in_slices_;  // virtual time needs no slices: only a real wait can be too long for the user
   // It was at least this late when we last knew. Reading the clock costs as much as sending a frame on some
   // machines.

@@ -32,7 +32,6 @@ class Runner {
   Result<void> run() {
     seen_ = recorder_.capture().size();
     const auto begin = recorder_.now();
-    dropped_ = recorder_.transport().health().frames_dropped;
     for (auto& run : runs_) run.since = run.not_sent_since = run.last_request = begin;
     for (;;) {
       // One frame each in turn; whoever was behind the last one that got room begins.
@@ -153,8 +152,7 @@ class Runner {
   Result<void> on_deadline(SdoRun& run, BusTime now) {
     if (run.in_flight > 0) {
       if (run.looked_again) {
-        if (recorder_.transport().health().frames_dropped == dropped_)
-          return std::unexpected(recorder_.never_sent());
+        if (!recorder_.lost_frames()) return std::unexpected(recorder_.never_sent());
         in_flight_ -= std::exchange(run.in_flight, 0);
         const auto index = recorder_.echo_lost(run.posted);
         if (!run.first_request) run.first_request = index;
@@ -182,7 +180,6 @@ class Runner {
   std::size_t seen_ = 0;
   std::size_t turn_ = 0;       ///< who hands over first
   std::size_t in_flight_ = 0;  ///< of all runs
-  std::uint64_t dropped_ = 0;  ///< frames that the host had lost when the transfers began
 };
 
 }  // namespace
