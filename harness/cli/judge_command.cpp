@@ -56,8 +56,8 @@ int judge_command(const JudgeCommand& options) {
   // selects nothing.
   const bool selected =
       how.selection.patterns.empty() || engine::names_a_monitor(how.selection, suites->catalogue);
-  auto run = judge(*recording, *profile, suites->catalogue, how);
-  if (!selected || run.cases.empty()) {
+  auto run = selected ? judge(*recording, *profile, suites->catalogue, how) : result::RunResult{};
+  if (run.cases.empty()) {
     return report_error(
         {"nothing is selected: no monitor matches", {}, "'canopen-conform list monitor' shows what there is"},
         exit_usage);
