@@ -34,14 +34,14 @@ endfunction()
 function(conform_precompiled_headers)
   add_library(conform_pch OBJECT ${CMAKE_SOURCE_DIR}/cmake/pch.cpp)
   target_link_libraries(conform_pch PRIVATE fmt::fmt)
-  target_precompile_headers(conform_pch PRIVATE <algorithm> <array> <chrono> <cstddef> <cstdint> <expected> <functional> <map>
-    <memory> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector> <fmt/format.h>)
+  set(headers <algorithm> <array> <chrono> <cstddef> <cstdint> <expected> <functional> <map> <memory> <optional> <set> <span>
+    <string> <string_view> <utility> <variant> <vector> <fmt/format.h>)
+  target_precompile_headers(conform_pch PRIVATE ${headers})
   if(BUILD_TESTING)
     add_library(conform_test_pch OBJECT ${CMAKE_SOURCE_DIR}/cmake/pch.cpp)
     target_link_libraries(conform_test_pch PRIVATE fmt::fmt conform_test_main)
     target_compile_options(conform_test_pch PRIVATE ${CONFORM_TEST_FLAGS})
-    target_precompile_headers(conform_test_pch PRIVATE <algorithm> <array> <chrono> <cstddef> <cstdint> <expected> <functional>
-      <map> <memory> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector> <fmt/format.h> <catch.hpp>)
+    target_precompile_headers(conform_test_pch PRIVATE ${headers} <catch.hpp>)
   endif()
 endfunction()
 
