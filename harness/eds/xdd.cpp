@@ -128,14 +128,20 @@ class XddReader {
                                [&](const pugi::xml_node& each) { return visit(each, depth + 1); });
   }
 
+  /// A part of the file begins, or goes on, here: its place is the first one.
+  template <typename Part>
+  void found(Part& part, const pugi::xml_node& node) const {
+    if (!part.present) part.at = text_.position(node);
+    part.present = true;
+  }
+
   static void keep(Field& into, Field from) {
     if (!into.present) into = std::move(from);
   }
 
   void file_info(const pugi::xml_node& node) {
     auto& info = out_.file_info;
-    if (!info.present) info.at = text_.position(node);
-    info.present = true;
+    found(info, node);
     keep(info.file_name, text_.attribute(node, "fileName"));
     keep(info.file_version, text_.attribute(node, "fileVersion"));
     keep(info.created_by, text_.attribute(node, "fileCreator"));
@@ -148,8 +154,7 @@ class XddReader {
 
   void identity(const pugi::xml_node& node) {
     auto& info = out_.device_info;
-    if (!info.present) info.at = text_.position(node);
-    info.present = true;
+    found(info, node);
     keep(info.vendor_name, text_.content(child(node, "vendorName")));
     keep(info.vendor_number, text_.content(child(node, "vendorID")));
     keep(info.product_name, text_.content(child(node, "productName")));
@@ -159,8 +164,7 @@ class XddReader {
 
   void general_features(const pugi::xml_node& node) {
     auto& info = out_.device_info;
-    if (!info.present) info.at = text_.position(node);
-    info.present = true;
+    found(info, node);
     keep(info.granularity, text_.attribute(node, "granularity"));
     keep(info.nr_of_rx_pdo, text_.attribute(node, "nrOfRxPDO"));
     keep(info.nr_of_tx_pdo, text_.attribute(node, "nrOfTxPDO"));
@@ -172,8 +176,7 @@ class XddReader {
 
   void commissioning(const pugi::xml_node& node) {
     auto& info = out_.commissioning;
-    if (!info.present) info.at = text_.position(node);
-    info.present = true;
+    found(info, node);
     keep(info.node_id, text_.attribute(node, "nodeID"));
     keep(info.node_name, text_.attribute(node, "nodeName"));
     keep(info.baudrate, text_.attribute(node, "actualBaudRate"));
