@@ -100,7 +100,8 @@ class Interop(unittest.TestCase):
         self.assertLess(len(not_judged), 20, "the host is too busy for this test")
         return came, not_judged
 
-    def compare(self, name, came, not_judged):
+    def lines_to_compare(self, name, came, not_judged):
+        """The lines that came and those expected, both without what is not compared; None where they are rewritten."""
         path = os.path.join(HERE, name)
         with open(path, encoding="utf-8") as file:
             lines = file.read().splitlines()
@@ -117,18 +118,32 @@ class Interop(unittest.TestCase):
             kept = [line for line in before if line.split(" ", 2)[2] in not_judged]
             with open(path, "w", encoding="utf-8") as file:
                 file.write("\n".join([*comments, *unsteady.values(), *sorted([*came, *kept], key=by_case)]) + "\n")
+            return None
+        return came, sorted((line for line in before if compared(line)), key=by_case)
+
+    def check(self, name, select, *options):
+        """A difference counts when the scenario, run again by itself, gives one again: what the device does with
+        frames that come close together depends on the load of the machine."""
+        compared = self.lines_to_compare(name, *self.outcome(select, *options))
+        if compared is None:
             return
-        expected = sorted((line for line in before if compared(line)), key=by_case)
+        came, expected = compared
+        again = sorted({line.split(" ", 2)[2] for line in set(came) ^ set(expected)})
+        if again and len(again) < 20:
+            print("\n  run again by themselves: " + ", ".join(again), flush=True)
+            scenarios = sorted({case.split("[")[0] for case in again})
+            came, expected = self.lines_to_compare(name, *self.outcome(scenarios, *options))
+            came, expected = ([line for line in some if line.split(" ", 2)[2] in again] for some in (came, expected))
         diff = "\n".join(line for line in difflib.unified_diff(expected, came, "expected", "came", n=0, lineterm="")
                          if not line.startswith("@@"))
         if diff:
             self.fail(f"{name}: the outcome is another one (- no longer, + new; each is to be understood):\n{diff}")
 
     def test_the_package_with_a_boot_up_message_and_1017h_as_cia_301_has_it(self):
-        self.compare("helped.expected", *self.outcome(HELPED))
+        self.check("helped.expected", HELPED)
 
     def test_the_package_as_it_is(self):
-        self.compare("plain.expected", *self.outcome(PLAIN, "--plain"))
+        self.check("plain.expected", PLAIN, "--plain")
 
 
 if __name__ == "__main__":
