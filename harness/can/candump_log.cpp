@@ -205,6 +205,11 @@ Result<LoadedCapture> read_candump_log(std::string_view text, const std::string&
     if (line.size() > max_line) return fail("the line is longer than 4096 characters", here());
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (trim(line).empty() || line.starts_with('#')) continue;
+    // candump ends every line: this one may lack data bytes, which would be taken for the device's mistake.
+    if (end == std::string_view::npos && loaded.capture.size() > 0) {
+      loaded.cut_off = line.size();
+      break;
+    }
 
     auto parsed = parse_line(line);
     if (!parsed) {

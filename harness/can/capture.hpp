@@ -48,6 +48,9 @@ class Capture {
 struct LoadedCapture {
   Capture capture;
   CaptureInfo info;
+  /// Bytes at the end of the file that are the beginning of a block or line which was never completed: the
+  /// program that recorded it was killed. They are left out.
+  std::size_t cut_off = 0;
 };
 
 }  // namespace conform::can

@@ -96,7 +96,7 @@ class Reader {
 
   Result<void> block() {
     const ByteView rest = bytes_.subspan(position_);
-    if (rest.size() < 12) return broken("it ends inside a block");
+    if (rest.size() < 12) return end_inside_block();
     // The type of a section header reads the same in both byte orders and comes before the byte order is
     // known.
     if (load_le(rest.first(4)) == section_header) {
@@ -114,12 +114,20 @@ class Reader {
     if (length < 12 || length % 4 != 0)
       return broken("a block has the impossible length " + std::to_string(length));
     if (length > max_block) return broken("a block is larger than 16 MiB");
-    if (length > rest.size()) return broken("it ends inside a block");
+    if (length > rest.size()) return end_inside_block();
     if (u32(rest, length - 4) != length) return broken("the two lengths of a block differ");
     const ByteView body = rest.subspan(8, length - 12);
     auto done = dispatch(type, body);
     position_ += length;
     return done;
+  }
+
+  // What was recorded until somebody killed the recorder is worth judging; without a frame nothing is left.
+  Result<void> end_inside_block() {
+    if (loaded_.capture.size() == 0) return broken("it ends inside a block");
+    loaded_.cut_off = bytes_.size() - position_;
+    position_ = bytes_.size();
+    return {};
   }
 
   Result<void> dispatch(std::uint32_t type, ByteView body) {

@@ -12,6 +12,7 @@
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
 #include "engine/monitor_cases.hpp"
+#include "reports/text_tools.hpp"
 
 namespace conform::cli {
 namespace {
@@ -49,6 +50,7 @@ std::string others_in(std::span<const can::CapturedFrame> frames) {
 Recording with_directions(can::LoadedCapture loaded) {
   Recording out;
   out.info = std::move(loaded.info);
+  out.cut_off = loaded.cut_off;
   const auto& frames = loaded.capture.frames();
   const bool marked = std::ranges::any_of(
       frames, [](const can::CapturedFrame& each) { return each.direction == Direction::transmitted; });
@@ -105,6 +107,10 @@ result::RunResult judge(const Recording& recording, const device::Profile& profi
         "the capture does not tell who sent a frame: NMT commands, SDO requests and remote frames are taken as sent to the "
         "device, {} and {} as sent by it",
         to_string(set.sdo_response), to_string(set.error_control)));
+  }
+  if (recording.cut_off > 0) {
+    out.notes.push_back(fmt::format("the capture ends in the middle of a frame: its last {} are left out",
+                                    reports::counted(recording.cut_off, "byte")));
   }
   if (frames_of(profile.node, frames) == 0) {
     out.aborted = fmt::format("nothing was heard of node {}{}", profile.node.value(), others_in(frames));

@@ -19,6 +19,8 @@ struct Recording {
   can::CaptureInfo info;
   /// The file names no frame as sent by the host that recorded it, so that identifiers have to tell.
   bool directions_inferred = false;
+  /// Bytes of an unfinished block or line at the end of the file, left out.
+  std::size_t cut_off = 0;
 };
 
 /// pcapng or candump log, told by the content. `only`: the interface, where the file has several. Where no

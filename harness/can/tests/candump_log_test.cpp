@@ -85,7 +85,7 @@ TEST_CASE("what was written reads back, relative to the first frame") {
 TEST_CASE("dialects of other tools are read") {
   const auto loaded = read_candump_log("# a comment\r\n\r\n"
                                        "(1700000000.000000123) vcan0 123#11.22 T\r\n"
-                                       "(1699999999.000000) vcan0 123#1122334455667788_B R",
+                                       "(1699999999.000000) vcan0 123#1122334455667788_B R\n",
                                        "x.log");
   REQUIRE(loaded.has_value());
   const auto& frames = loaded->capture.frames();
@@ -95,6 +95,13 @@ TEST_CASE("dialects of other tools are read") {
   CHECK(frames[1].direction == Direction::received);
   CHECK(frames[1].frame.dlc == 11);
   CHECK(frames[1].time == BusTime(-1s - 123ns));
+}
+
+TEST_CASE("a last line without end may lack data and is left out") {
+  const auto loaded = read_candump_log("(1.000000) can0 080#\n(1.000000) can0 585#4300", "x.log");
+  REQUIRE(loaded.has_value());
+  CHECK(loaded->capture.size() == 1);
+  CHECK(loaded->cut_off == 24);
 }
 
 TEST_CASE("frames of a second interface are refused or, with a choice, skipped") {

@@ -182,6 +182,24 @@ TEST_CASE("foreign and damaged files are refused") {
   CHECK(problem(fd).find("CAN FD") != std::string::npos);
 }
 
+TEST_CASE("of a recording that was cut off the whole frames are read") {
+  Capture capture;
+  for (const std::uint32_t id : {1, 2})
+    capture.add({.frame = data_frame(CanId(id), {}), .time = BusTime{}, .comment = {}});
+  const Bytes good = write_pcapng(capture, {});
+  Capture first;
+  first.add(capture.frames()[0]);
+  const std::size_t one = write_pcapng(first, {}).size();
+  for (std::size_t size = one + 1; size < good.size(); ++size) {
+    const auto loaded = read_pcapng(ByteView(good).first(size), "x.pcapng");
+    REQUIRE(loaded.has_value());
+    CHECK(loaded->capture.size() == 1);
+    CHECK(loaded->cut_off == size - one);
+  }
+  CHECK(problem(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(one) - 4))
+            .find("ends inside a block") != std::string::npos);
+}
+
 TEST_CASE("no truncation or flipped byte makes the reader do more than refuse") {
   const Bytes good = write_pcapng(sample(), {.interface_name = "can0", .comment = "c"});
   for (std::size_t size = 0; size < good.size(); ++size) {
