@@ -204,6 +204,7 @@ class AwaitEmcy final : public Action {
     save("save_register", out->save_register_);
     return out;
   }
+  Measures measures() const override { return {"register"}; }
   bool acts() const override { return false; }
   std::string words(Session& session) const override {
     std::string out = "EMCY";

@@ -331,6 +331,7 @@ class Collect final : public Action {
     parse_after(fields, context, out->after_);
     return from && time ? std::move(out) : nullptr;
   }
+  Measures measures() const override { return {"count", "first", "state", "period", "shortest", "longest"}; }
   bool acts() const override { return false; }
   std::string words(Session&) const override { return "collect " + source_.words() + " for " + time_.text(); }
 

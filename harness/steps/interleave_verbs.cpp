@@ -32,6 +32,7 @@ class Interleave final : public Action {
   }
   const ObjectReference* object() const override { return &transfers_.front().object(); }
 
+  Measures measures() const override { return {"count"}; }
   Result<Actual> run(Session& session) const override {
     std::vector<SdoJob> jobs;
     for (const auto& transfer : transfers_) {

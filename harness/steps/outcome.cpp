@@ -366,6 +366,27 @@ std::string Outcome::words(Scope& scope, std::optional<canopen::DataType> type) 
   return join(parts, ", ");
 }
 
+void check_measures(const yaml::Field& field, std::string_view verb, const Measures& measured) {
+  const auto is_measure = [](std::string_view key) {
+    return key == "state" || std::ranges::find(measures, key) != std::end(measures);
+  };
+  const auto check = [&](const yaml::Node& node) {
+    if (!node.is_mapping()) return;
+    for (const auto& entry : node.entries()) {
+      const auto& key = entry.key.text();
+      if (!is_measure(key) || std::ranges::find(measured, key) != measured.end()) continue;
+      field.diagnostics().error(
+          entry.key, "'" + key + "' is not measured by this '" + std::string(verb) + "'",
+          measured.empty()
+              ? "it measures nothing"
+              : "measured here: " + join(std::vector<std::string>(measured.begin(), measured.end()), ", "));
+    }
+  };
+  check(*field.node());
+  if (!field.node()->is_sequence()) return;
+  for (const auto& item : field.node()->items()) check(item);
+}
+
 std::vector<std::string_view> outcome_keys() {
   std::vector<std::string_view> out = {"abort", "value", "mask", "one_of", "range",
                                        "size",  "bytes", "text", "state"};

@@ -75,6 +75,11 @@ using NameCheck = std::vector<std::string>;
 /// Keys of an outcome written as a mapping, for messages and for the schema's test.
 [[nodiscard]] std::vector<std::string_view> outcome_keys();
 
+/// Names of measurements.
+using Measures = std::vector<std::string_view>;
+/// Reports every measurement that an outcome (or list of outcomes) asks for and that is not among these.
+void check_measures(const yaml::Field& field, std::string_view verb, const Measures& measured);
+
 /// Reads an outcome (or list of outcomes) of `expect`, `warn`, `fail` or `either: on`. Mistakes go to the
 /// field's diagnostics.
 [[nodiscard]] std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& names);

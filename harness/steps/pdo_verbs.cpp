@@ -331,6 +331,7 @@ class PdoMapping final : public Action {
     }
     return pdo ? std::move(out) : nullptr;
   }
+  Measures measures() const override { return {"count", "bits", "absent", "longer", "shorter"}; }
   bool reads_only() const override { return true; }
   std::string words(Session& session) const override {
     return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);

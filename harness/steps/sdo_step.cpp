@@ -139,6 +139,19 @@ Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer ob
   return out;
 }
 
+Measures measures_of(bool upload, bool block) {
+  Measures out{"segments"};
+  if (upload) out.insert(out.end(), {"announced", "size_open"});
+  if (!block) return out;
+  out.insert(out.end(), {"sub_blocks", "retransmitted", "crc_agreed"});
+  if (upload) {
+    out.insert(out.end(), {"switched", "wrong_numbers", "timeouts", "crc_ok", "crc", "unused"});
+  } else {
+    out.insert(out.end(), {"acks", "first_ackseq", "blksize"});
+  }
+  return out;
+}
+
 std::optional<FaultPhrase> FaultPhrase::parse(const yaml::Field& field, const NameCheck& names) {
   const auto text = field.text();
   if (!text) return std::nullopt;
@@ -405,6 +418,13 @@ Result<SdoJob> SdoStep::job(Session& session) const {
   }
   if (timeout_) out.timeout = timeout_->resolve(session.profile());
   if (wait_) out.wait = wait_->resolve(session.profile());
+  return out;
+}
+
+Measures SdoStep::measures() const {
+  auto out = measures_of(upload_, transfer_of(transfer_).block);
+  if (upload_) out.emplace_back("latency");
+  if (!faults_.empty()) out.insert(out.end(), {"surplus", "answers"});
   return out;
 }
 

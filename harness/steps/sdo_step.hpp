@@ -15,6 +15,9 @@ namespace conform::steps {
 [[nodiscard]] Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer object,
                                bool upload);
 
+/// The measurements it may have.
+[[nodiscard]] Measures measures_of(bool upload, bool block);
+
 /// Reproducible bytes for `pattern`; visible characters where the entry wants them.
 [[nodiscard]] Bytes pattern_bytes(std::size_t size, bool visible);
 
@@ -40,6 +43,7 @@ class SdoStep {
   [[nodiscard]] bool reads_only() const { return upload_ && !channel_; }
   [[nodiscard]] const ObjectReference& object() const { return object_; }
   [[nodiscard]] std::string words(Session& session) const;
+  [[nodiscard]] Measures measures() const;
   [[nodiscard]] Result<SdoJob> job(Session& session) const;
   /// Saves what was asked to be saved, and tells what came.
   [[nodiscard]] Actual conclude(Session& session, const SdoJob& job, const SdoAnswer& answer) const;

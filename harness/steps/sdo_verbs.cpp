@@ -25,6 +25,7 @@ class Transfer final : public Action {
   std::string words(Session& session) const override { return step_.words(session); }
   bool reads_only() const override { return step_.reads_only(); }
   const ObjectReference* object() const override { return &step_.object(); }
+  Measures measures() const override { return step_.measures(); }
 
   Result<Actual> run(Session& session) const override {
     auto job = step_.job(session);

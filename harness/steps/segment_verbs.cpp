@@ -38,6 +38,9 @@ class Segments final : public Action {
     return "upload " + (object ? to_string(*object) : object_.text()) + " by segments" +
            (pause_ ? " with pauses of " + pause_->text() : "");
   }
+  Measures measures() const override {
+    return {"segments", "wrong_toggles", "difference", "unmarked", "empty_last"};
+  }
   bool reads_only() const override { return true; }
   const ObjectReference* object() const override { return &object_; }
 

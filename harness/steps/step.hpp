@@ -38,6 +38,9 @@ class Action {
   [[nodiscard]] virtual bool reads_only() const { return !acts(); }
   /// The entry it is about, for `current` and for printing values.
   [[nodiscard]] virtual const ObjectReference* object() const { return nullptr; }
+  /// The measurements its outcome may have. To ask for others is a mistake of the author, which would be
+  /// counted against the device.
+  [[nodiscard]] virtual Measures measures() const { return {}; }
 };
 
 struct Step;

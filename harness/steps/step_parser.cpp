@@ -50,8 +50,15 @@ std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) 
   return walk;
 }
 
-std::vector<Branch> parse_branches(const yaml::Field& field, const ObjectReference* object,
-                                   ParseContext& context) {
+/// The outcomes at a field, and whether the action can measure what they ask for.
+std::vector<Outcome> outcomes_of(const yaml::Field& field, std::string_view verb, const Action* action,
+                                 const ParseContext& context) {
+  if (action != nullptr) check_measures(field, verb, action->measures());
+  return parse_outcomes(field, context.names);
+}
+
+std::vector<Branch> parse_branches(const yaml::Field& field, const Step& of, ParseContext& context) {
+  const auto* object = of.action == nullptr ? nullptr : of.action->object();
   std::vector<Branch> out;
   const auto known_before = context.names;
   if (field.node()->is_sequence() && field.node()->items().empty()) field.error("'either' without a branch");
@@ -79,7 +86,7 @@ std::vector<Branch> parse_branches(const yaml::Field& field, const ObjectReferen
         branch.steps.push_back(std::move(step));
       }
     } else if (const auto on = fields.required("if")) {
-      branch.on = parse_outcomes(on, context.names);
+      branch.on = outcomes_of(on, of.verb, of.action.get(), context);
     }
     if (const auto verdict = fields.optional("verdict")) {
       branch.verdict = verdict
@@ -173,14 +180,14 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
        {std::pair("expect", &step.expectation.pass), std::pair("warn", &step.expectation.warn),
         std::pair("fail", &step.expectation.fail)}) {
     if (const auto field = fields.optional(key)) {
-      *set = parse_outcomes(field, context.names);
+      *set = outcomes_of(field, step.verb, step.action.get(), context);
       step.expectation.given = true;
     }
   }
   if (const auto either = fields.optional("either")) {
     if (step.expectation.given)
       either.error("'either' and 'expect' in one step", "the branches are the expectation");
-    step.branches = parse_branches(either, step.action == nullptr ? nullptr : step.action->object(), context);
+    step.branches = parse_branches(either, step, context);
     for (auto& branch : step.branches) {
       // A conversation as alternative decides what the step decides, unless it says otherwise.
       if (!branch.on.empty() || branch.steps.empty()) continue;
