@@ -67,7 +67,8 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
       std::exchange(line.state, State::idle) == State::late_answers ? quiet_ : after_conversation;
   // An abort is never answered; after it, answers to what was before must not be taken for answers to what
   // comes.
-  const auto abort = canopen::encode_abort({Index(0), SubIndex(0)}, AbortCode(0x0800'0000));
+  const auto abort =
+      canopen::encode_abort(line.latest.value_or(Multiplexer{Index(0), SubIndex(0)}), AbortCode(0x0800'0000));
   auto sent = recorder_.send(can::data_frame(ids.request, abort));
   if (!sent) return std::unexpected(sent.error());
   return recorder_.wait_until(recorder_.now() + rest);
@@ -112,7 +113,10 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
       return std::unexpected(idle.error());
   }
   if (auto done = run_transfers(recorder_, runs); !done) {
-    for (auto* line : lines) dirty(*line, true);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      lines[i]->latest = runs[i].object;
+      dirty(*lines[i], true);
+    }
     return std::unexpected(done.error());
   }
   std::vector<steps::SdoAnswer> out;
@@ -122,6 +126,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     auto& result = runs[i].result;
     auto& line = *lines[i];
     line.state = result.abandoned ? State::abandoned : State::idle;
+    line.latest = runs[i].object;
     if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
       dirty(line, true);
       line.stale = runs[i].object;
@@ -180,6 +185,7 @@ Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) 
   const auto response = is_response(default_ids_.response);
   auto found = recorder_.find(*sent + 1, response, recorder_.capture().frames()[*sent].time + timeout_);
   if (!found) return std::unexpected(found.error());
+  default_line().latest = object;
   dirty(!*found);
   if (!*found) return Size();
   const auto answer = canopen::decode_upload_response(recorder_.capture().frames()[**found].frame.bytes());
@@ -200,6 +206,7 @@ Result<std::optional<std::array<std::uint8_t, 8>>> SdoChannel::try_block_initiat
   auto found = recorder_.find(*sent + 1, is_response(default_ids_.response),
                               recorder_.capture().frames()[*sent].time + timeout_);
   if (!found) return std::unexpected(found.error());
+  default_line().latest = canopen::sdo_multiplexer(request);
   // Whoever comes next may send frames without looking at the channel.
   dirty(!*found);
   if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());

@@ -66,7 +66,8 @@ class SdoChannel {
   };
   struct Line {
     State state = State::idle;
-    std::optional<Multiplexer> stale;  ///< entry whose answer is overdue
+    std::optional<Multiplexer> stale;   ///< entry whose answer is overdue
+    std::optional<Multiplexer> latest;  ///< entry of the latest transfer, for the abort that ends it
   };
   [[nodiscard]] Line& default_line() { return lines_.at(default_ids_); }
   [[nodiscard]] const Line& default_line() const { return lines_.at(default_ids_); }
