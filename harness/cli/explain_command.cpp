@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `explain`: a requirement, a verb, a defect, or the words conditions are made of.
+// `explain`: a requirement, a scenario, a monitor, a verb, a defect, a variant, or the words conditions are
+// made of.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "monitor/watch.hpp"
 #include "steps/condition.hpp"
 #include "steps/step.hpp"
+#include "variants/variant.hpp"
 
 namespace conform::cli {
 namespace {
@@ -60,6 +62,58 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   }
   if (!defects.empty()) out += "\n  Defects of the reference node that violate it\n" + defects;
   return out;
+}
+
+/// "  decides   OD-1003-06 Writing anything but 0 ..." for each.
+std::string requirement_lines(const auto& ids, const scenario::Catalogue& catalogue) {
+  std::string out;
+  for (const auto& id : ids) {
+    const auto* found = catalogue.find(id);
+    out += fmt::format("    {}  {}\n", id, found == nullptr ? "" : found->statement);
+  }
+  return out;
+}
+
+std::string explain_scenario(const scenario::Scenario& each, const scenario::Catalogue& catalogue) {
+  auto out = fmt::format("{}: {}\n\n", each.id, each.title);
+  out += paragraph("about", each.about);
+  out += paragraph("risk", std::string(to_string(each.risk)));
+  out += paragraph("when", each.when ? each.when->text() : "");
+  out += paragraph("slow", each.slow ? "takes long on a real bus: run with --slow" : "");
+  out += paragraph("CCT", join(each.cct, ", "));
+  out += paragraph("source", fmt::format("suites/{}:{}", each.position.file, each.position.line));
+  return out + "\n  Decides\n" + requirement_lines(each.requirements, catalogue);
+}
+
+std::string explain_monitor(const monitor::Rule& rule, const scenario::Catalogue& catalogue) {
+  return fmt::format(
+             "{}: {}\n\n  It watches every frame of a run, and of a capture given to 'judge'.\n  Not applicable "
+             "when: {}\n\n  Decides\n",
+             monitor::case_id(rule), rule.title, rule.nothing) +
+         requirement_lines(rule.requirements, catalogue);
+}
+
+std::string explain_defect(const refnode::Defect& defect, const scenario::Catalogue& catalogue) {
+  return fmt::format(
+             "{}: {}\n\n  A defect of the reference node: canopen-refnode --defect {}\n\n  Violates\n",
+             defect.id, defect.summary, defect.id) +
+         requirement_lines(defect.violates, catalogue);
+}
+
+std::string explain_variant(const refnode::Variant& variant, const scenario::Catalogue& catalogue) {
+  auto out =
+      fmt::format("{}: {}\n\n  Legal behaviour of the reference node: canopen-refnode --variant {}\n\n",
+                  variant.id, variant.summary, variant.id);
+  const auto list = [](const auto& words) {
+    return join(std::vector<std::string>(words.begin(), words.end()), ", ");
+  };
+  out += paragraph("legal by", std::string(variant.legal));
+  out += paragraph("one of", std::string(variant.group));
+  out += paragraph("excludes", list(variant.excludes));
+  out += paragraph("lacks", list(variant.lacks));
+  out += paragraph("gains", list(variant.gains));
+  return variant.warns.empty() ? out
+                               : out + "\n  Warned of by\n" + requirement_lines(variant.warns, catalogue);
 }
 
 std::string explain_verb(const steps::Verb& verb) {
@@ -170,19 +224,44 @@ int explain_command(const ExplainCommand& options) {
     return 0;
   }
   if (const auto* defect = refnode::find_defect(options.topic)) {
-    std::vector<std::string> ids(defect->violates.begin(), defect->violates.end());
-    print(fmt::format("{}: {}\n  violates {}\n", defect->id, defect->summary, join(ids, ", ")));
+    print(explain_defect(*defect, suites->catalogue));
+    return 0;
+  }
+  if (const auto* variant = refnode::find_variant(options.topic)) {
+    print(explain_variant(*variant, suites->catalogue));
     return 0;
   }
   auto known = suites->catalogue.ids();
+  // An instance of a case, "upper-bits[1400h:01]", is explained by its scenario.
+  const auto name = options.topic.substr(0, options.topic.find('['));
+  for (const auto& file : suites->suite.files) {
+    for (const auto& each : file.scenarios) {
+      if (each.id == name) {
+        print(explain_scenario(each, suites->catalogue));
+        return 0;
+      }
+      known.push_back(each.id);
+    }
+  }
+  std::vector<std::string> monitors;
+  for (const auto& rule : monitor::rules()) {
+    if (monitor::case_id(rule) == options.topic || rule.name == options.topic) {
+      print(explain_monitor(rule, suites->catalogue));
+      return 0;
+    }
+    monitors.push_back(monitor::case_id(rule));
+  }
+  known.insert(known.end(), monitors.begin(), monitors.end());
   for (const auto& verb : steps::verbs()) known.push_back(verb.name);
-  for (const auto& defect : refnode::defects()) known.push_back(defect.id);
+  for (const auto& defect : refnode::defects()) known.emplace_back(defect.id);
+  for (const auto& variant : refnode::variants()) known.emplace_back(variant.id);
   const auto near = did_you_mean(options.topic, known);
   return report_error(
       {"nothing is known about '" + options.topic + "'",
        {},
-       near.empty() ? "a requirement id, a verb, a defect, 'verbs', 'conditions' or 'coverage'"
-                    : "did you mean '" + std::string(near) + "'?"},
+       near.empty()
+           ? "a requirement, scenario, monitor, verb, defect or variant; or 'verbs', 'conditions', 'coverage'"
+           : "did you mean '" + std::string(near) + "'?"},
       exit_usage);
 }
 

@@ -176,7 +176,8 @@ int dispatch(int argc, char** argv) {
 
   ExplainCommand explain;
   auto* explain_sub = app.add_subcommand(
-      "explain", "Explain a requirement, a verb or a defect; list verbs, conditions or what is covered");
+      "explain",
+      "Explain a requirement, scenario, monitor, verb, defect or variant; list verbs, conditions or coverage");
   explain_sub
       ->add_option("topic", explain.topic,
                    "An id such as OD-1003-06, a verb such as download, or: verbs, conditions, coverage")

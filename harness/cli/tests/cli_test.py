@@ -203,6 +203,18 @@ class CommandLine(unittest.TestCase):
         self.assertIn("1003-nonzero-write-accepted", explained)
         self.assertIn("OD-1003-06", run("explain", "EMCY-HIS-04").stdout)
 
+    def test_scenarios_monitors_defects_and_variants_are_explained_too(self):
+        for topic, words in (
+                ("cia301/dictionary/1003-error-history/non-zero-write[01h]", ["OD-1003-06  ", "risk", "1003-error-history.yaml:"]),
+                ("monitor/sdo-toggle", ["every frame of a run", "SDO-"]),
+                ("sdo-toggle", ["monitor/sdo-toggle"]),
+                ("1003-nonzero-write-accepted", ["--defect 1003-nonzero-write-accepted", "OD-1003-06  "]),
+                ("sdo-block-absent", ["--variant sdo-block-absent", "legal by"])):
+            explained = run("explain", topic).stdout
+            for word in words:
+                self.assertIn(word, explained, topic)
+        self.assertIn("did you mean 'monitor/sdo-toggle'", run("explain", "monitor/sdo-togle").stderr)
+
     def test_the_suites_have_no_mistakes(self):
         done = run("lint")
         self.assertEqual(done.returncode, 0, done.stdout)
