@@ -125,6 +125,7 @@ void draw_grades(Card& card, const Finding& finding, Verdict verdict) {
                byte_rows(finding.actual_bytes, card.width() < 92 ? 8 : 16));
   }
   card.row("why", prose(finding.reason));
+  card.row("described", log_safe(finding.declared_at));
 }
 
 void draw_frames(Card& card, const CaseResult& one, const Finding& finding) {

@@ -24,6 +24,7 @@ struct RunCommand {
   std::vector<std::string> variants;  ///< legal ones, of the same node
   std::optional<std::uint32_t> node;
   std::string device;  ///< profile file
+  std::string eds;     ///< description of the device
   std::string allow;   ///< risk tier; empty: by interface
   std::uint64_t seed = 1;
   bool strict = false;
@@ -36,6 +37,15 @@ struct RunCommand {
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
+struct ScanCommand {
+  std::string interface;
+  bool simulate = false;  ///< the reference node
+  std::optional<std::uint32_t> node;
+  std::vector<std::string> ranges;  ///< "2000h..2FFFh"; empty: all that devices use
+  std::string output;               ///< file; empty: standard output
+};
+[[nodiscard]] int scan_command(const ScanCommand& options);
+
 struct JudgeCommand {
   std::string capture;  ///< pcapng or candump log
   std::vector<std::string> select;
@@ -44,6 +54,7 @@ struct JudgeCommand {
   std::string suites;
   std::optional<std::uint32_t> node;
   std::string profile;    ///< device profile file
+  std::string eds;        ///< description of the device
   std::string interface;  ///< of a capture with several
   bool strict = false;
   bool quiet = false;

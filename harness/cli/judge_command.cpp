@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "cli/commands.hpp"
 #include "cli/judge.hpp"
+#include "cli/known_device.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
 #include "engine/monitor_cases.hpp"
@@ -18,21 +19,6 @@ namespace {
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
 
-Result<device::Profile> profile_for(const JudgeCommand& options) {
-  const auto node = NodeId(static_cast<std::uint8_t>(options.node.value_or(1)));
-  if (options.profile.empty()) {
-    if (!options.node)
-      return fail("the node-ID of the device is missing", {}, "--node 1..127, or --profile FILE");
-    return device::default_profile(node);
-  }
-  auto document = device::load_profile_file(options.profile);
-  if (!document) return std::unexpected(document.error());
-  if (document->diagnostics.has_errors())
-    return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), options.profile);
-  if (options.node) document->profile.node = node;
-  return std::move(document->profile);
-}
-
 }  // namespace
 
 int judge_command(const JudgeCommand& options) {
@@ -40,8 +26,8 @@ int judge_command(const JudgeCommand& options) {
   if (!root) return report_error(root.error(), exit_usage);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return report_error(suites.error(), exit_usage);
-  auto profile = profile_for(options);
-  if (!profile) return report_error(profile.error(), exit_usage);
+  auto known = known_device({options.profile, options.eds, options.node}, std::nullopt);
+  if (!known) return report_error(known.error(), exit_usage);
   auto content = read_file(options.capture, most_bytes);
   if (!content) return report_error(content.error(), exit_usage);
   auto recording = read_recording(*content, options.capture, options.interface);
@@ -56,12 +42,13 @@ int judge_command(const JudgeCommand& options) {
   // selects nothing.
   const bool selected =
       how.selection.patterns.empty() || engine::names_a_monitor(how.selection, suites->catalogue);
-  auto run = selected ? judge(*recording, *profile, suites->catalogue, how) : result::RunResult{};
+  auto run = selected ? judge(*recording, known->profile, suites->catalogue, how) : result::RunResult{};
   if (run.cases.empty()) {
     return report_error(
         {"nothing is selected: no monitor matches", {}, "'canopen-conform list monitor' shows what there is"},
         exit_usage);
   }
+  run.notes.insert(run.notes.begin(), known->notes.begin(), known->notes.end());
   run.tool = "canopen-conform " CONFORM_VERSION;
   run.started_utc_ns = recording->info.epoch_ns;
   run.properties.insert(run.properties.begin(), {{"suite.digest", suite_digest(*root)},

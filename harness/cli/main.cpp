@@ -87,6 +87,11 @@ int dispatch(int argc, char** argv) {
   run_sub->add_option("-d,--device", run.device, "Device profile (YAML): claims, error triggers, tolerances")
       ->type_name("FILE");
   run_sub
+      ->add_option(
+          "--eds", run.eds,
+          "Description of the device (EDS, DCF, XDD, XDC): what it claims is expected; with --simulate the node is its twin")
+      ->type_name("FILE");
+  run_sub
       ->add_option("-r,--requirement", run.requirements,
                    "Only scenarios that decide this requirement (* allowed); repeatable")
       ->allow_extra_args(false)
@@ -132,6 +137,8 @@ int dispatch(int argc, char** argv) {
       ->add_option("-d,--device,--profile", judge.profile,
                    "Device profile (YAML): node-ID, times, known deviations")
       ->type_name("FILE");
+  judge_sub->add_option("--eds", judge.eds, "Description of the device (EDS, DCF, XDD, XDC)")
+      ->type_name("FILE");
   judge_sub->add_option("-i,--interface", judge.interface, "Which interface, where the capture has several")
       ->type_name("NAME");
   judge_sub
@@ -151,6 +158,23 @@ int dispatch(int argc, char** argv) {
   judge_sub->add_option("--color", judge.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
+
+  ScanCommand scan;
+  auto* scan_sub =
+      app.add_subcommand("scan", "Read the dictionary of a device and write a draft EDS; changes nothing");
+  scan_sub->add_option("-i,--interface", scan.interface, "CAN interface the device is on, for example can0")
+      ->type_name("NAME");
+  scan_sub->add_flag("--simulate", scan.simulate, "Scan the reference node on a simulated bus");
+  scan_sub->add_option("-n,--node", scan.node, "Node-ID of the device, 1 to 127")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  scan_sub
+      ->add_option("--range", scan.ranges,
+                   "Indices to look at, such as 2000h..2FFFh; repeatable (default 1000h..9FFFh)")
+      ->allow_extra_args(false)
+      ->type_name("RANGE");
+  scan_sub->add_option("-o,--output", scan.output, "Write the draft to this file (default: standard output)")
+      ->type_name("FILE");
 
   LintCommand lint;
   auto* lint_sub = app.add_subcommand("lint", "Check scenario files, without a bus");
@@ -232,6 +256,7 @@ int dispatch(int argc, char** argv) {
   if (lint_sub->parsed()) return lint_command(lint);
   if (eds_sub->parsed()) return eds.run();
   if (list_sub->parsed()) return list_command(list);
+  if (scan_sub->parsed()) return scan_command(scan);
   if (explain_sub->parsed()) return explain_command(explain);
   if (selftest_sub->parsed()) return selftest_command(selftest);
   return bench_command(bench);

@@ -17,6 +17,7 @@
 #include "can/socketcan_interface.hpp"
 #include "can/socketcan_transport.hpp"
 #include "cli/commands.hpp"
+#include "cli/known_device.hpp"
 #include "cli/selftest.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
@@ -49,25 +50,13 @@ void catch_signals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-Result<device::Profile> profile_for(const RunCommand& options, const std::string& suites) {
-  const auto node = NodeId(static_cast<std::uint8_t>(options.node.value_or(5)));
-  auto path = options.device;
-  if (path.empty() && options.simulate) path = suites + "/devices/reference-node.yaml";
-  if (path.empty()) {
-    if (!options.node)
-      return fail("the node-ID of the device is missing", {}, "--node 1..127, or --device FILE");
-    auto profile = device::default_profile(node);
-    profile.interface = options.interface;
-    return profile;
-  }
-  auto document = device::load_profile_file(path);
-  if (!document) return std::unexpected(document.error());
-  if (document->diagnostics.has_errors())
-    return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), path);
-  auto profile = std::move(document->profile);
-  if (options.node) profile.node = node;
-  if (!options.interface.empty()) profile.interface = options.interface;
-  return profile;
+Result<KnownDevice> device_of(const RunCommand& options, const std::string& suites) {
+  DeviceWords words{options.device, options.eds, options.node};
+  if (options.simulate && words.profile.empty() && words.eds.empty())
+    words.profile = suites + "/devices/reference-node.yaml";
+  auto known = known_device(words, options.simulate ? std::optional(NodeId(5)) : std::nullopt);
+  if (known && !options.interface.empty()) known->profile.interface = options.interface;
+  return known;
 }
 
 /// Reports that are kept up to date while the run goes on, so that even kill -9 leaves a valid file.
@@ -168,8 +157,9 @@ int run_command(const RunCommand& options) {
   const bool colour = use_colour(options.color, 1);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return report_error(suites.error(), exit_usage);
-  auto profile = profile_for(options, *root);
-  if (!profile) return report_error(profile.error(), exit_usage);
+  auto known = device_of(options, *root);
+  if (!known) return report_error(known.error(), exit_usage);
+  auto* const profile = &known->profile;
 
   engine::RunOptions run_options;
   run_options.strict = options.strict;
@@ -221,11 +211,15 @@ int run_command(const RunCommand& options) {
           {"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"}, exit_usage);
     run_options.plan.allowed = *risk;
   }
+  if (options.dry_run && options.allow.empty() && !options.simulate) {
+    auto facts = can::interface_facts(profile->interface);
+    if (facts && facts->is_virtual) run_options.plan.allowed = scenario::Risk::motion;
+  }
+  // Without a list of what may be written, the user who allows motion allows all that the description calls
+  // writable.
+  profile->writes_described =
+      run_options.plan.allowed == scenario::Risk::motion && profile->safe_objects.empty();
   if (options.dry_run) {
-    if (options.allow.empty() && !options.simulate) {
-      auto facts = can::interface_facts(profile->interface);
-      if (facts && facts->is_virtual) run_options.plan.allowed = scenario::Risk::motion;
-    }
     print_plan(
         engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), run_options.plan),
         engine::chosen_monitors(run_options.plan.selection, suites->catalogue), suites->catalogue);
@@ -238,6 +232,7 @@ int run_command(const RunCommand& options) {
   LiveReports reports(options, "canopen-conform " CONFORM_VERSION, options.simulate ? "simulation" : host,
                       options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000);
   reports.add_property("suite.digest", suite_digest(*root));
+  if (known->description) reports.add_property("dut.description", known->description->name);
   reports.add_property("run.seed", std::to_string(options.seed));
   reports.add_property("run.allowed", std::string(to_string(run_options.plan.allowed)));
   if (transport != nullptr) {
@@ -289,6 +284,7 @@ int run_command(const RunCommand& options) {
     run = engine::run(*transport, *profile, suites->suite, suites->catalogue, run_options, capture);
   }
   if (live) print("\r\x1B[K");
+  run.notes.insert(run.notes.begin(), known->notes.begin(), known->notes.end());
   reports.complete(run);
   reports.write_junit(run);
   can::CaptureInfo info;

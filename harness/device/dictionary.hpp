@@ -58,7 +58,9 @@ struct Entry {
   bool claimed = false;     ///< the EDS or the profile says that it is there
   bool declared_default = false;  ///< the default is the description's, not only the standard's
   bool safe = false;              ///< the profile allows tests to write it
-  bool untouchable = false;       ///< the profile forbids every write to it
+  bool untouchable = false;       ///< the profile, or ObjFlags of the EDS, forbids every write to it
+  bool not_to_be_read = false;    ///< ObjFlags of the EDS keep scans off it (CiA 306): it is left alone
+  std::string declared_at;        ///< "device.eds:120", where the EDS describes it; empty: the EDS does not
 
   [[nodiscard]] Presence presence() const {
     if (category == Category::mandatory) return Presence::claimed_mandatory;

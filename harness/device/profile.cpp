@@ -104,6 +104,14 @@ Dictionary dictionary_of(const Profile& profile) {
   for (const Multiplexer mux : profile.safe_objects) {
     if (Entry* entry = dictionary.find(mux)) entry->safe = !profile.is_untouchable(mux);
   }
+  if (profile.writes_described) {
+    for (const Entry& listed : profile.objects) {
+      Entry* entry = dictionary.find(listed.mux);
+      const auto index = listed.mux.index.value();
+      if (!entry->declared_at.empty() && index >= 0x2000 && index <= 0x9FFF)
+        entry->safe = entry->writable() && !entry->command && !profile.is_untouchable(listed.mux);
+    }
+  }
   for (const Multiplexer mux : profile.untouchable) {
     if (Entry* entry = dictionary.find(mux)) entry->untouchable = true;
   }

@@ -89,7 +89,9 @@ struct Profile {
   std::optional<StoreFault> store_fault;
   std::vector<Multiplexer> safe_objects;  ///< entries that tests may write
   std::vector<Multiplexer> untouchable;   ///< entries no test may write
-  bool factory_defaults = false;          ///< nothing is stored: values after a reset are the defaults
+  bool writes_described =
+      false;  ///< tests may write every application entry that the description calls writable
+  bool factory_defaults = false;  ///< nothing is stored: values after a reset are the defaults
   Identity identity;
   std::vector<KnownDeviation> deviations;
 

@@ -362,7 +362,9 @@ void CaseRunner::record(const Step& step, const std::string& requirement, const 
   if (grade.verdict == Verdict::pass || grade.verdict == Verdict::not_applicable) return;
   if (in_walk) {
     auto& all = offenders(step, requirement);
-    all.values.push_back(walk_value_ + ": " + actual.words());
+    const auto described = declared_at(step);
+    all.values.push_back(walk_value_ + (described.empty() ? "" : " (" + described + ")") + ": " +
+                         actual.words());
     if (all.values.size() > 1) {
       // One finding for all, with the evidence of the first of the worst.
       auto& told = target.findings[all.finding];
@@ -412,6 +414,13 @@ void CaseRunner::finish_walk() {
   walk_value_.clear();
 }
 
+std::string CaseRunner::declared_at(const Step& step) const {
+  const auto* object = step.action == nullptr ? nullptr : step.action->object();
+  const auto mux = object == nullptr ? std::nullopt : std::optional(object->resolve(session_));
+  const auto* entry = mux && *mux ? session_.dictionary().find(**mux) : nullptr;
+  return entry == nullptr ? "" : entry->declared_at;
+}
+
 result::Finding CaseRunner::make_finding(const Step& step, const std::string& requirement, const Grade& grade,
                                          const Actual& actual) {
   const auto type = type_of(step, session_);
@@ -437,6 +446,7 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   out.actual = actual.words();
   out.actual_bytes.assign(actual.data.begin(), actual.data.end());
   out.reason = grade.reason;
+  out.declared_at = declared_at(step);
   out.evidence = evidence(step_begin_, actual.decisive);
   out.frames_seen = session_.capture().size();
   return out;

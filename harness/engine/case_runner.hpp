@@ -57,6 +57,8 @@ class CaseRunner {
   [[nodiscard]] std::vector<std::string> checks_of(const steps::Step& step) const;
   void record(const steps::Step& step, const std::string& requirement, const steps::Grade& grade,
               const steps::Actual& actual);
+  /// Where the description tells of the entry a step is about; empty when it does not.
+  [[nodiscard]] std::string declared_at(const steps::Step& step) const;
   [[nodiscard]] result::Finding make_finding(const steps::Step& step, const std::string& requirement,
                                              const steps::Grade& grade, const steps::Actual& actual);
   [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t begin,

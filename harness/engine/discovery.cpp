@@ -108,9 +108,14 @@ Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object) {
 Result<void> discover(RunSession& session) {
   auto& known = session.known();
   session.forget_presence();
+  // ObjFlags of the description keep a look off some entries: they count as there, and are left alone.
+  for (const auto& entry : known.entries()) {
+    if (entry.not_to_be_read) session.note_present(entry.mux, true);
+  }
   // An absent object answers for all of its sub-indices.
   for (const auto index : known.objects()) {
     const Multiplexer first{index, SubIndex(0)};
+    if (const auto* entry = known.find(first); entry != nullptr && entry->not_to_be_read) continue;
     auto answer = look(session, first);
     if (!answer) return std::unexpected(answer.error());
     const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
@@ -129,6 +134,7 @@ Result<void> discover(RunSession& session) {
     for (const auto& entry :
          std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
       if (entry.mux == first && known.has(first)) continue;
+      if (entry.not_to_be_read) continue;
       auto each = look(session, entry.mux);
       if (!each) return std::unexpected(each.error());
       const bool gone = says_absent(*each);

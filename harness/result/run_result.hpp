@@ -44,7 +44,9 @@ struct Finding {
   std::vector<std::uint8_t> actual_bytes;  ///< data or frame bytes behind `actual`, may be empty
   std::string reason;                      ///< why this verdict, one sentence
   std::vector<EvidenceFrame> evidence;
-  std::string during;  ///< of monitors: the case that ran meanwhile; empty: none, or not known
+  std::string declared_at;  ///< "device.eds:120", where the description of the device tells of the entry; may
+                            ///< be empty
+  std::string during;       ///< of monitors: the case that ran meanwhile; empty: none, or not known
   std::size_t frames_seen =
       0;  ///< length of the capture when it was judged: what came later shows that the device lived
 };

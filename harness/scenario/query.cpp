@@ -184,6 +184,7 @@ Result<Query> Query::parse(std::string_view text) {
 std::vector<Multiplexer> Query::select(const device::Dictionary& dictionary) const {
   std::vector<Multiplexer> out;
   for (const auto& entry : dictionary.entries()) {
+    if (entry.not_to_be_read) continue;
     if (!std::ranges::all_of(clauses_, [&entry](const Clause& clause) { return clause(entry); })) continue;
     const auto mux = whole_objects_ ? Multiplexer{entry.mux.index, SubIndex(0)} : entry.mux;
     if (out.empty() || out.back() != mux) out.push_back(mux);

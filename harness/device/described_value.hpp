@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The values of a device description as wire bytes of a data type.
+#pragma once
+
+#include <string_view>
+
+#include "base/bytes.hpp"
+#include "base/error.hpp"
+#include "canopen/data_type.hpp"
+
+namespace conform::device {
+
+struct DescribedValue {
+  Bytes bytes;
+  bool adds_node_id = false;  ///< $NODEID formula: `bytes` is the constant part
+};
+
+/// "0x10", "16", "020", "-5", "0xFFFB" as INTEGER16, "$NODEID+0x180", "1.5", "0x3FC00000" as REAL32, text,
+/// "01 A0". Error: no value of that type, with the reason in plain words.
+[[nodiscard]] Result<DescribedValue> read_described_value(canopen::DataType type, std::string_view text);
+
+}  // namespace conform::device

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/description.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "device/described_value.hpp"
+#include "device/standard_objects.hpp"
+#include "eds/expand.hpp"
+
+namespace conform::device {
+namespace {
+
+using canopen::DataType;
+
+constexpr std::uint16_t first_of_device = 0x2000;  // below are the objects of CiA 301 and 302
+
+/// Which objects show that the device has a feature. Features that an object alone does not prove (who
+/// produces SYNC, whether block transfers are offered) are not claimed.
+struct ShownBy {
+  std::string_view feature;
+  std::uint16_t first, last;
+};
+constexpr ShownBy shown_by[] = {
+    {"emcy", 0x1014, 0x1014},
+    {"emcy consumer", 0x1028, 0x1028},
+    {"error behaviour", 0x1029, 0x1029},
+    {"heartbeat producer", 0x1017, 0x1017},
+    {"heartbeat consumer", 0x1016, 0x1016},
+    {"life guarding", 0x100D, 0x100D},
+    {"sync counter", 0x1019, 0x1019},
+    {"rpdo", 0x1400, 0x15FF},
+    {"tpdo", 0x1800, 0x19FF},
+    {"store", 0x1010, 0x1010},
+    {"restore", 0x1011, 0x1011},
+    {"additional sdo servers", 0x1201, 0x127F},
+    {"sdo client", 0x1280, 0x12FF},
+    {"modular device", 0x1027, 0x1027},
+    {"program download", 0x1F50, 0x1F50},
+};
+
+Access access_of(eds::Access access) {
+  switch (access) {
+    case eds::Access::ro: return Access::ro;
+    case eds::Access::wo: return Access::wo;
+    case eds::Access::rw: return Access::rw;
+    case eds::Access::rwr: return Access::rwr;
+    case eds::Access::rww: return Access::rww;
+    case eds::Access::constant: break;
+  }
+  return Access::constant;
+}
+
+std::optional<ObjectCode> code_of(eds::ObjectCode code) {
+  switch (code) {
+    case eds::ObjectCode::domain: return ObjectCode::domain;
+    case eds::ObjectCode::var: return ObjectCode::var;
+    case eds::ObjectCode::array: return ObjectCode::array;
+    case eds::ObjectCode::record: return ObjectCode::record;
+    default: return std::nullopt;  // NULL, DEFTYPE and DEFSTRUCT hold nothing a test could judge
+  }
+}
+
+class Describer {
+ public:
+  explicit Describer(const eds::EdsFile& file) : file_(file) { out_.file = file.name; }
+
+  Result<Description> run() {
+    auto objects = eds::expand(file_);
+    if (!objects) return std::unexpected(objects.error());
+    for (const auto& object : *objects) add_object(object);
+    if (const auto node = eds::number_of(file_.commissioning.node_id); node && *node >= 1 && *node <= 127)
+      out_.node = NodeId(static_cast<std::uint8_t>(*node));
+    claim_features();
+    return std::move(out_);
+  }
+
+ private:
+  void add_object(const eds::Object& object) {
+    const bool structured = eds::is_structured(object);
+    auto code = structured ? ObjectCode::record : ObjectCode::var;
+    if (const auto written = eds::object_code(object.entry)) {
+      const auto known = code_of(*written);
+      if (!known && object.subs.empty()) return;
+      code = known.value_or(code);
+    }
+    if (!structured) add_entry(object, {object.index, SubIndex(0)}, object.entry, code);
+    for (const auto& sub : object.subs) add_entry(object, {object.index, sub.sub}, sub.entry, code);
+  }
+
+  void add_entry(const eds::Object& object, Multiplexer mux, const eds::Entry& described, ObjectCode code) {
+    const auto standard = standard_entry(mux);
+    Entry entry = standard.value_or(Entry{});
+    entry.mux = mux;
+    entry.claimed = true;
+    entry.object = code;
+    const auto& name =
+        described.parameter_name.empty() ? object.entry.parameter_name : described.parameter_name;
+    if (!name.empty()) entry.name = printable(name.text);
+    const auto at = described.at.known() ? described.at : described.implied_by;
+    entry.declared_at = place(at);
+    read_type(described, standard.has_value(), entry);
+    if (const auto access = eds::access(described)) {
+      entry.access = access_of(*access);
+      entry.access_open = false;
+    } else if (!standard) {
+      // Nobody says: whether it can be written is for the device to show.
+      entry.access = Access::rw;
+      entry.access_open = true;
+    }
+    entry.low = limit(described.low_limit, "low limit", entry);
+    entry.high = limit(described.high_limit, "high limit", entry);
+    read_default(described.default_value, entry);
+    if (described.pdo_mapping.present)
+      entry.pdo_mappable = eds::pdo_mapping(described) != eds::PdoMapping::no;
+    if (entry.access == Access::rwr || entry.access == Access::rww) entry.pdo_mappable = true;
+    // What only the device writes may have another value at any time: process inputs, counters, temperatures.
+    if (mux.index.value() >= first_of_device && mux.sub.value() == 0 && code != ObjectCode::var) {
+      entry.may_change = false;  // how many sub-indices there are does not change by itself
+    } else if (mux.index.value() >= first_of_device &&
+               (entry.access == Access::ro || entry.access == Access::rwr)) {
+      entry.may_change = true;
+    }
+    // CiA 306 means configuration tools: what they must not write or read by the way (1003h, 1010h, 1011h)
+    // has scenarios that do it on purpose.
+    if (!standard) {
+      entry.untouchable = eds::refuses_write(described);
+      entry.not_to_be_read = eds::refuses_read(described);
+    }
+    out_.entries.push_back(std::move(entry));
+  }
+
+  void read_type(const eds::Entry& described, bool standard, Entry& entry) {
+    const auto number = eds::data_type(described);
+    const auto type = number ? canopen::data_type_at(*number) : std::nullopt;
+    if (type) {
+      if (*type == entry.type && standard) return;
+      entry.type = *type;
+    } else if (entry.object == ObjectCode::domain) {
+      entry.type = DataType::domain;
+    } else if (!standard) {
+      entry.type = DataType::octet_string;  // of any length
+      if (number && *number != 0) {
+        unused(described.data_type.at,
+               fmt::format("the data type {} of {} is none of the basic ones: its length is not compared",
+                           hex(*number, 4), to_string(entry.mux)));
+      }
+    } else {
+      return;
+    }
+    // The standard's values are of another length.
+    entry.default_value.reset();
+    entry.default_adds_node_id = false;
+  }
+
+  std::optional<Bytes> limit(const eds::Field& field, std::string_view what, const Entry& entry) {
+    if (field.empty() || !canopen::is_integer(entry.type)) return std::nullopt;
+    auto value = read_described_value(entry.type, field.text);
+    if (value && !value->adds_node_id) return std::move(value->bytes);
+    const auto why = value ? std::string("is a formula") : value.error().what;
+    unused(field.at, fmt::format("the {} of {}, '{}', {}: it is not used", what, to_string(entry.mux),
+                                 printable(eds::shortened(field.text)), why));
+    return std::nullopt;
+  }
+
+  void read_default(const eds::Field& field, Entry& entry) {
+    entry.declared_default = false;
+    if (field.empty() || entry.type == DataType::domain) return;
+    auto value = read_described_value(entry.type, field.text);
+    if (!value) {
+      unused(field.at, fmt::format("the default of {}, '{}', {}: it is not compared", to_string(entry.mux),
+                                   printable(eds::shortened(field.text)), value.error().what));
+      return;
+    }
+    entry.default_value = std::move(value->bytes);
+    entry.default_adds_node_id = value->adds_node_id;
+    entry.declared_default = true;
+  }
+
+  void claim_features() {
+    for (const auto& entry : out_.entries) {
+      const auto index = entry.mux.index.value();
+      for (const auto& row : shown_by) {
+        if (index >= row.first && index <= row.last) out_.claims.emplace(row.feature);
+      }
+      const bool mapping = (index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF);
+      if (mapping && entry.writable()) out_.claims.emplace("variable mapping");
+      if (index == 0x1000 && entry.default_value && (load_le(*entry.default_value) & 0xFFFFU) != 0)
+        out_.claims.emplace("profile device");
+    }
+    if (eds::flag_of(file_.device_info.lss_supported).value_or(false)) out_.claims.emplace("lss");
+  }
+
+  [[nodiscard]] std::string place(eds::Position at) const {
+    return at.known() ? fmt::format("{}:{}", file_.name, at.line) : file_.name;
+  }
+  void unused(eds::Position at, std::string what) {
+    if (out_.unused.size() == Description::most_unused) {
+      ++out_.unused_left_out;
+      return;
+    }
+    out_.unused.push_back({file_.name + (at.known() ? ":" + eds::to_string(at) : ""), std::move(what)});
+  }
+
+  const eds::EdsFile& file_;
+  Description out_;
+};
+
+}  // namespace
+
+Result<Description> describe(const eds::EdsFile& file) { return Describer(file).run(); }
+
+void add_description(Profile& profile, Description description) {
+  std::vector<Multiplexer> listed;
+  for (const auto& entry : profile.objects) listed.push_back(entry.mux);
+  std::ranges::sort(listed);
+  for (auto& entry : description.entries) {
+    if (entry.untouchable) profile.untouchable.push_back(entry.mux);
+    if (!std::ranges::binary_search(listed, entry.mux)) profile.objects.push_back(std::move(entry));
+  }
+  if (!profile.claims_given) profile.claims.merge(description.claims);
+}
+
+}  // namespace conform::device

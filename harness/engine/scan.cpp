@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scan.hpp"
+
+#include <utility>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+
+namespace conform::engine {
+namespace {
+
+using Kind = steps::SdoAnswer::Kind;
+
+constexpr std::uint8_t sub_ff = 0xFF;  ///< structure of the object (CiA 301, 7.4.8.2), not one of its entries
+
+class Scanner {
+ public:
+  explicit Scanner(RunSession& session) : session_(session) {}
+
+  /// False: the object is not there.
+  Result<bool> look_at(Index index) {
+    auto first = look({index, SubIndex(0)});
+    if (!first) return std::unexpected(first.error());
+    if (!*first) return false;
+    ScannedObject object{index, {}};
+    const auto& head = **first;
+    // A value of one byte may count sub-indices. If there is no 01h, it is the value of a VAR.
+    const bool may_count =
+        (head.value && head.value->size() == 1) || (head.value && head.size_open) || !head.value;
+    const unsigned count = head.value && !head.value->empty() ? head.value->front() : 0;
+    const bool counts = may_count && head.value;
+    object.entries.push_back(std::move(**first));
+    unsigned found = 0;
+    const unsigned last = counts ? std::min(std::max(count, 1U), unsigned{sub_ff} - 1) : may_count ? 1 : 0;
+    for (unsigned sub = 1; sub <= last; ++sub) {
+      auto entry = look({index, SubIndex(static_cast<std::uint8_t>(sub))});
+      if (!entry) return std::unexpected(entry.error());
+      if (*entry) {
+        object.entries.push_back(std::move(**entry));
+        ++found;
+      }
+      // A VAR of one byte with a large value would cost as many requests; arrays with gaps begin early.
+      if (found == 0 && sub == 8) break;
+    }
+    objects.push_back(std::move(object));
+    return true;
+  }
+
+  std::vector<ScannedObject> objects;
+
+ private:
+  /// nullopt: the entry is not there.
+  Result<std::optional<ScannedEntry>> look(Multiplexer mux) {
+    using Entry = std::optional<ScannedEntry>;
+    auto answer = session_.peek(mux);
+    if (!answer) return std::unexpected(answer.error());
+    if (answer->kind == Kind::aborted &&
+        (answer->code == canopen::abort::no_object || answer->code == canopen::abort::no_sub_index))
+      return Entry();
+    ScannedEntry out{.mux = mux};
+    switch (answer->kind) {
+      case Kind::confirmed:
+        out.value = std::move(answer->data);
+        out.size_open = !answer->size_indicated;
+        break;
+      case Kind::aborted: out.abort = answer->code; break;
+      case Kind::silence:
+        // One entry may be mute; two requests in a row mean that the device is gone.
+        if (std::exchange(silent_, true)) return fail("the device fell silent at " + to_string(mux));
+        return Entry(std::move(out));
+      case Kind::violation:
+      case Kind::gave_up: break;
+    }
+    silent_ = false;
+    return Entry(std::move(out));
+  }
+
+  RunSession& session_;
+  bool silent_ = false;
+};
+
+}  // namespace
+
+Result<std::vector<ScannedObject>> scan(RunSession& session, std::span<const IndexRange> ranges,
+                                        const std::function<void(Index)>& progress) {
+  Scanner scanner(session);
+  for (const auto& range : ranges) {
+    for (unsigned index = range.first; index <= range.last; ++index) {
+      const Index at(static_cast<std::uint16_t>(index));
+      if (progress && (index == range.first || index % 0x100 == 0)) progress(at);
+      if (auto done = scanner.look_at(at); !done) return std::unexpected(done.error());
+    }
+  }
+  return std::move(scanner.objects);
+}
+
+}  // namespace conform::engine
