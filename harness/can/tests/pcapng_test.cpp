@@ -184,7 +184,7 @@ TEST_CASE("foreign and damaged files are refused") {
 
 TEST_CASE("of a recording that was cut off the whole frames are read") {
   Capture capture;
-  for (const std::uint32_t id : {1, 2})
+  for (const std::uint32_t id : {1U, 2U})
     capture.add({.frame = data_frame(CanId(id), {}), .time = BusTime{}, .comment = {}});
   const Bytes good = write_pcapng(capture, {});
   Capture first;
