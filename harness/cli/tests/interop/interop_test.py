@@ -24,11 +24,15 @@ if not INTERFACE or not MODULES:
     sys.exit(77)
 del sys.argv[1:]
 
-# What takes long on a real bus is left to the run by hand that docs/foreign-devices.md tells of.
+# What takes long on a real bus, because the device is silent where an answer is due, runs with CONFORM_INTEROP_WHOLE=1 only.
 HELPED = ["cia301/sdo", "--exclude", "cia301/sdo/load/*", "--exclude", "cia301/sdo/block-*-sub-blocks/*", "cia301/dictionary",
-          "cia301/cob-id", "--exclude", "cia301/cob-id/restricted-can-ids/*", "cia301/nmt/boot-up",
-          "cia301/nmt/resets", "cia301/emergency/error-register", "cia301/heartbeat/consumer-entry", "cia301/heartbeat/producer-entry",
+          "cia301/cob-id", "--exclude", "cia301/cob-id/restricted-can-ids/*", "cia301/nmt/boot-up", "cia301/nmt/resets",
+          "cia301/emergency/error-register", "cia301/heartbeat/consumer-entry", "cia301/heartbeat/producer-entry",
           "cia301/pdo/*-mapping", "cia301/pdo/*-parameters"]
+if os.environ.get("CONFORM_INTEROP_WHOLE") != "1":
+    for slow in ("cia301/sdo/block-upload-refused/*", "cia301/dictionary/lengths-and-ranges/*", "cia301/dictionary/data-types/*",
+                 "cia301/nmt/resets/*", "cia301/emergency/error-register/*"):
+        HELPED += ["--exclude", slow]
 PLAIN = ["cia301/dictionary/declared-entries", "cia301/heartbeat/producer-entry", "cia301/nmt/boot-up"]
 HOST_IS_TO_BLAME = re.compile(r"the host (was late|lost|sent)|the host's clock")
 SEVERITY = ["pass", "warn", "inconclusive", "error", "fail"]
@@ -56,13 +60,15 @@ class Device:
         self.log.close()
 
 
-def not_passed(junit, not_judged):
-    """The worst verdict of every requirement in every case, as `verdict requirement case`, without what passed."""
+def not_passed(junit, not_judged, ran):
+    """The worst verdict of every requirement in every case, as `verdict requirement case`, without what passed. Adds the cases
+    to `ran` and those that a busy host spoiled to `not_judged`."""
     worst = {}
     for case in ElementTree.parse(junit).getroot().iter("testcase"):
         text = "\n".join(part.text or "" for part in case if part.tag in ("failure", "error", "system-out"))
         name = re.search(r"^Case +(\S.*)$", text, re.M)
         name = name.group(1) if name else case.get("classname").replace(".", "/") + "/" + case.get("name").split(" ")[0]
+        ran.add(name)
         if HOST_IS_TO_BLAME.search(text):
             not_judged.add(name)
             continue
@@ -93,14 +99,14 @@ class Interop(unittest.TestCase):
                                   capture_output=True, text=True, timeout=900)
         self.assertIn(done.returncode, (0, 1, 3), done.stdout[-3000:] + done.stderr[-3000:])
         self.assertNotIn("\nstopped ", done.stdout, "the run did not come to its end: " + done.stdout[-1500:])
-        not_judged = set()
-        came = not_passed(junit, not_judged)
+        not_judged, ran = set(), set()
+        came = not_passed(junit, not_judged, ran)
         if not_judged:
             print(f"\n  not compared, the host was too busy: {', '.join(sorted(not_judged))}", flush=True)
         self.assertLess(len(not_judged), 20, "the host is too busy for this test")
-        return came, not_judged
+        return came, not_judged, ran
 
-    def lines_to_compare(self, name, came, not_judged):
+    def lines_to_compare(self, name, came, not_judged, ran):
         """The lines that came and those expected, both without what is not compared; None where they are rewritten."""
         path = os.path.join(HERE, name)
         with open(path, encoding="utf-8") as file:
@@ -110,12 +116,13 @@ class Interop(unittest.TestCase):
         unsteady = {line.split()[1]: line for line in lines if line.startswith("unsteady ")}
 
         def compared(line):
-            return line.split(" ", 2)[2] not in unsteady and line.split(" ", 2)[2] not in not_judged
+            case = line.split(" ", 2)[2]
+            return case in ran and case not in unsteady and case not in not_judged
 
         came = sorted((line for line in came if compared(line)), key=by_case)
         before = [line for line in lines if line and not line.startswith(("#", "unsteady "))]
         if os.environ.get("CONFORM_UPDATE_EXPECTED") == "1":
-            kept = [line for line in before if line.split(" ", 2)[2] in not_judged]
+            kept = [line for line in before if not compared(line)]
             with open(path, "w", encoding="utf-8") as file:
                 file.write("\n".join([*comments, *unsteady.values(), *sorted([*came, *kept], key=by_case)]) + "\n")
             return None
