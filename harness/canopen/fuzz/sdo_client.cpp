@@ -129,13 +129,13 @@ class Pair {
       case 8:
         if (server_.out.empty()) return;
         server_.out.pop_front();
-        answer_lost_ = true;
+        impatient_ = true;
         return;
       case 9:
         if (!waiting_.empty()) waiting_.pop_front();
         return;
       case 10: silence(); return;
-      case 11: server_.on_timer(); return;
+      case 11: impatient_ = true; return server_.on_timer();
       case 12:
         for (int i = 0; i < 64 && !client_->ended(); ++i) round();
         return;
@@ -263,9 +263,9 @@ class Pair {
         CONFORM_CHECK(counts.crc_ok == true && counts.crc == RightServer::crc(result.data));
       }
       if (honest_) CONFORM_CHECK(result.data == data_);
-    } else if (honest_ && !(answer_lost_ && request_.block && !with_crc_)) {
-      // Without a CRC nobody sees that a sub-block was stored twice: the server acknowledged a part of it in
-      // time, the acknowledgement got lost, and the next one, for what it took to be a new sub-block, says 0.
+    } else if (honest_ && !(impatient_ && request_.block && !with_crc_)) {
+      // Without a CRC nobody sees that segments were stored twice: when two acknowledgements are under way,
+      // or one got lost, the second speaks of what the server took for a new sub-block.
       CONFORM_CHECK(
           server_.object() ==
           (request_.mode == SdoDownload::Mode::expedited_unsized && !request_.block ? padded(data_) : data_));
@@ -284,7 +284,8 @@ class Pair {
   std::size_t heard_ = 0, given_ = 0, in_block_ = 0;
   std::uint64_t steps_ = 0;
   std::uint8_t blksize_ = 0;
-  bool honest_ = true, ended_before_ = false, answer_lost_ = false, with_crc_ = false;
+  bool honest_ = true, ended_before_ = false, with_crc_ = false;
+  bool impatient_ = false;  ///< acknowledged a part of a sub-block in time, or an acknowledgement was lost
 };
 
 }  // namespace
