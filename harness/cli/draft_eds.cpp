@@ -9,6 +9,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/data_type.hpp"
 #include "device/standard_objects.hpp"
@@ -51,9 +52,9 @@ std::string default_of(const ScannedEntry& entry, DataType type, NodeId node) {
     const auto known = device::standard_entry(entry.mux);
     if (known && known->default_adds_node_id && known->default_value &&
         number == load_le(*known->default_value) + node.value())
-      return fmt::format("$NODEID+{:#X}", load_le(*known->default_value));
+      return fmt::format("$NODEID+0x{:X}", load_le(*known->default_value));
   }
-  return fmt::format("{:#X}", number);
+  return fmt::format("0x{:X}", number);
 }
 
 /// Whether the value read is likely to be the default of every such device, too.
@@ -68,10 +69,13 @@ class Draft {
   Draft(std::span<const ScannedObject> objects, const DraftInfo& info) : objects_(objects), info_(info) {
     for (const auto& object : objects) {
       const auto index = object.index.value();
-      if ((index < 0x1600 || index > 0x17FF) && (index < 0x1A00 || index > 0x1BFF)) continue;
+      auto* const mapped = index >= 0x1600 && index <= 0x17FF   ? &received_
+                           : index >= 0x1A00 && index <= 0x1BFF ? &transmitted_
+                                                                : nullptr;
+      if (mapped == nullptr) continue;
       for (const auto& entry : object.entries) {
         if (entry.mux.sub.value() == 0 || !entry.value || entry.value->size() != 4) continue;
-        mapped_.insert(static_cast<std::uint32_t>(load_le(*entry.value) >> 8U));
+        mapped->insert(static_cast<std::uint32_t>(load_le(*entry.value) >> 8U));
       }
     }
   }
@@ -150,7 +154,7 @@ class Draft {
   void comments() {
     std::vector<std::string> lines = {
         "A draft: reading shows neither access rights nor limits nor defaults.",
-        "Objects that CiA 301 does not define are rw here and have the type that fits the length.",
+        "Objects that CiA 301 does not define are rw here (ro, rww: mapped) and have the type that fits the length.",
         "Complete it from the manual, then check it: canopen-conform eds lint FILE",
     };
     lines.insert(lines.end(), doubts_.begin(), doubts_.end());
@@ -204,6 +208,10 @@ class Draft {
                   : structured && scanned.mux.sub.value() == 0 ? Access::constant
                                                                : Access::rw;
     if (known) name = known->name;
+    // A value that goes into a TPDO is most likely made by the device, one that comes in an RPDO is not.
+    const auto key = static_cast<std::uint32_t>(scanned.mux.index.value()) << 8U | scanned.mux.sub.value();
+    const bool received = received_.contains(key), transmitted = transmitted_.contains(key);
+    if (!known && received != transmitted) access = received ? Access::rww : Access::ro;
     const auto at = to_string(scanned.mux);
     if (known && !fits)
       doubts_.push_back(fmt::format("{} has {} bytes, not those of CiA 301", at, scanned.value->size()));
@@ -223,13 +231,13 @@ class Draft {
          type == DataType::domain ? 2 : 7, static_cast<unsigned>(type), device::to_string(access));
     line(sections_, "DefaultValue={}",
          is_constant(scanned.mux, structured) ? default_of(scanned, type, info_.node) : std::string());
-    const auto key = static_cast<std::uint32_t>(scanned.mux.index.value()) << 8U | scanned.mux.sub.value();
-    line(sections_, "PDOMapping={}\r\n", mapped_.contains(key) ? 1 : 0);
+    line(sections_, "PDOMapping={}\r\n", received || transmitted ? 1 : 0);
   }
 
   std::span<const ScannedObject> objects_;
   const DraftInfo& info_;
-  std::set<std::uint32_t> mapped_;  ///< index and sub-index of what PDOs map at present
+  std::set<std::uint32_t> received_,
+      transmitted_;  ///< index and sub-index of what RPDOs and TPDOs map at present
   std::vector<std::string> doubts_;
   std::string out_, sections_;
 };

@@ -92,7 +92,7 @@ int scan_command(const ScanCommand& options) {
   if (options.simulate) {
     auto node = refnode::Node::create({.node_id = info.node.value()});
     if (!node) return report_error(node.error(), exit_usage);
-    can::SimulatedBus bus({});
+    can::SimulatedBus bus(can::SimulatedBus::Options{});
     bus.attach(**node, "reference node");
     text = draft(bus.transport(), options, ranges, info);
   } else {

@@ -187,8 +187,13 @@ class Describer {
       }
       const bool mapping = (index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF);
       if (mapping && entry.writable()) out_.claims.emplace("variable mapping");
-      if (index == 0x1000 && entry.default_value && (load_le(*entry.default_value) & 0xFFFFU) != 0)
-        out_.claims.emplace("profile device");
+      // Of three objects the default tells what the device does with them.
+      const auto value = entry.default_value ? load_le(*entry.default_value) : 0;
+      constexpr std::uint64_t generates = std::uint64_t{1} << 30U, consumes = std::uint64_t{1} << 31U;
+      if (index == 0x1000 && (value & 0xFFFFU) != 0) out_.claims.emplace("profile device");
+      if (index == 0x1005) out_.claims.emplace((value & generates) != 0 ? "sync producer" : "sync consumer");
+      if (index == 0x1012 && (value & consumes) != 0) out_.claims.emplace("time consumer");
+      if (index == 0x1012 && (value & generates) != 0) out_.claims.emplace("time producer");
     }
     if (eds::flag_of(file_.device_info.lss_supported).value_or(false)) out_.claims.emplace("lss");
   }

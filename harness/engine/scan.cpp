@@ -57,7 +57,8 @@ class Scanner {
     if (answer->kind == Kind::aborted &&
         (answer->code == canopen::abort::no_object || answer->code == canopen::abort::no_sub_index))
       return Entry();
-    ScannedEntry out{.mux = mux};
+    ScannedEntry out;
+    out.mux = mux;
     switch (answer->kind) {
       case Kind::confirmed:
         out.value = std::move(answer->data);

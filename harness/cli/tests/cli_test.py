@@ -83,6 +83,53 @@ class CommandLine(unittest.TestCase):
         self.assertIn("FAIL: SDO-GEN-04: frame ", done.stdout)
         self.assertNotIn("monitor/heartbeat", done.stdout)
 
+    def test_the_reference_node_conforms_to_its_own_eds(self):
+        eds = self.path("reference-node.eds")
+        with open(eds, "w", encoding="ascii") as file:
+            subprocess.run([os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--eds"], stdout=file, check=True)
+        done = run("run", "--simulate", "--eds", eds, "--quiet", "cia301/dictionary")
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+        done = run("run", "--simulate", "--eds", eds, "--quiet", "--defect", "1000-is-u16", "cia301/dictionary/declared-entries")
+        self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
+        with open(eds, encoding="ascii") as file:
+            line = file.read().splitlines().index("[1000]") + 1
+        self.assertIn(f"{eds}:{line}", done.stdout)
+        capture = self.path("run.pcapng")
+        run("run", "--simulate", "cia301/sdo/upload", "--capture", capture)
+        self.assertEqual(run("judge", capture, "--node", "1", "--eds", eds).returncode, 0)
+
+    def test_an_eds_that_says_nothing_usable_is_noted_and_one_that_cannot_be_read_exits_2(self):
+        eds = self.path("odd.eds")
+        with open(eds, "w", encoding="ascii") as file:
+            file.write("[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\nDefaultValue=abc\n")
+        done = run("run", "--simulate", "--eds", eds, "cia301/dictionary/declared-entries")
+        self.assertIn(f"{eds}:5:14: the default of 1000h:00, 'abc', is no value of", done.stdout)
+        for path in ("/no/such/file.eds", os.path.abspath(__file__)):
+            done = run("run", "--simulate", "--eds", path)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(path, done.stderr)
+
+    def test_a_scan_writes_a_draft_eds_without_errors(self):
+        draft = self.path("draft.eds")
+        done = run("scan", "--simulate", "-o", draft)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"[0-9]+ objects with [0-9]+ entries")
+        done = run("eds", "lint", draft)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("0 errors", done.stdout)
+        shown = run("eds", "show", draft).stdout
+        for line in (r"2000h:06 .* UNSIGNED16 +rw", r"2001h:02 .* wo", r"6000h:01 .* UNSIGNED8 +ro +yes",
+                     r"1018h:01 .* 0x5AFE", r"2008h +.* DOMAIN"):
+            self.assertRegex(shown, line)
+        part = run("scan", "--simulate", "--range", "1017h..1018h").stdout
+        self.assertIn("[1018sub4]", part)
+        self.assertNotIn("[1000]", part)
+        for arguments, said in ((["scan"], "say where the device is"), (["scan", "--interface", "can0"], "node-ID"),
+                                (["scan", "--simulate", "--range", "2000h..1000h"], "no range of indices")):
+            done = run(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
     def test_what_cannot_be_judged_exits_2_with_a_reason(self):
         good, bad = self.path("good.log"), self.path("bad.log")
         with open(good, "w", encoding="ascii") as file:

@@ -136,6 +136,17 @@ TEST_CASE("What CiA 301 says of an entry stays where the file is about something
         std::set<std::string, std::less<>>{"emcy", "heartbeat producer", "profile device"});
 }
 
+TEST_CASE("The defaults of 1005h and 1012h tell who consumes and who produces") {
+  const auto claims = [](std::string_view section, std::string_view value) {
+    return described(variable(section, "7", "rw", "DefaultValue=" + std::string(value))).claims;
+  };
+  using Claims = std::set<std::string, std::less<>>;
+  CHECK(claims("1005", "0x80") == Claims{"sync consumer"});
+  CHECK(claims("1005", "0x40000080") == Claims{"sync producer"});
+  CHECK(claims("1012", "0x100").empty());
+  CHECK(claims("1012", "0xC0000100") == Claims{"time consumer", "time producer"});
+}
+
 TEST_CASE("Implied entries of CompactSubObj are claimed as well") {
   const auto description = described(
       "[2010]\nParameterName=List\nObjectType=0x8\nDataType=0x0006\nAccessType=rw\nDefaultValue=7\nCompactSubObj=3\n");
