@@ -192,6 +192,7 @@ void SdoFaultyClient::change(SdoFrame& frame) {
 
 void SdoFaultyClient::hand_over(SdoFrame frame, std::size_t unsent) {
   const bool segment = frame.part == Part::segment;
+  const auto toggle = static_cast<std::uint8_t>(frame.bytes[0] & 0x10U);
   change(frame);
   if (segment && !by_block()) latest_ = frame;
   if (segment && protocol_ != SdoProtocol::block_upload &&
@@ -203,8 +204,8 @@ void SdoFaultyClient::hand_over(SdoFrame frame, std::size_t unsent) {
       state_ = State::silent;
       return;
     }
-    const SdoBytes answer{static_cast<std::uint8_t>(0x20U | (frame.bytes[0] & 0x10U))};
-    legal_->on_frame(answer, 0);
+    toggle_inverted_ = false;
+    legal_->on_frame(SdoBytes{static_cast<std::uint8_t>(0x20U | toggle)}, 0);
     return;
   }
   if (const auto* fault =

@@ -133,6 +133,17 @@ TEST_CASE("A lost segment of a segmented download leaves a hole in the toggle bi
   CHECK(send(*made).bytes == SdoBytes{0x0D, 15});
 }
 
+TEST_CASE("A segment that is lost with its wrong toggle bit is lost all the same") {
+  auto made = client(segmented, {"wrong toggle in segment 2", "lose segment 2"});
+  made->on_frame(ack(send(*made)), 0);
+  CHECK(send(*made).bytes == SdoBytes{0x00, 1, 2, 3, 4, 5, 6, 7});
+  made->on_frame(SdoBytes{0x20}, 0);
+  CHECK(send(*made).bytes == SdoBytes{0x0D, 15});
+  made->on_frame(SdoBytes{0x20}, 0);
+  REQUIRE(made->ended());
+  CHECK(made->result().kind == Kind::confirmed);
+}
+
 TEST_CASE("A segment sent again has the same toggle bit, and the abort is what counts") {
   auto made = client(segmented, {"repeat segment 1"});
   made->on_frame(ack(send(*made)), 0);
