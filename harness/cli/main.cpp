@@ -219,6 +219,9 @@ int dispatch(int argc, char** argv) {
       ->type_name("ID");
   selftest_sub->add_flag("--whole", selftest.whole,
                          "Run the whole suite for every defect, to see with -v what else it spoils");
+  selftest_sub->add_flag(
+      "--edits", selftest.edits,
+      "Instead of the defects: break every entry of the dictionary in every way (absent, other length ...)");
   selftest_sub->add_option("-j,--jobs", selftest.jobs, "Threads (default: the machine's cores)")
       ->check(CLI::Range(1, 256))
       ->type_name("NUMBER");

@@ -2,39 +2,18 @@
 #include "cli/selftest.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "can/simulated_bus.hpp"
+#include "cli/verdicts.hpp"
+#include "cli/workers.hpp"
 #include "defects/defect.hpp"
 #include "node.hpp"
 
 namespace conform::cli {
-namespace {
 
 using result::Verdict;
-
-/// Verdict per (requirement, case): the unit of judgement.
-using Verdicts = std::map<std::pair<std::string, std::string>, Verdict>;
-
-Verdicts verdicts_of(const result::RunResult& run) {
-  Verdicts out;
-  for (const auto& each : run.cases) {
-    for (const auto& judgement : each.judgements)
-      out[{judgement.requirement, each.name()}] = judgement.verdict;
-  }
-  return out;
-}
-
-/// Only a warning or a failure is a finding about the device; inconclusive and error prove nothing.
-bool worse(Verdict before, Verdict after) {
-  return (after == Verdict::fail || after == Verdict::warn) && before < after &&
-         before != Verdict::inconclusive;
-}
-
-}  // namespace
 
 Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                               const scenario::Suite& suite, const scenario::Catalogue& catalogue,
@@ -164,18 +143,8 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   }
   // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
   std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
-  std::atomic<std::size_t> next = 0;
-  {
-    std::vector<std::jthread> workers;
-    const auto jobs = options.jobs > 0 ? options.jobs : std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned job = 0; job < jobs; ++job) {
-      workers.emplace_back([&] {
-        for (auto i = next++; i < rows.size(); i = next++) {
-          verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole));
-        }
-      });
-    }
-  }
+  in_parallel(rows.size(), options.jobs,
+              [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole)); });
   for (auto& verdict : verdicts) {
     if (!*verdict) return std::unexpected(verdict->error());
     proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());

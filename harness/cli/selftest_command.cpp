@@ -5,6 +5,7 @@
 #include "base/files.hpp"
 #include "base/text.hpp"
 #include "cli/commands.hpp"
+#include "cli/edit_matrix.hpp"
 #include "cli/selftest.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
@@ -29,6 +30,24 @@ std::string markdown(const KillMatrix& matrix) {
   return out;
 }
 
+int edits(const SelftestCommand& options, const device::Profile& profile, const LoadedSuites& suites) {
+  const auto matrix =
+      edit_matrix(profile, suites.suite, suites.catalogue, options.seed, options.jobs, options.defects);
+  if (!matrix) return report_error(matrix.error(), exit_usage);
+  std::string out;
+  for (const auto& edit : matrix->edits) {
+    const bool survives = edit.noticed_by.empty();
+    if (survives || options.verbose)
+      out += fmt::format("{} {}: {}\n", survives ? "SURVIVES" : "noticed ", edit.id, edit.summary);
+    if (!survives && options.verbose) out += "    by " + join(edit.noticed_by, ", ") + "\n";
+  }
+  const auto survivors = matrix->survivors().size();
+  out += fmt::format("{} of {} edits of the dictionary noticed\n", matrix->edits.size() - survivors,
+                     matrix->edits.size());
+  print(out);
+  return survivors == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int selftest_command(const SelftestCommand& options) {
@@ -38,6 +57,7 @@ int selftest_command(const SelftestCommand& options) {
   if (!suites) return report_error(suites.error(), exit_usage);
   auto profile = device::load_profile_file(*root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
+  if (options.edits) return edits(options, profile->profile, *suites);
   auto matrix = kill_matrix(
       profile->profile, suites->suite, suites->catalogue,
       {.seed = options.seed, .only = options.defects, .whole = options.whole, .jobs = options.jobs});

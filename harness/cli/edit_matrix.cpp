@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/edit_matrix.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "cli/selftest.hpp"
+#include "cli/verdicts.hpp"
+#include "cli/workers.hpp"
+#include "defects/edits.hpp"
+#include "node.hpp"
+
+namespace conform::cli {
+namespace {
+
+using result::Verdict;
+
+struct Bench {
+  const device::Profile& profile;
+  const scenario::Suite& suite;
+  const scenario::Catalogue& catalogue;
+  std::uint64_t seed;
+  const Verdicts& good;  ///< of the conformant node
+};
+
+/// Adds what became worse in the scenarios of `patterns` (empty: all).
+Result<void> expose(const Bench& bench, const std::string& id, std::vector<std::string> patterns,
+                    std::set<std::string>& noticed_by) {
+  engine::RunOptions options;
+  options.plan.selection.patterns = std::move(patterns);
+  auto run = simulate({.defects = {id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
+  if (!run) return std::unexpected(run.error());
+  for (const auto& [key, verdict] : verdicts_of(run->result)) {
+    const auto before = bench.good.find(key);
+    if (worse(before == bench.good.end() ? Verdict::pass : before->second, verdict))
+      noticed_by.insert(key.first);
+  }
+  return {};
+}
+
+Result<EditVerdict> verdict_of(const Bench& bench, const refnode::Edit& edit) {
+  EditVerdict out{edit.id(), edit.summary(), {}};
+  std::set<std::string> noticed_by;
+  for (const auto& patterns : {std::vector<std::string>{"cia301/dictionary"}, {}}) {
+    if (!noticed_by.empty()) break;
+    if (auto done = expose(bench, out.id, patterns, noticed_by); !done) return std::unexpected(done.error());
+  }
+  out.noticed_by.assign(noticed_by.begin(), noticed_by.end());
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> EditMatrix::survivors() const {
+  std::vector<std::string> out;
+  for (const auto& edit : edits) {
+    if (edit.noticed_by.empty()) out.push_back(edit.id);
+  }
+  return out;
+}
+
+Result<EditMatrix> edit_matrix(const device::Profile& profile, const scenario::Suite& suite,
+                               const scenario::Catalogue& catalogue, std::uint64_t seed, unsigned jobs,
+                               const std::vector<std::string>& only) {
+  auto conformant = simulate({}, profile, suite, catalogue, {}, seed);
+  if (!conformant) return std::unexpected(conformant.error());
+  const auto good = verdicts_of(conformant->result);
+  auto node = refnode::Node::create({.node_id = profile.node.value()});
+  if (!node) return std::unexpected(node.error());
+  auto edits = refnode::edits_of((*node)->dictionary());
+  if (!only.empty())
+    std::erase_if(edits, [&](const auto& edit) { return std::ranges::find(only, edit.id()) == only.end(); });
+  const Bench bench{profile, suite, catalogue, seed, good};
+  std::vector<std::optional<Result<EditVerdict>>> verdicts(edits.size());
+  in_parallel(edits.size(), jobs, [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, edits[i])); });
+  EditMatrix out;
+  for (auto& verdict : verdicts) {
+    if (!*verdict) return std::unexpected(verdict->error());
+    out.edits.push_back(std::move(**verdict));
+  }
+  return out;
+}
+
+}  // namespace conform::cli
