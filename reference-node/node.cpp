@@ -3,6 +3,7 @@
 #include "node.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "application_objects.hpp"
@@ -18,13 +19,16 @@
 #include "standard_objects.hpp"
 #include "switches.hpp"
 #include "sync_time.hpp"
+#include "twin.hpp"
 
 namespace refnode {
 
 struct Node::Impl {
-  explicit Impl(const Options& options);
+  /// `twin`: the dictionary to serve; empty: the node's own.
+  Impl(const Options& options, std::optional<Twin> twin);
 
   void add_own_objects();
+  void take_over(Twin twin);
   void reset(Reset reset);
   void boot_up();
   void change_state(NmtState from);
@@ -41,9 +45,10 @@ struct Node::Impl {
   ParameterStore store;
   NmtSlave nmt;
   SdoServers sdo;
+  TwinRemarks remarks;
 };
 
-Node::Impl::Impl(const Options& options)
+Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
     : device(options.node_id),
       emergency(device),
       producer(device),
@@ -68,7 +73,11 @@ Node::Impl::Impl(const Options& options)
     if (reaction == 2) nmt.enter(NmtState::stopped);
   };
   sync.on_sync = [this] { pdos.on_sync(); };
-  add_own_objects();
+  if (twin) {
+    take_over(std::move(*twin));
+  } else {
+    add_own_objects();
+  }
   // The services work on the objects there are, whoever described them.
   emergency.bind();
   producer.bind();
@@ -96,6 +105,26 @@ void Node::Impl::add_own_objects() {
   add_error_trigger(device, emergency);
 }
 
+void Node::Impl::take_over(Twin twin) {
+  device.described = true;
+  device.dictionary.objects() = std::move(twin.objects);
+  device.placeholders = twin.placeholders;
+  remarks = std::move(twin.remarks);
+  report_changes(device, [this] { pdos.on_application_change(); });
+  // Of how many errors 1003h tells.
+  const auto& objects = device.dictionary.objects();
+  if (const auto history = objects.find(0x1003); history != objects.end()) {
+    const auto fields = std::ranges::count_if(
+        history->second.entries, [](const auto& entry) { return entry.first != 0 && entry.first != 0xFF; });
+    device.choices.history_depth = static_cast<std::uint8_t>(fields);
+  }
+  // Without SYNC there are no transmission types that need it.
+  if (!objects.contains(0x1005)) {
+    device.choices.rpdo.synchronous_types = device.choices.tpdo.synchronous_types = false;
+    device.choices.tpdo.remote_types = false;
+  }
+}
+
 void Node::Impl::reset(Reset kind) {
   device.outbox.clear();
   if (!device.behaviour.transfer_survives_reset) sdo.reset();
@@ -103,7 +132,7 @@ void Node::Impl::reset(Reset kind) {
   consumer.on_reset();
   emergency.on_reset(kind == Reset::node);
   store.load_power_on_values(kind == Reset::node);
-  mirror_outputs(device.dictionary);
+  if (!device.described) mirror_outputs(device.dictionary);
   pdos.on_state_change();
 }
 
@@ -163,13 +192,20 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
                          "CANopen node-IDs are 1 to 127");
   }
   if (!options.storage) options.storage = std::make_shared<MemoryStorage>();
-  auto impl = std::make_unique<Impl>(options);
+  std::optional<Twin> twin;
+  if (options.description) {
+    auto made = make_twin(*options.description, options.node_id);
+    if (!made) return std::unexpected(made.error());
+    twin = std::move(*made);
+  }
+  auto impl = std::make_unique<Impl>(options, std::move(twin));
   if (auto done = apply_variants(options.variants, impl->device); !done) return std::unexpected(done.error());
   if (auto done = apply_defects(options.defects, impl->device); !done) return std::unexpected(done.error());
   return std::unique_ptr<Node>(new Node(std::move(impl)));
 }
 
 const ObjectDictionary& Node::dictionary() const { return impl_->device.dictionary; }
+const TwinRemarks& Node::remarks() const { return impl_->remarks; }
 
 void Node::attach(Sender sender, conform::BusTime now) {
   impl_->device.outbox.attach(std::move(sender));
