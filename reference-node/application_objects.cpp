@@ -49,6 +49,17 @@ void add_application_objects(Device& device, const std::function<void()>& change
   }
 }
 
+void report_changes(Device& device, const std::function<void()>& changed) {
+  constexpr std::uint16_t first_application_object = 0x2000;
+  for (auto& [index, object] : device.dictionary.objects()) {
+    if (index < first_application_object) continue;
+    for (auto& [sub, entry] : object.entries) {
+      const bool writable = entry.rx_mappable || entry.access == Access::rw || entry.access == Access::wo;
+      if (entry.tx_mappable && writable) entry.written = changed;
+    }
+  }
+}
+
 void mirror_outputs(ObjectDictionary& od) {
   for (std::uint8_t sub = 1; sub <= digital_channels; ++sub) copy(od, digital_outputs, digital_inputs, sub);
   for (std::uint8_t sub = 1; sub <= analog_channels; ++sub) copy(od, analog_outputs, analog_inputs, sub);

@@ -29,10 +29,11 @@ CobIdRules::CobIdRules(Device& device, CobIdUse use, std::uint16_t index, std::u
                        std::uint32_t default_value)
     : device_(&device), use_(use), index_(index), sub_(sub), default_(default_value) {}
 
-Entry CobIdRules::entry(const char* name) const {
-  Entry made = integer_entry(name, DataType::unsigned32, Access::rw, default_);
-  made.check = [rules = *this](ByteView bytes) { return rules.check(bytes); };
-  return made;
+void CobIdRules::bind() {
+  Entry* entry = device_->dictionary.entry(index_, sub_);
+  if (entry == nullptr) return;
+  default_ = static_cast<std::uint32_t>(conform::load_le(entry->default_value));
+  entry->check = [rules = *this](ByteView bytes) { return rules.check(bytes); };
 }
 
 const CobIdFaults& CobIdRules::faults() const {
@@ -108,6 +109,8 @@ Accepted CobIdRules::check(ByteView bytes) const {
 
 bool CobIdRules::valid() const {
   if (device_->dictionary.entry(index_, sub_) == nullptr) return false;
+  // What a description may say and this node cannot do: another kind of identifier, or that of NMT commands.
+  if (device_->described && ((value() & bit29) != 0 || can_id() == 0)) return false;
   if (use_ == CobIdUse::sync) return true;
   const CobIdFaults& fault = faults();
   if (fault.valid_bit_ignored) return true;

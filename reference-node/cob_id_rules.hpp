@@ -16,8 +16,8 @@ class CobIdRules {
   CobIdRules(Device& device, CobIdUse use, std::uint16_t index, std::uint8_t sub,
              std::uint32_t default_value);
 
-  /// The entry with its check; `name` as in the standard.
-  [[nodiscard]] Entry entry(const char* name) const;
+  /// Takes the entry's default over and lets its writes be checked; nothing when there is no such entry.
+  void bind();
   [[nodiscard]] Accepted check(ByteView bytes) const;
 
   /// The communication object exists (SYNC and TIME: it is consumed).

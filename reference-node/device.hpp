@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <optional>
 #include <utility>
@@ -25,8 +26,19 @@ struct Device {
   Choices choices;
   ObjectDictionary dictionary;
   Outbox outbox;
+  /// The dictionary is that of a device description (twin.hpp): of what this node has beyond the standard
+  /// nothing is there.
+  bool described = false;
+  /// Which of the data types 0001h to 0007h an RPDO may hold as placeholder.
+  std::array<bool, 8> placeholders{false, false, true, true, true, true, true, true};
   NmtState state = NmtState::initialising;
   BusTime now{};
+
+  /// The value of a time parameter. It has 16 bits; a description may give it more, but no timer needs them.
+  [[nodiscard]] std::int64_t time_value(std::uint16_t index, std::uint8_t sub) const {
+    constexpr std::uint64_t most = 0xFFFF'FFFF;
+    return static_cast<std::int64_t>(std::min(dictionary.number(index, sub), most));
+  }
 
   /// Sends one frame of a service other than SDO.
   void send(Service service, const Frame& frame) {

@@ -35,24 +35,33 @@ Emergency::Emergency(Device& device)
 
 void Emergency::add_objects() {
   ObjectDictionary& od = device_->dictionary;
-  Entry& shown = od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0));
-  shown.tx_mappable = true;
-  shown.read = [this]() -> Upload { return Bytes{error_register()}; };
-
+  od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0)).tx_mappable =
+      true;
   od.add_complex(0x1003, "Pre-defined error field", ObjectKind::array);
-  for (std::uint8_t sub = 1; sub <= history_depth; ++sub) {
-    Entry& field =
-        od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
-    field.read = [this, sub] { return read_history(sub); };
-  }
+  for (std::uint8_t sub = 1; sub <= history_depth; ++sub)
+    od.add_sub(0x1003, sub, integer_entry("Standard error field", DataType::unsigned32, Access::ro, 0));
   // Sub-index 00h of this array is the number of recorded errors and can be written to clear them.
-  Entry& count = od.add_sub(0x1003, 0, integer_entry("Number of errors", DataType::unsigned8, Access::rw, 0));
-  count.command = true;
-  count.read = [this]() -> Upload { return Bytes{recorded()}; };
-  count.check = [this](ByteView bytes) { return write_history_count(bytes); };
-
-  od.add_variable(0x1014, cob_id_.entry("COB-ID EMCY"));
+  od.add_sub(0x1003, 0, integer_entry("Number of errors", DataType::unsigned8, Access::rw, 0));
+  od.add_variable(0x1014,
+                  integer_entry("COB-ID EMCY", DataType::unsigned32, Access::rw, 0x80U + device_->node_id));
   od.add_variable(0x1015, integer_entry("Inhibit time EMCY", DataType::unsigned16, Access::rw, 0));
+}
+
+void Emergency::bind() {
+  ObjectDictionary& od = device_->dictionary;
+  if (Entry* shown = od.entry(0x1001, 0))
+    read_by(*shown, [this]() -> Upload { return Bytes{error_register()}; });
+  if (const auto history = od.objects().find(0x1003); history != od.objects().end()) {
+    for (auto& [sub, field] : history->second.entries) {
+      if (sub != 0 && sub != 0xFF) read_by(field, [this, sub = sub] { return read_history(sub); });
+    }
+  }
+  if (Entry* count = od.entry(0x1003, 0)) {
+    count->command = true;
+    read_by(*count, [this]() -> Upload { return Bytes{recorded()}; });
+    count->check = [this](ByteView bytes) { return write_history_count(bytes); };
+  }
+  cob_id_.bind();
 }
 
 bool Emergency::known_class(std::uint16_t code) {
@@ -165,8 +174,8 @@ void Emergency::on_reset(bool whole_node) {
 
 Duration Emergency::inhibit_time() const {
   // 1015h counts in 100 us.
-  const auto value = static_cast<std::int64_t>(device_->dictionary.number(0x1015, 0));
-  return std::chrono::microseconds(value * device_->behaviour.emergency_inhibit_unit_us);
+  return std::chrono::microseconds(device_->time_value(0x1015, 0) *
+                                   device_->behaviour.emergency_inhibit_unit_us);
 }
 
 void Emergency::report(const Message& message) {

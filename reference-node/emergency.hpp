@@ -17,7 +17,7 @@ namespace refnode {
 struct ErrorCause {
   std::uint16_t code = 0;
   std::uint8_t source = 0;
-  std::uint8_t instance = 0;
+  std::uint16_t instance = 0;
   friend bool operator==(const ErrorCause&, const ErrorCause&) = default;
 };
 
@@ -33,6 +33,8 @@ class Emergency {
 
   /// 1001h, 1003h, 1014h, 1015h.
   void add_objects();
+  /// Puts the service behind those of these objects that exist.
+  void bind();
 
   /// Whether a code belongs to a class of CiA 301, table 26.
   [[nodiscard]] static bool known_class(std::uint16_t code);

@@ -5,9 +5,12 @@ namespace refnode {
 
 using std::chrono::milliseconds;
 
+void HeartbeatProducer::bind() {
+  if (Entry* period = device_->dictionary.entry(0x1017, 0)) period->written = [this] { on_period_written(); };
+}
+
 Duration HeartbeatProducer::period() const {
-  const auto value = static_cast<std::int64_t>(device_->dictionary.number(0x1017, 0));
-  return milliseconds(value * device_->behaviour.heartbeat_period_factor);
+  return milliseconds(device_->time_value(0x1017, 0) * device_->behaviour.heartbeat_period_factor);
 }
 
 void HeartbeatProducer::on_boot_up() {
@@ -59,6 +62,17 @@ void HeartbeatProducer::transmit() {
                 conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {state}));
 }
 
+void HeartbeatConsumer::bind() {
+  const auto object = device_->dictionary.objects().find(0x1016);
+  if (object == device_->dictionary.objects().end()) return;
+  for (auto& [sub, entry] : object->second.entries) {
+    if (sub == 0 || sub == 0xFF) continue;
+    watches_.resize(sub);
+    entry.check = [this, sub = sub](ByteView bytes) { return check(sub, bytes); };
+    entry.written = [this, sub = sub] { on_written(sub); };
+  }
+}
+
 // 1016h: bits 31-24 reserved, 23-16 node-ID, 15-0 heartbeat time in ms.
 std::uint8_t HeartbeatConsumer::node_of(std::uint64_t value) const {
   return static_cast<std::uint8_t>((value >> 16U) & 0xFFU);
@@ -82,7 +96,7 @@ Accepted HeartbeatConsumer::check(std::uint8_t sub, ByteView bytes) const {
     return refuse(choices.consumer_reserved_bits);
   const bool counts = monitored(value) || (behaviour.consumer_zero_time_is_duplicate && node_of(value) != 0);
   if (!counts || behaviour.consumer_accepts_duplicate) return {};
-  for (std::uint8_t other = 1; other <= entries; ++other) {
+  for (std::uint8_t other = 1; other <= entries(); ++other) {
     if (other == sub && !behaviour.consumer_own_entry_is_duplicate) continue;
     const std::uint64_t present = value_of(other);
     if (monitored(present) && node_of(present) == node_of(value)) {
@@ -103,10 +117,10 @@ void HeartbeatConsumer::on_written(std::uint8_t sub) {
   }
 }
 
-void HeartbeatConsumer::on_reset() { watches_ = {}; }
+void HeartbeatConsumer::on_reset() { watches_.assign(watches_.size(), {}); }
 
 void HeartbeatConsumer::on_heartbeat(std::uint8_t node, std::uint8_t state) {
-  for (std::uint8_t sub = 1; sub <= entries; ++sub) {
+  for (std::uint8_t sub = 1; sub <= entries(); ++sub) {
     const std::uint64_t value = value_of(sub);
     if (!monitored(value) || (sub > 1 && device_->behaviour.consumer_only_first_entry)) continue;
     if (node_of(value) != node && !device_->behaviour.consumer_node_id_unchecked) continue;
@@ -128,7 +142,7 @@ void HeartbeatConsumer::on_heartbeat(std::uint8_t node, std::uint8_t state) {
 }
 
 void HeartbeatConsumer::on_time() {
-  for (std::uint8_t sub = 1; sub <= entries; ++sub) {
+  for (std::uint8_t sub = 1; sub <= entries(); ++sub) {
     Watch& watch = watches_[sub - 1U];
     if (!watch.due || device_->now < *watch.due) continue;
     watch.due.reset();

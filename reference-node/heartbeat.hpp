@@ -2,9 +2,10 @@
 // Error control by heartbeat (CiA 301, 7.2.8.3.2.2): producer (1017h) and consumer (1016h).
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "device.hpp"
 #include "emergency.hpp"
@@ -15,6 +16,8 @@ class HeartbeatProducer {
  public:
   explicit HeartbeatProducer(Device& device) : device_(&device) {}
 
+  /// Puts the service behind 1017h.
+  void bind();
   /// The boot-up message has been sent; it counts as the first heartbeat.
   void on_boot_up();
   void on_reset() { next_.reset(); }
@@ -36,12 +39,12 @@ class HeartbeatProducer {
 
 class HeartbeatConsumer {
  public:
-  static constexpr std::uint8_t entries = 4;
-
   HeartbeatConsumer(Device& device, Emergency& emergency) : device_(&device), emergency_(&emergency) {}
 
   std::function<void()> on_loss;  ///< error behaviour: what the node does when a producer is lost
 
+  /// Puts the service behind the entries of 1016h: as many nodes as there are can be monitored.
+  void bind();
   /// Whether 1016h:`sub` may take this value.
   [[nodiscard]] Accepted check(std::uint8_t sub, ByteView bytes) const;
   /// 1016h:`sub` has been written: its monitoring starts anew with the next heartbeat.
@@ -57,6 +60,7 @@ class HeartbeatConsumer {
     std::optional<BusTime> due;  ///< empty until the first heartbeat, and after a loss
     bool lost = false;
   };
+  [[nodiscard]] std::uint8_t entries() const { return static_cast<std::uint8_t>(watches_.size()); }
   [[nodiscard]] std::uint8_t node_of(std::uint64_t value) const;
   [[nodiscard]] Duration time_of(std::uint64_t value) const;
   void lose(std::uint8_t sub);
@@ -67,7 +71,7 @@ class HeartbeatConsumer {
 
   Device* device_;
   Emergency* emergency_;
-  std::array<Watch, entries> watches_{};
+  std::vector<Watch> watches_;  ///< of 1016h:01 and so on
 };
 
 }  // namespace refnode

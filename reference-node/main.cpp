@@ -12,9 +12,12 @@
 #include "base/text.hpp"
 #include "can/socket_loop.hpp"
 #include "defects/defect.hpp"
+#include "eds/eds.hpp"
+#include "eds/read.hpp"
 #include "eds_text.hpp"
 #include "node.hpp"
 #include "storage.hpp"
+#include "twin.hpp"
 #include "variants/variant.hpp"
 
 namespace {
@@ -63,6 +66,18 @@ void list_variants() {
     fmt::print("{}\n    {}\n    legal by {}\n", row.id, row.summary, row.legal);
 }
 
+/// Where the twin is not what its description says; a file with many mistakes is not worth a flood.
+void print_remarks(const refnode::TwinRemarks& remarks, const std::string& file) {
+  constexpr std::size_t most_lines = 20;
+  const auto& all = remarks.all();
+  for (std::size_t i = 0; i < all.size() && i < most_lines; ++i) {
+    const std::string place = all[i].at.known() ? ":" + to_string(all[i].at) : "";
+    fmt::print(stderr, "{}{}: warning: {}\n", file, place, all[i].text);
+  }
+  const std::size_t total = all.size() + remarks.left_out();
+  if (total > most_lines) fmt::print(stderr, "{}: {} more warnings\n", file, total - most_lines);
+}
+
 int complain(const conform::Error& error, int code) {
   fmt::print(stderr, "canopen-refnode: {}\n", error.text());
   return code;
@@ -71,22 +86,33 @@ int complain(const conform::Error& error, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"A conformant CANopen device (CiA 301) on a CAN interface, with defects on request."};
+  CLI::App app{
+      "A conformant CANopen device (CiA 301) on a CAN interface, with defects on request: the reference node, "
+      "or with --eds the twin of any device."};
   std::string interface_name;
   std::string storage_file;
+  std::string description_file;
   int node_id = 1;
   refnode::Options options;
   bool list = false;
   bool list_legal = false;
   bool print_eds = false;
   app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0");
-  app.add_option("-n,--node", node_id, "node-ID, 1 to 127")->check(CLI::Range(1, 127))->capture_default_str();
+  const auto* node_option =
+      app.add_option("-n,--node", node_id, "node-ID, 1 to 127; without it that of the DCF given by --eds")
+          ->check(CLI::Range(1, 127))
+          ->capture_default_str();
+  auto* description_option = app.add_option(
+      "--eds", description_file,
+      "serve the device that this EDS, DCF, XDD or XDC describes; what cannot be served as it is "
+      "written is warned of");
   app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
   app.add_option("--variant", options.variants, "legal variant to switch on; may be repeated");
   app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
   app.add_flag("--list-defects", list, "print all defects and what they violate");
   app.add_flag("--list-variants", list_legal, "print all legal variants and why they are legal");
-  app.add_flag("--eds", print_eds, "print the device description (EDS) of the conformant node");
+  app.add_flag("--print-eds", print_eds, "print the device description (EDS) of the reference node")
+      ->excludes(description_option);
   app.set_version_flag("--version", "canopen-refnode " CONFORM_VERSION);
   try {
     app.parse(argc, argv);
@@ -109,6 +135,12 @@ int main(int argc, char** argv) {
     return complain({"no interface given", {}, "for example --interface vcan0"}, exit_usage);
   }
 
+  if (!description_file.empty()) {
+    auto file = conform::eds::read_file(description_file);
+    if (!file) return complain(file.error(), exit_usage);
+    if (node_option->empty()) node_id = refnode::configured_node_id(*file).value_or(1);
+    options.description = std::make_shared<const conform::eds::EdsFile>(std::move(*file));
+  }
   options.node_id = static_cast<std::uint8_t>(node_id);
   if (!storage_file.empty()) {
     auto storage = refnode::FileStorage::open(storage_file);
@@ -120,6 +152,10 @@ int main(int argc, char** argv) {
   if (!options.variants.empty()) behaviour += ", as " + conform::join(options.variants, ", ");
   const auto node = refnode::Node::create(options);
   if (!node) return complain(node.error(), exit_usage);
+  if (options.description) {
+    print_remarks((*node)->remarks(), description_file);
+    behaviour.insert(0, "twin of " + description_file + ", ");
+  }
 
   conform::can::StopFlag stop;
   stop_flag = &stop;

@@ -3,28 +3,32 @@
 #include "node.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "application_objects.hpp"
-#include "base/text.hpp"
 #include "device.hpp"
 #include "emergency.hpp"
 #include "heartbeat.hpp"
 #include "manufacturer_objects.hpp"
 #include "nmt_slave.hpp"
 #include "parameter_store.hpp"
-#include "pdo.hpp"
+#include "pdos.hpp"
 #include "sdo_parameters.hpp"
 #include "sdo_servers.hpp"
 #include "standard_objects.hpp"
+#include "switches.hpp"
 #include "sync_time.hpp"
-#include "variants/variant.hpp"
+#include "twin.hpp"
 
 namespace refnode {
 
 struct Node::Impl {
-  explicit Impl(const Options& options);
+  /// `twin`: the dictionary to serve; empty: the node's own.
+  Impl(const Options& options, std::optional<Twin> twin);
 
+  void add_own_objects();
+  void take_over(Twin twin);
   void reset(Reset reset);
   void boot_up();
   void change_state(NmtState from);
@@ -37,22 +41,21 @@ struct Node::Impl {
   HeartbeatConsumer consumer;
   SyncConsumer sync;
   TimeConsumer time;
-  ReceivePdo rpdo;
-  TransmitPdo tpdo;
+  Pdos pdos;
   ParameterStore store;
   NmtSlave nmt;
   SdoServers sdo;
+  TwinRemarks remarks;
 };
 
-Node::Impl::Impl(const Options& options)
+Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
     : device(options.node_id),
       emergency(device),
       producer(device),
       consumer(device, emergency),
       sync(device, emergency),
       time(device),
-      rpdo(device, emergency),
-      tpdo(device),
+      pdos(device, emergency),
       store(device, options.storage),
       nmt(device),
       sdo(device) {
@@ -69,21 +72,57 @@ Node::Impl::Impl(const Options& options)
     if (reaction == 0 && device.state == NmtState::operational) nmt.enter(NmtState::pre_operational);
     if (reaction == 2) nmt.enter(NmtState::stopped);
   };
-  sync.on_sync = [this] {
-    rpdo.on_sync();
-    tpdo.on_sync();
-  };
+  sync.on_sync = [this] { pdos.on_sync(); };
+  if (twin) {
+    take_over(std::move(*twin));
+  } else {
+    add_own_objects();
+  }
+  // The services work on the objects there are, whoever described them.
+  emergency.bind();
+  producer.bind();
+  consumer.bind();
+  sync.bind();
+  time.bind();
+  pdos.bind();
+  store.bind();
+  sdo.bind();
+  bind_sdo_clients(device);
+}
+
+void Node::Impl::add_own_objects() {
   add_identity_objects(device);
   emergency.add_objects();
-  add_error_control_objects(device, producer, consumer);
-  // The values of one RPDO change together and are one event of the TPDO.
-  add_application_objects(device, [this] {
-    if (!rpdo.applying()) tpdo.on_application_change();
-  });
-  rpdo.on_applied = [this] { tpdo.on_application_change(); };
+  add_error_control_objects(device);
+  sync.add_objects();
+  time.add_objects();
+  pdos.add_objects();
+  store.add_objects();
+  sdo.add_objects();
   add_sdo_client(device);
+  add_application_objects(device, [this] { pdos.on_application_change(); });
   add_sample_objects(device);
   add_error_trigger(device, emergency);
+}
+
+void Node::Impl::take_over(Twin twin) {
+  device.described = true;
+  device.dictionary.objects() = std::move(twin.objects);
+  device.placeholders = twin.placeholders;
+  remarks = std::move(twin.remarks);
+  report_changes(device, [this] { pdos.on_application_change(); });
+  // Of how many errors 1003h tells.
+  const auto& objects = device.dictionary.objects();
+  if (const auto history = objects.find(0x1003); history != objects.end()) {
+    const auto fields = std::ranges::count_if(
+        history->second.entries, [](const auto& entry) { return entry.first != 0 && entry.first != 0xFF; });
+    device.choices.history_depth = static_cast<std::uint8_t>(fields);
+  }
+  // Without SYNC there are no transmission types that need it.
+  if (!objects.contains(0x1005)) {
+    device.choices.rpdo.synchronous_types = device.choices.tpdo.synchronous_types = false;
+    device.choices.tpdo.remote_types = false;
+  }
 }
 
 void Node::Impl::reset(Reset kind) {
@@ -93,14 +132,13 @@ void Node::Impl::reset(Reset kind) {
   consumer.on_reset();
   emergency.on_reset(kind == Reset::node);
   store.load_power_on_values(kind == Reset::node);
-  mirror_outputs(device.dictionary);
-  rpdo.on_state_change();
-  tpdo.on_state_change();
+  if (!device.described) mirror_outputs(device.dictionary);
+  pdos.on_state_change();
 }
 
 void Node::Impl::boot_up() {
   producer.on_boot_up();
-  tpdo.on_state_change();
+  pdos.on_boot_up();
 }
 
 void Node::Impl::change_state(NmtState) {
@@ -108,8 +146,7 @@ void Node::Impl::change_state(NmtState) {
   const bool transfers_stay = faults.block.goes_on_in_stopped || faults.sdo.blocked_after_stopped;
   if (device.state == NmtState::stopped && !transfers_stay) sdo.reset();
   producer.on_state_change();
-  rpdo.on_state_change();
-  tpdo.on_state_change();
+  pdos.on_state_change();
   emergency.on_state_change();
 }
 
@@ -118,8 +155,7 @@ void Node::Impl::run_timers() {
   consumer.on_time();
   emergency.on_time();
   producer.on_time();
-  rpdo.on_time();
-  tpdo.on_time();
+  pdos.on_time();
   sdo.on_time();
   device.outbox.on_time(device.now);
 }
@@ -131,7 +167,7 @@ void Node::Impl::dispatch(const Frame& received) {
   if (device.behaviour.accepts_remote_frames) frame.remote = false;
   if (frame.extended) return;
   if (frame.remote) {
-    tpdo.on_remote(frame);
+    pdos.on_remote(frame);
     return;
   }
 
@@ -144,36 +180,8 @@ void Node::Impl::dispatch(const Frame& received) {
   }
   if (device.state == NmtState::stopped) return;
   if (sync.on_frame(frame) || time.on_frame(frame)) return;
-  rpdo.on_frame(frame);
+  pdos.on_frame(frame);
 }
-
-namespace {
-
-conform::Result<void> apply_variants(const Options& options, Device& device) {
-  std::vector<const Variant*> used;
-  for (const std::string& id : options.variants) {
-    const Variant* variant = find_variant(id);
-    if (variant == nullptr) {
-      std::vector<std::string_view> known;
-      for (const Variant& row : variants()) known.push_back(row.id);
-      const std::string_view near = conform::did_you_mean(id, known);
-      return conform::fail(
-          "there is no variant '" + conform::printable(id) + "'", {},
-          near.empty() ? "--list-variants prints all of them" : "did you mean '" + std::string(near) + "'?");
-    }
-    for (const Variant* other : used) {
-      if (!compatible(*variant, *other)) {
-        return conform::fail("variants '" + std::string(other->id) + "' and '" + id + "' exclude each other");
-      }
-    }
-    used.push_back(variant);
-    VariantTarget target{device.dictionary, device.choices, device.outbox, options.node_id};
-    variant->how(target);
-  }
-  return {};
-}
-
-}  // namespace
 
 Node::Node(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Node::~Node() = default;
@@ -184,35 +192,20 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
                          "CANopen node-IDs are 1 to 127");
   }
   if (!options.storage) options.storage = std::make_shared<MemoryStorage>();
-  auto impl = std::make_unique<Impl>(options);
-  if (auto done = apply_variants(options, impl->device); !done) return std::unexpected(done.error());
-  std::vector<std::string_view> used;
-  for (const std::string& id : options.defects) {
-    const Defect* defect = find_defect(id);
-    if (defect == nullptr) {
-      std::vector<std::string_view> known;
-      for (const Defect& row : defects()) known.push_back(row.id);
-      const std::string_view near = conform::did_you_mean(id, known);
-      return conform::fail(
-          "there is no defect '" + conform::printable(id) + "'", {},
-          near.empty() ? "--list-defects prints all of them" : "did you mean '" + std::string(near) + "'?");
-    }
-    if (std::find(used.begin(), used.end(), defect->id) != used.end()) {
-      return conform::fail("defect '" + id + "' is named twice");
-    }
-    used.push_back(defect->id);
-    if (const auto* edit = std::get_if<DictionaryEdit>(&defect->how)) {
-      (*edit)(impl->device.dictionary, options.node_id);
-    } else if (const auto* filter = std::get_if<Filter>(&defect->how)) {
-      impl->device.outbox.add_filter(*filter);
-    } else {
-      std::get<BehaviourSwitch>(defect->how)(impl->device.behaviour);
-    }
+  std::optional<Twin> twin;
+  if (options.description) {
+    auto made = make_twin(*options.description, options.node_id);
+    if (!made) return std::unexpected(made.error());
+    twin = std::move(*made);
   }
+  auto impl = std::make_unique<Impl>(options, std::move(twin));
+  if (auto done = apply_variants(options.variants, impl->device); !done) return std::unexpected(done.error());
+  if (auto done = apply_defects(options.defects, impl->device); !done) return std::unexpected(done.error());
   return std::unique_ptr<Node>(new Node(std::move(impl)));
 }
 
 const ObjectDictionary& Node::dictionary() const { return impl_->device.dictionary; }
+const TwinRemarks& Node::remarks() const { return impl_->remarks; }
 
 void Node::attach(Sender sender, conform::BusTime now) {
   impl_->device.outbox.attach(std::move(sender));
@@ -243,8 +236,8 @@ void Node::on_time(conform::BusTime now) {
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.emergency.next_wakeup(),
-                   impl.producer.next_wakeup(), impl.rpdo.next_wakeup(), impl.tpdo.next_wakeup(),
-                   impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
+                   impl.producer.next_wakeup(), impl.pdos.next_wakeup(), impl.sdo.next_wakeup(),
+                   impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

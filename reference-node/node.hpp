@@ -16,6 +16,11 @@
 #include "defects/defect.hpp"
 #include "object_dictionary.hpp"
 #include "storage.hpp"
+#include "twin_remarks.hpp"
+
+namespace conform::eds {
+struct EdsFile;
+}  // namespace conform::eds
 
 namespace refnode {
 
@@ -25,12 +30,14 @@ struct Options {
   std::shared_ptr<Storage> storage{};   ///< non-volatile memory; empty: fresh memory that lives with the node
   Choices choices{};                    ///< what the standard leaves open
   std::vector<std::string> variants{};  ///< ids of variants(), compatible with each other
+  /// The device to be; empty: the reference node itself.
+  std::shared_ptr<const conform::eds::EdsFile> description{};
 };
 
 class Node final : public conform::can::Participant {
  public:
   /// Fails with a hint on a node-ID out of range, an unknown or repeated defect, unknown variants or variants
-  /// that exclude each other.
+  /// that exclude each other, and on a description that is too large.
   [[nodiscard]] static conform::Result<std::unique_ptr<Node>> create(Options options);
   ~Node() override;
 
@@ -42,6 +49,8 @@ class Node final : public conform::can::Participant {
 
   /// What the node holds at present; edits of defects included.
   [[nodiscard]] const ObjectDictionary& dictionary() const;
+  /// What of the description could not be served as it is written.
+  [[nodiscard]] const TwinRemarks& remarks() const;
 
  private:
   struct Impl;

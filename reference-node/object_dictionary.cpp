@@ -2,6 +2,7 @@
 #include "object_dictionary.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/check.hpp"
 #include "behaviour.hpp"
@@ -99,6 +100,14 @@ Entry text_entry(std::string name, Access access, std::string_view text, std::si
                      max_size);
 }
 
+void read_by(Entry& entry, std::function<Upload()> read) {
+  entry.read = [size = fixed_size(entry.type), read = std::move(read)]() -> Upload {
+    Upload value = read();
+    if (value && size != 0) value->resize(size);
+    return value;
+  };
+}
+
 Entry& ObjectDictionary::add_variable(std::uint16_t index, Entry entry) {
   CONFORM_CHECK(!objects_.contains(index));
   Object& object = objects_[index];
@@ -118,9 +127,9 @@ Object& ObjectDictionary::add_complex(std::uint16_t index, std::string name, Obj
 Entry& ObjectDictionary::add_sub(std::uint16_t index, std::uint8_t sub, Entry entry) {
   CONFORM_CHECK(objects_.contains(index));
   Object& object = objects_[index];
-  Entry& highest = object.entries[0];
-  if (highest.access == Access::constant && highest.number() < sub) {
-    highest.value = highest.default_value = Bytes{sub};
+  Entry* highest = this->entry(index, 0);
+  if (highest != nullptr && highest->access == Access::constant && highest->number() < sub) {
+    highest->value = highest->default_value = Bytes{sub};
   }
   return object.entries[sub] = std::move(entry);
 }
@@ -184,16 +193,34 @@ Accepted ObjectDictionary::check_size(const Entry& found, std::size_t size) cons
   return {};
 }
 
+template <typename Value>
+Accepted ObjectDictionary::compare(Value value, const std::optional<Value>& low,
+                                   const std::optional<Value>& high) const {
+  if (high && value > *high) return refuse(choices_->value_above_limit);
+  if (low && value < *low) return refuse(choices_->value_below_limit);
+  return {};
+}
+
 Accepted ObjectDictionary::check_limits(const Entry& found, ByteView bytes) const {
+  const std::uint64_t raw = conform::load_le(bytes);
+  switch (found.type) {
+    case DataType::real32:
+      return compare<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)), found.low_real,
+                             found.high_real);
+    case DataType::real64: return compare(std::bit_cast<double>(raw), found.low_real, found.high_real);
+    case DataType::unsigned64: {
+      const auto bits = [](std::int64_t limit) { return static_cast<std::uint64_t>(limit); };
+      return compare(raw, found.low.transform(bits), found.high.transform(bits));
+    }
+    default: break;
+  }
   if (!found.low && !found.high) return {};
-  std::int64_t value = static_cast<std::int64_t>(conform::load_le(bytes));
+  std::int64_t value = static_cast<std::int64_t>(raw);
   if (is_signed_integer(found.type) && bytes.size() < 8) {
     const std::int64_t sign = std::int64_t{1} << (bytes.size() * 8 - 1);
     value = (value ^ sign) - sign;
   }
-  if (found.high && value > *found.high) return refuse(choices_->value_above_limit);
-  if (found.low && value < *found.low) return refuse(choices_->value_below_limit);
-  return {};
+  return compare(value, found.low, found.high);
 }
 
 Accepted ObjectDictionary::may_download(Multiplexer mux, std::optional<std::size_t> size) const {

@@ -74,8 +74,10 @@ struct Entry {
   Access access = Access::ro;
   Bytes value;
   Bytes default_value;              ///< the power-on value while nothing is stored
-  std::optional<std::int64_t> low;  ///< inclusive limits of integer entries
+  std::optional<std::int64_t> low;  ///< inclusive limits of integer entries; UNSIGNED64: the same 64 bits
   std::optional<std::int64_t> high;
+  std::optional<double> low_real;  ///< of REAL32 and REAL64
+  std::optional<double> high_real;
   std::size_t max_size = 0;  ///< longest value of a type of variable length
   bool rx_mappable = false;
   bool tx_mappable = false;
@@ -88,6 +90,9 @@ struct Entry {
 
   [[nodiscard]] std::uint64_t number() const { return conform::load_le(value); }
 };
+
+/// Lets `read` answer uploads; what it gives is cut or filled up to the length of the entry's type.
+void read_by(Entry& entry, std::function<Upload()> read);
 
 enum class ObjectKind : std::uint8_t { variable, array, record };
 
@@ -142,6 +147,9 @@ class ObjectDictionary {
   [[nodiscard]] Accepted check_exists(Multiplexer mux) const;
   [[nodiscard]] Accepted check_size(const Entry& entry, std::size_t size) const;
   [[nodiscard]] Accepted check_limits(const Entry& entry, ByteView bytes) const;
+  template <typename Value>
+  [[nodiscard]] Accepted compare(Value value, const std::optional<Value>& low,
+                                 const std::optional<Value>& high) const;
 
   const Behaviour* behaviour_;
   const Choices* choices_;

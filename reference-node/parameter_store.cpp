@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint8_t sub_all = 1;
 constexpr std::uint8_t sub_communication = 2;
 constexpr std::uint8_t sub_application = 3;
+constexpr std::uint8_t sub_last = 0x7F;  // from 04h on: parameters of the manufacturer
+constexpr std::uint64_t on_command = 1;  // capability, bit 0
 constexpr Group all_groups[] = {Group::communication, Group::application, Group::manufacturer};
 
 // The signature in transmission order, least significant byte first.
@@ -38,31 +40,49 @@ std::vector<Group> groups_of(std::uint8_t sub, const StoreFaults& fault) {
   switch (sub) {
     case sub_all: return {std::begin(all_groups), std::end(all_groups)};
     case sub_communication: return {Group::communication};
-    default: return {Group::application};
+    case sub_application: return {Group::application};
+    default: return {Group::manufacturer};
   }
 }
 
 }  // namespace
 
 ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
-    : device_(&device), storage_(std::move(storage)) {
-  ObjectDictionary& od = device.dictionary;
+    : device_(&device), storage_(std::move(storage)) {}
+
+void ParameterStore::add_objects() {
+  ObjectDictionary& od = device_->dictionary;
   od.add_complex(0x1010, "Store parameters", ObjectKind::array);
   od.add_complex(0x1011, "Restore default parameters", ObjectKind::array);
   constexpr const char* names[] = {"", "All parameters", "Communication parameters",
                                    "Application parameters"};
   for (const std::uint8_t sub : {sub_all, sub_communication, sub_application}) {
     // Reading gives the capability: bit 0, on command.
-    Entry& store = od.add_sub(0x1010, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, 1));
-    store.command = true;
-    store.check = [this, sub](ByteView signature) { return save(sub, signature); };
-    Entry& load = od.add_sub(0x1011, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, 1));
-    load.command = true;
-    load.check = [this, sub](ByteView signature) { return restore(sub, signature); };
+    od.add_sub(0x1010, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, on_command));
+    od.add_sub(0x1011, sub, integer_entry(names[sub], DataType::unsigned32, Access::rw, on_command));
   }
   Entry& failing =
       od.add_variable(0x2F20, integer_entry("Storage fault", DataType::unsigned8, Access::rw, 0));
   failing.storable = false;
+}
+
+void ParameterStore::bind() {
+  using Command = Accepted (ParameterStore::*)(std::uint8_t, ByteView);
+  const auto bind_object = [this](std::uint16_t index, Command command) {
+    const auto object = device_->dictionary.objects().find(index);
+    if (object == device_->dictionary.objects().end()) return;
+    for (auto& [sub, entry] : object->second.entries) {
+      if (sub == 0 || sub > sub_last) continue;
+      entry.command = true;
+      if ((entry.number() & on_command) != 0) {
+        entry.check = [this, command, sub = sub](ByteView bytes) { return (this->*command)(sub, bytes); };
+      } else {
+        entry.check = [](ByteView) -> Accepted { return refuse(abort_code::cannot_store); };
+      }
+    }
+  };
+  bind_object(0x1010, &ParameterStore::save);
+  bind_object(0x1011, &ParameterStore::restore);
 }
 
 Image ParameterStore::image_of(Group group, const Image& former) const {
@@ -82,7 +102,9 @@ Image ParameterStore::image_of(Group group, const Image& former) const {
   return image;
 }
 
-Entry* ParameterStore::storage_fault() const { return device_->dictionary.entry(0x2F20, 0); }
+Entry* ParameterStore::storage_fault() const {
+  return device_->described ? nullptr : device_->dictionary.entry(0x2F20, 0);
+}
 
 Accepted ParameterStore::keep(Images images, const StoreFaults& fault) {
   const Entry* armed = storage_fault();

@@ -14,6 +14,10 @@ class ParameterStore {
  public:
   ParameterStore(Device& device, std::shared_ptr<Storage> storage);
 
+  /// 1010h and 1011h, and 2F20h that makes them fail.
+  void add_objects();
+  /// Puts the service behind the entries of 1010h and 1011h.
+  void bind();
   /// Gives the parameters their stored or default values: all of them, or with reset communication
   /// 1000h-1FFFh.
   void load_power_on_values(bool whole_node);

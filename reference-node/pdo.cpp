@@ -10,14 +10,25 @@ namespace {
 constexpr std::uint8_t last_synchronous_type = 0xF0;
 constexpr std::uint8_t remote_synchronous_type = 0xFC;
 
+std::size_t whole_bytes(std::size_t bits) { return (bits + 7) / 8; }
+
+/// Bits of a PDO are numbered as they are sent: the least significant of the first byte comes first (CiA
+/// 301, 7.1.4).
+void copy_bits(ByteView from, std::size_t first, Bytes& to, std::size_t target, std::size_t count) {
+  for (std::size_t bit = 0; bit < count; ++bit) {
+    const unsigned value = (from[(first + bit) / 8] >> ((first + bit) % 8)) & 1U;
+    auto& byte = to[(target + bit) / 8];
+    byte = static_cast<std::uint8_t>(byte | (value << ((target + bit) % 8)));
+  }
+}
+
 }  // namespace
 
-ReceivePdo::ReceivePdo(Device& device, Emergency& emergency)
+ReceivePdo::ReceivePdo(Device& device, Emergency& emergency, std::uint16_t number)
     : device_(&device),
       emergency_(&emergency),
-      // Two digital outputs and an analog one: four bytes.
-      parameters_(device, PdoDirection::receive, 0, 0x200U + device.node_id,
-                  {0x62000108, 0x62000208, 0x64110110}) {}
+      number_(number),
+      parameters_(device, PdoDirection::receive, number) {}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
   const Behaviour& behaviour = device_->behaviour;
@@ -25,7 +36,7 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   if (device_->state != NmtState::operational && !behaviour.rpdo_processed_in_pre_operational) return true;
   const std::size_t size = parameters_.mapped_size();
   if (size == 0) return true;
-  const ErrorCause too_short{0x8210, Emergency::rpdo_source, 1};
+  const ErrorCause too_short = cause(0x8210);
   if (frame.size() < size) {
     if (!behaviour.short_rpdo_not_reported) emergency_->raise(too_short, frame.size());
     if (!behaviour.short_rpdo_processed) return true;
@@ -33,7 +44,7 @@ bool ReceivePdo::on_frame(const Frame& frame) {
     emergency_->clear(too_short);
   }
   if (frame.size() > size && behaviour.long_rpdo_dropped) return true;
-  const ErrorCause too_long{0x8220, Emergency::rpdo_source, 1};
+  const ErrorCause too_long = cause(0x8220);
   if (frame.size() <= size) {
     emergency_->clear(too_long);
   } else if (device_->choices.long_rpdo_reported) {
@@ -43,7 +54,7 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   const Duration limit = parameters_.event_timer();
   deadline_.reset();
   if (limit > Duration::zero()) deadline_ = device_->now + limit;
-  emergency_->clear({0x8250, Emergency::rpdo_source, 1});
+  emergency_->clear(cause(0x8250));
 
   Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
   const bool synchronous = parameters_.transmission_type() <= last_synchronous_type;
@@ -68,34 +79,30 @@ void ReceivePdo::on_state_change() {
 void ReceivePdo::on_time() {
   if (!deadline_ || device_->now < *deadline_) return;
   deadline_.reset();
-  emergency_->raise({0x8250, Emergency::rpdo_source, 1});
+  emergency_->raise(cause(0x8250));
 }
 
 void ReceivePdo::apply(const Bytes& data) {
   if (device_->behaviour.rpdo_data_ignored) return;
   applying_ = true;
-  std::size_t position = 0;
+  std::size_t position = 0;  // in bits
   for (const auto& mapped : parameters_.mapping()) {
-    const std::size_t size = mapped.bits / 8U;
-    if (position + size > data.size()) break;
+    if (position + mapped.bits > data.size() * 8) break;
     Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);  // none: a placeholder
-    if (entry != nullptr && entry->value.size() == size) {
-      const auto first = data.begin() + static_cast<std::ptrdiff_t>(position);
-      entry->value.assign(first, first + static_cast<std::ptrdiff_t>(size));
+    if (entry != nullptr && entry->value.size() == whole_bytes(mapped.bits)) {
+      entry->value.assign(entry->value.size(), 0);
+      copy_bits(data, position, entry->value, 0, mapped.bits);
       if (device_->behaviour.rpdo_data_big_endian) std::reverse(entry->value.begin(), entry->value.end());
       if (entry->written) entry->written();
     }
-    position += size;
+    position += mapped.bits;
   }
   applying_ = false;
   if (on_applied) on_applied();
 }
 
-TransmitPdo::TransmitPdo(Device& device)
-    : device_(&device),
-      // Two digital inputs and an analog one: four bytes. Bit 30: not on remote request.
-      parameters_(device, PdoDirection::transmit, 0, 0x40000180U + device.node_id,
-                  {0x60000108, 0x60000208, 0x64010110}) {
+TransmitPdo::TransmitPdo(Device& device, std::uint16_t number)
+    : device_(&device), parameters_(device, PdoDirection::transmit, number) {
   parameters_.on_changed = [this] { restart(); };
 }
 
@@ -108,13 +115,16 @@ bool TransmitPdo::enabled() const {
 
 Bytes TransmitPdo::content() const {
   Bytes data;
+  std::size_t position = 0;  // in bits
   for (const auto& mapped : parameters_.mapping()) {
     const Upload value =
         device_->dictionary.upload({conform::Index(mapped.index), conform::SubIndex(mapped.sub)});
     Bytes part = value.value_or(Bytes{});
-    part.resize(mapped.bits / 8U);
+    part.resize(whole_bytes(mapped.bits));
     if (device_->behaviour.tpdo_data_big_endian) std::reverse(part.begin(), part.end());
-    data.insert(data.end(), part.begin(), part.end());
+    data.resize(whole_bytes(position + mapped.bits));
+    copy_bits(part, 0, data, position, mapped.bits);
+    position += mapped.bits;
   }
   if (data.size() > 8) data.resize(8);
   return data;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traffic of one RPDO and one TPDO (CiA 301, 7.2.2): in Operational only.
+// Traffic of one RPDO, of one TPDO (CiA 301, 7.2.2): in Operational only.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ namespace refnode {
 
 class ReceivePdo {
  public:
-  ReceivePdo(Device& device, Emergency& emergency);
+  /// `number` 0 is that of 1400h.
+  ReceivePdo(Device& device, Emergency& emergency, std::uint16_t number);
 
   std::function<void()> on_applied;  ///< all mapped objects of a PDO have their new values
 
@@ -29,9 +30,13 @@ class ReceivePdo {
 
  private:
   void apply(const Bytes& data);
+  [[nodiscard]] ErrorCause cause(std::uint16_t code) const {
+    return {code, Emergency::rpdo_source, static_cast<std::uint16_t>(number_ + 1)};
+  }
 
   Device* device_;
   Emergency* emergency_;
+  std::uint16_t number_;
   PdoParameters parameters_;
   bool applying_ = false;
   std::optional<Bytes> buffered_;    ///< synchronous types: waiting for the SYNC
@@ -40,7 +45,8 @@ class ReceivePdo {
 
 class TransmitPdo {
  public:
-  explicit TransmitPdo(Device& device);
+  /// `number` 0 is that of 1800h.
+  TransmitPdo(Device& device, std::uint16_t number);
 
   /// Something mapped may have changed.
   void on_application_change();

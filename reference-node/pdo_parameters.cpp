@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pdo_parameters.hpp"
 
+#include <algorithm>
+
 namespace refnode {
 
 namespace {
@@ -9,55 +11,67 @@ constexpr std::uint8_t type_sub = 2;
 constexpr std::uint8_t inhibit_sub = 3;
 constexpr std::uint8_t event_timer_sub = 5;
 
-// 0001h-0007h as placeholders of an RPDO. BOOLEAN is left out: mapping is by whole bytes.
-std::size_t dummy_size(std::uint16_t index) {
-  if (index < 0x0002 || index > 0x0007) return 0;
-  return fixed_size(static_cast<DataType>(index));
-}
+constexpr std::uint16_t to_mapping = 0x200;  // from 14xxh to 16xxh, from 18xxh to 1Axxh
+constexpr std::uint8_t most_mapped = 0x40;
+constexpr std::uint64_t first_multiplexed = 0xFE;  // FEh and FFh in sub-index 00h of the mapping
 
 }  // namespace
 
-PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint8_t number,
-                             std::uint32_t cob_id, const std::vector<std::uint32_t>& mapping)
+void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t cob_id,
+                     const std::vector<std::uint32_t>& mapping) {
+  constexpr std::uint8_t entries = 8;
+  const bool receive = direction == PdoDirection::receive;
+  const std::uint16_t index = first_communication_index(direction);
+  od.add_complex(index, receive ? "RPDO communication parameter" : "TPDO communication parameter",
+                 ObjectKind::record);
+  od.add_sub(index, 1, integer_entry("COB-ID", DataType::unsigned32, Access::rw, cob_id));
+  od.add_sub(index, type_sub, integer_entry("Transmission type", DataType::unsigned8, Access::rw, 0xFF));
+  od.add_sub(index, inhibit_sub, integer_entry("Inhibit time", DataType::unsigned16, Access::rw, 0));
+  // Sub-index 04h is reserved and left out.
+  od.add_sub(index, event_timer_sub, integer_entry("Event timer", DataType::unsigned16, Access::rw, 0));
+
+  const auto mapped = static_cast<std::uint16_t>(index + to_mapping);
+  od.add_complex(mapped, receive ? "RPDO mapping parameter" : "TPDO mapping parameter", ObjectKind::record);
+  for (std::uint8_t sub = 1; sub <= entries; ++sub) {
+    const std::uint32_t value = sub <= mapping.size() ? mapping[sub - 1U] : 0;
+    od.add_sub(mapped, sub, integer_entry("Mapped object", DataType::unsigned32, Access::rw, value));
+  }
+  od.add_sub(mapped, 0,
+             integer_entry("Number of mapped objects", DataType::unsigned8, Access::rw, mapping.size()));
+}
+
+PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint16_t number)
     : device_(&device),
       direction_(direction),
-      communication_(
-          static_cast<std::uint16_t>((direction == PdoDirection::receive ? 0x1400 : 0x1800) + number)),
-      mapping_(static_cast<std::uint16_t>(communication_ + 0x200)),
+      communication_(static_cast<std::uint16_t>(first_communication_index(direction) + number)),
+      mapping_(static_cast<std::uint16_t>(communication_ + to_mapping)),
       cob_id_(device, direction == PdoDirection::receive ? CobIdUse::rpdo : CobIdUse::tpdo, communication_, 1,
-              cob_id) {
+              0) {
   ObjectDictionary& od = device.dictionary;
-  const bool receive = direction == PdoDirection::receive;
-  od.add_complex(communication_, receive ? "RPDO communication parameter" : "TPDO communication parameter",
-                 ObjectKind::record);
-  od.add_sub(communication_, 1, cob_id_.entry("COB-ID"));
-  Entry& type = od.add_sub(communication_, type_sub,
-                           integer_entry("Transmission type", DataType::unsigned8, Access::rw, 0xFF));
-  type.check = [this](ByteView bytes) { return check_type(bytes); };
-  Entry& inhibit = od.add_sub(communication_, inhibit_sub,
-                              integer_entry("Inhibit time", DataType::unsigned16, Access::rw, 0));
-  inhibit.check = [this](ByteView bytes) { return check_locked(inhibit_sub, bytes); };
-  // Sub-index 04h is reserved and left out.
-  od.add_sub(communication_, event_timer_sub,
-             integer_entry("Event timer", DataType::unsigned16, Access::rw, 0));
-
-  od.add_complex(mapping_, receive ? "RPDO mapping parameter" : "TPDO mapping parameter", ObjectKind::record);
-  for (std::uint8_t sub = 1; sub <= mapping_entries; ++sub) {
-    const std::uint32_t value = sub <= mapping.size() ? mapping[sub - 1U] : 0;
-    Entry& entry =
-        od.add_sub(mapping_, sub, integer_entry("Mapped object", DataType::unsigned32, Access::rw, value));
-    entry.check = [this, sub](ByteView bytes) { return check_mapping_entry(sub, bytes); };
-  }
-  Entry& count =
-      od.add_sub(mapping_, 0,
-                 integer_entry("Number of mapped objects", DataType::unsigned8, Access::rw, mapping.size()));
-  count.check = [this](ByteView bytes) { return check_mapping_count(bytes); };
+  cob_id_.bind();
+  if (Entry* type = od.entry(communication_, type_sub))
+    type->check = [this](ByteView bytes) { return check_type(bytes); };
+  if (Entry* inhibit = od.entry(communication_, inhibit_sub))
+    inhibit->check = [this](ByteView bytes) { return check_locked(inhibit_sub, bytes); };
 
   const auto changed = [this] {
     if (on_changed) on_changed();
   };
-  count.written = changed;
-  for (auto& [sub, entry] : od.objects()[communication_].entries) entry.written = changed;
+  if (const auto found = od.objects().find(communication_); found != od.objects().end()) {
+    for (auto& [sub, entry] : found->second.entries) entry.written = changed;
+  }
+  const auto mapping = od.objects().find(mapping_);
+  if (mapping == od.objects().end()) return;
+  for (auto& [sub, entry] : mapping->second.entries) {
+    if (sub == 0 || sub > most_mapped) continue;
+    mapping_entries_ = sub;
+    entry.check = [this, sub = sub](ByteView bytes) { return check_mapping_entry(sub, bytes); };
+  }
+  if (Entry* count = od.entry(mapping_, 0)) {
+    multiplexed_ = device.described && conform::load_le(count->default_value) >= first_multiplexed;
+    count->check = [this](ByteView bytes) { return check_mapping_count(bytes); };
+    count->written = changed;
+  }
 }
 
 const PdoFaults& PdoParameters::faults() const {
@@ -74,13 +88,13 @@ std::uint8_t PdoParameters::transmission_type() const {
 
 Duration PdoParameters::inhibit_time() const {
   // In units of 100 us.
-  const auto value = static_cast<std::int64_t>(device_->dictionary.number(communication_, inhibit_sub));
-  return std::chrono::microseconds(value * faults().inhibit_unit_us);
+  return std::chrono::microseconds(device_->time_value(communication_, inhibit_sub) *
+                                   faults().inhibit_unit_us);
 }
 
 Duration PdoParameters::event_timer() const {
-  const auto value = static_cast<std::int64_t>(device_->dictionary.number(communication_, event_timer_sub));
-  return std::chrono::milliseconds(value * faults().event_timer_factor);
+  return std::chrono::milliseconds(device_->time_value(communication_, event_timer_sub) *
+                                   faults().event_timer_factor);
 }
 
 // 00h-F0h synchronous, FCh and FDh on remote request (TPDO only), FEh and FFh event-driven; the rest is
@@ -107,18 +121,27 @@ PdoParameters::Mapped PdoParameters::unpack(std::uint64_t value) {
           static_cast<std::uint8_t>(value & 0xFFU)};
 }
 
+// 0001h-0007h as placeholders of an RPDO; 0 when there is none of this index.
+unsigned PdoParameters::placeholder_bits(std::uint16_t index) const {
+  if (index == 0 || index >= device_->placeholders.size() || !device_->placeholders[index]) return 0;
+  const auto type = static_cast<DataType>(index);
+  return type == DataType::boolean ? 1 : static_cast<unsigned>(fixed_size(type) * 8);
+}
+
 Accepted PdoParameters::mappable(const Mapped& mapped) const {
   const PdoFaults& fault = faults();
   const PdoChoices& choice = choices();
-  if (direction_ == PdoDirection::receive && mapped.sub == 0 && dummy_size(mapped.index) != 0) {
-    if (mapped.bits != dummy_size(mapped.index) * 8) return refuse(choice.wrong_length);
+  const unsigned placeholder = placeholder_bits(mapped.index);
+  if (direction_ == PdoDirection::receive && mapped.sub == 0 && placeholder != 0) {
+    if (mapped.bits != placeholder) return refuse(choice.wrong_length);
     return {};
   }
   const Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);
   if (entry == nullptr) return fault.absent_object_mapped ? Accepted{} : refuse(choice.absent_object);
   const bool allowed = direction_ == PdoDirection::receive ? entry->rx_mappable : entry->tx_mappable;
   if (!allowed && !fault.unmappable_object_mapped) return refuse(choice.unmappable_object);
-  if (mapped.bits != entry->value.size() * 8 && !fault.mapping_length_unchecked)
+  const bool one_bit = entry->type == DataType::boolean && mapped.bits == 1;
+  if (mapped.bits != entry->value.size() * 8 && !one_bit && !fault.mapping_length_unchecked)
     return refuse(choice.wrong_length);
   return {};
 }
@@ -140,7 +163,7 @@ Accepted PdoParameters::check_mapping_count(ByteView bytes) const {
   const PdoFaults& fault = faults();
   if (count == device_->dictionary.number(mapping_, 0)) return {};
   if (cob_id_.valid() && !fault.mapping_writable_while_valid) return refuse(choices().out_of_order);
-  if (count > mapping_entries) {
+  if (count > mapping_entries_) {
     return fault.mapping_count_unchecked ? Accepted{} : refuse(choices().too_many);
   }
   std::size_t bits = 0;
@@ -156,8 +179,9 @@ Accepted PdoParameters::check_mapping_count(ByteView bytes) const {
 
 std::vector<PdoParameters::Mapped> PdoParameters::mapping() const {
   std::vector<Mapped> all;
+  if (multiplexed_) return all;
   const std::uint64_t count = device_->dictionary.number(mapping_, 0);
-  for (std::uint8_t sub = 1; sub <= count && sub <= mapping_entries; ++sub) {
+  for (std::uint8_t sub = 1; sub <= count && sub <= mapping_entries_; ++sub) {
     all.push_back(unpack(device_->dictionary.number(mapping_, sub)));
   }
   return all;
@@ -166,7 +190,7 @@ std::vector<PdoParameters::Mapped> PdoParameters::mapping() const {
 std::size_t PdoParameters::mapped_size() const {
   std::size_t bits = 0;
   for (const Mapped& mapped : mapping()) bits += mapped.bits;
-  return bits / 8 < 8 ? bits / 8 : 8;
+  return std::min<std::size_t>((bits + 7) / 8, 8);
 }
 
 }  // namespace refnode

@@ -14,13 +14,23 @@ namespace refnode {
 
 enum class PdoDirection : std::uint8_t { receive, transmit };
 
+inline constexpr std::uint16_t pdos_of_a_direction = 512;
+/// 1400h, 1800h: the communication parameter of the first PDO.
+[[nodiscard]] constexpr std::uint16_t first_communication_index(PdoDirection direction) {
+  return direction == PdoDirection::receive ? 0x1400 : 0x1800;
+}
+
+/// Adds both parameters of the first PDO of a direction; `mapping` are the default entries, of eight there
+/// can be.
+void add_pdo_objects(ObjectDictionary& dictionary, PdoDirection direction, std::uint32_t cob_id,
+                     const std::vector<std::uint32_t>& mapping);
+
 class PdoParameters {
  public:
-  static constexpr std::uint8_t mapping_entries = 8;
-
-  /// `number` 0 is the first PDO of its direction; `mapping` are the default entries.
-  PdoParameters(Device& device, PdoDirection direction, std::uint8_t number, std::uint32_t cob_id,
-                const std::vector<std::uint32_t>& mapping);
+  /// Puts the rules behind the entries there are. `number` 0 is the first PDO of its direction.
+  PdoParameters(Device& device, PdoDirection direction, std::uint16_t number);
+  PdoParameters(const PdoParameters&) = delete;  // the entries point here
+  PdoParameters& operator=(const PdoParameters&) = delete;
 
   std::function<void()> on_changed;  ///< a communication parameter or the number of mapped objects
 
@@ -34,9 +44,9 @@ class PdoParameters {
     std::uint8_t sub;
     std::uint8_t bits;
   };
-  /// The active mapping; empty when sub-index 00h is 00h.
+  /// The active mapping; empty when sub-index 00h is 00h, and of a multiplexed PDO.
   [[nodiscard]] std::vector<Mapped> mapping() const;
-  /// Its length in bytes.
+  /// Its length in bytes, at most eight.
   [[nodiscard]] std::size_t mapped_size() const;
 
  private:
@@ -44,6 +54,7 @@ class PdoParameters {
   [[nodiscard]] Accepted check_locked(std::uint8_t sub, ByteView bytes) const;
   [[nodiscard]] Accepted check_mapping_count(ByteView bytes) const;
   [[nodiscard]] Accepted check_mapping_entry(std::uint8_t sub, ByteView bytes) const;
+  [[nodiscard]] unsigned placeholder_bits(std::uint16_t index) const;
   [[nodiscard]] Accepted mappable(const Mapped& mapped) const;
   [[nodiscard]] static Mapped unpack(std::uint64_t value);
   [[nodiscard]] const PdoFaults& faults() const;
@@ -54,6 +65,8 @@ class PdoParameters {
   std::uint16_t communication_;  ///< index of the communication parameter
   std::uint16_t mapping_;        ///< index of the mapping parameter
   CobIdRules cob_id_;
+  std::uint8_t mapping_entries_ = 0;  ///< highest sub-index that can hold a mapped object
+  bool multiplexed_ = false;          ///< described as such; its service is not known here
 };
 
 }  // namespace refnode

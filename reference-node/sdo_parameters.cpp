@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sdo_parameters.hpp"
 
+#include <utility>
+
 namespace refnode {
 
 namespace {
@@ -11,22 +13,26 @@ constexpr std::uint8_t node_id_sub = 3;
 constexpr std::uint32_t not_valid = 0x80000000;
 constexpr std::uint32_t dynamic_bit = 0x40000000;
 
-struct CobIds {
-  CobIdRules client_to_server;
-  CobIdRules server_to_client;
-};
-
-CobIds add_record(Device& device, std::uint16_t index, CobIdUse use, const char* name, const char* partner) {
-  ObjectDictionary& od = device.dictionary;
+void add_record(ObjectDictionary& od, std::uint16_t index, const char* name, const char* partner) {
   od.add_complex(index, name, ObjectKind::record);
-  const CobIdRules to_server(device, use, index, first_cob_id_sub, not_valid);
-  const CobIdRules to_client(device, use, index, second_cob_id_sub, not_valid);
-  od.add_sub(index, first_cob_id_sub, to_server.entry("COB-ID client -> server"));
-  od.add_sub(index, second_cob_id_sub, to_client.entry("COB-ID server -> client"));
-  Entry& node_id =
-      od.add_sub(index, node_id_sub, integer_entry(partner, DataType::unsigned8, Access::rw, 127));
-  node_id.low = 1;
-  node_id.high = 127;
+  od.add_sub(index, first_cob_id_sub,
+             integer_entry("COB-ID client -> server", DataType::unsigned32, Access::rw, not_valid));
+  od.add_sub(index, second_cob_id_sub,
+             integer_entry("COB-ID server -> client", DataType::unsigned32, Access::rw, not_valid));
+  od.add_sub(index, node_id_sub, integer_entry(partner, DataType::unsigned8, Access::rw, 127));
+}
+
+/// COB-IDs in the order of their sub-indices.
+std::pair<CobIdRules, CobIdRules> bind_record(Device& device, std::uint16_t index, CobIdUse use) {
+  ObjectDictionary& od = device.dictionary;
+  CobIdRules to_server(device, use, index, first_cob_id_sub, not_valid);
+  CobIdRules to_client(device, use, index, second_cob_id_sub, not_valid);
+  to_server.bind();
+  to_client.bind();
+  if (Entry* node_id = od.entry(index, node_id_sub); node_id != nullptr && !node_id->low && !node_id->high) {
+    node_id->low = 1;
+    node_id->high = 127;
+  }
   const auto dynamic = [&device, index] {
     if (device.behaviour.dynamic_sdo_stored) return false;
     const std::uint64_t both = device.dictionary.number(index, first_cob_id_sub) |
@@ -39,14 +45,25 @@ CobIds add_record(Device& device, std::uint16_t index, CobIdUse use, const char*
 
 }  // namespace
 
-SdoChannel add_sdo_server(Device& device, std::uint8_t number) {
-  const CobIds ids = add_record(device, static_cast<std::uint16_t>(0x1200U + number), CobIdUse::sdo_server,
-                                "SDO server parameter", "Node-ID of the SDO client");
-  return {ids.client_to_server, ids.server_to_client};
+void add_sdo_server(Device& device, std::uint8_t number) {
+  add_record(device.dictionary, static_cast<std::uint16_t>(first_sdo_server + number), "SDO server parameter",
+             "Node-ID of the SDO client");
 }
 
 void add_sdo_client(Device& device) {
-  add_record(device, 0x1280, CobIdUse::sdo_client, "SDO client parameter", "Node-ID of the SDO server");
+  add_record(device.dictionary, first_sdo_client, "SDO client parameter", "Node-ID of the SDO server");
+}
+
+SdoChannel bind_sdo_server(Device& device, std::uint16_t index) {
+  const auto [to_server, to_client] = bind_record(device, index, CobIdUse::sdo_server);
+  return {to_server, to_client};
+}
+
+void bind_sdo_clients(Device& device) {
+  for (const auto& [index, object] : device.dictionary.objects()) {
+    if (index >= first_sdo_client && index <= last_sdo_client)
+      bind_record(device, index, CobIdUse::sdo_client);
+  }
 }
 
 }  // namespace refnode

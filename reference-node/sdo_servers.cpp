@@ -3,12 +3,20 @@
 
 namespace refnode {
 
-SdoServers::SdoServers(Device& device)
-    : device_(&device),
-      default_(device, 0),
-      additional_{{{add_sdo_server(device, 1), SdoServer(device, 1)},
-                   {add_sdo_server(device, 2), SdoServer(device, 2)}}},
-      servers_{&default_, &additional_[0].server, &additional_[1].server} {}
+SdoServers::SdoServers(Device& device) : device_(&device), default_(device, 0), servers_{&default_} {}
+
+void SdoServers::add_objects() {
+  for (const std::uint8_t number : {std::uint8_t{1}, std::uint8_t{2}}) add_sdo_server(*device_, number);
+}
+
+void SdoServers::bind() {
+  for (const auto& [index, object] : device_->dictionary.objects()) {
+    if (index <= first_sdo_server || index > last_sdo_server) continue;
+    const auto channel = static_cast<std::uint8_t>(index - first_sdo_server);
+    additional_.push_back({bind_sdo_server(*device_, index), SdoServer(*device_, channel)});
+    servers_.push_back(&additional_.back().server);
+  }
+}
 
 bool SdoServers::served_now() const {
   switch (device_->state) {
@@ -72,13 +80,15 @@ void SdoServers::on_time() {
 }
 
 void SdoServers::send_segments() {
-  for (std::size_t idle = 0; idle < server_count; turn_ = (turn_ + 1) % server_count) {
+  for (std::size_t idle = 0; idle < servers_.size(); turn_ = (turn_ + 1) % servers_.size()) {
     idle = servers_[turn_]->send_segment() ? 0 : idle + 1;
   }
 }
 
 std::optional<BusTime> SdoServers::next_wakeup() const {
-  return earliest({servers_[0]->next_wakeup(), servers_[1]->next_wakeup(), servers_[2]->next_wakeup()});
+  std::optional<BusTime> first;
+  for (const SdoServer* server : servers_) first = earliest({first, server->next_wakeup()});
+  return first;
 }
 
 void SdoServers::reset() {

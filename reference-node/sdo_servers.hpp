@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// All SDO servers of the node: the default one, and the additional ones of 1201h and 1202h, each with a
-// transfer of its own (CiA 301, 7.2.4.1). Whose request a frame is, and who may send next.
+// All SDO servers of the node: the default one, and one for each object from 1201h on, each with a transfer
+// of its own (CiA 301, 7.2.4.1). Whose request a frame is, and who may send next.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <vector>
 
 #include "device.hpp"
 #include "sdo_parameters.hpp"
@@ -16,8 +17,12 @@ namespace refnode {
 
 class SdoServers {
  public:
-  /// Adds the parameter objects of the additional servers.
   explicit SdoServers(Device& device);
+
+  /// Adds the parameter objects of two additional servers.
+  void add_objects();
+  /// Makes a server for every parameter object from 1201h on.
+  void bind();
 
   /// True when the frame was a request to one of the servers; it is served in the states that allow it.
   bool on_frame(const Frame& frame);
@@ -39,14 +44,12 @@ class SdoServers {
   [[nodiscard]] bool is_default_request(std::uint32_t id) const;
   void serve(const Frame& frame, SdoServer& server, std::uint32_t response_id);
 
-  static constexpr std::size_t server_count = 3;
-
   Device* device_;
   SdoServer default_;
-  std::array<Additional, server_count - 1> additional_;
-  std::array<SdoServer*, server_count> servers_;
-  std::size_t turn_ = 0;       ///< who may send the next segment
-  std::optional<Frame> held_;  ///< used by a defect only
+  std::deque<Additional> additional_;
+  std::vector<SdoServer*> servers_;  ///< all of them, by index of their parameters
+  std::size_t turn_ = 0;             ///< who may send the next segment
+  std::optional<Frame> held_;        ///< used by a defect only
 };
 
 }  // namespace refnode

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "device.hpp"
-#include "heartbeat.hpp"
 
 namespace refnode {
 
 void add_identity_objects(Device& device);
-void add_error_control_objects(Device& device, HeartbeatProducer& producer, HeartbeatConsumer& consumer);
+void add_error_control_objects(Device& device);
 
 }  // namespace refnode

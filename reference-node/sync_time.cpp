@@ -4,9 +4,11 @@
 namespace refnode {
 
 SyncConsumer::SyncConsumer(Device& device, Emergency& emergency)
-    : device_(&device), emergency_(&emergency), cob_id_(device, CobIdUse::sync, 0x1005, 0, 0x00000080) {
-  ObjectDictionary& od = device.dictionary;
-  od.add_variable(0x1005, cob_id_.entry("COB-ID SYNC message"));
+    : device_(&device), emergency_(&emergency), cob_id_(device, CobIdUse::sync, 0x1005, 0, 0x00000080) {}
+
+void SyncConsumer::add_objects() {
+  ObjectDictionary& od = device_->dictionary;
+  od.add_variable(0x1005, integer_entry("COB-ID SYNC message", DataType::unsigned32, Access::rw, 0x80));
   // Neither supervises the SYNC here: the period and the window are kept for the application to read.
   od.add_variable(0x1006, integer_entry("Communication cycle period", DataType::unsigned32, Access::rw, 0));
   od.add_variable(0x1007, integer_entry("Synchronous window length", DataType::unsigned32, Access::rw, 0));
@@ -14,9 +16,11 @@ SyncConsumer::SyncConsumer(Device& device, Emergency& emergency)
 
 bool SyncConsumer::on_frame(const Frame& frame) {
   if (!cob_id_.valid() || frame.id != cob_id_.can_id()) return false;
-  // Without 1019h a SYNC has no data; one with data is reported and used all the same.
+  // Only with 1019h does a SYNC have data, a counter; one of another length is reported and used all the
+  // same.
+  const std::size_t size = device_->dictionary.number(0x1019, 0) > 1 ? 1 : 0;
   const ErrorCause wrong_length{0x8240, Emergency::sync_source, 0};
-  if (frame.size() != 0) {
+  if (frame.size() != size) {
     const bool reported =
         !device_->behaviour.sync_length_not_reported && device_->choices.wrong_sync_reported;
     if (reported) emergency_->raise(wrong_length, frame.size());
@@ -29,9 +33,11 @@ bool SyncConsumer::on_frame(const Frame& frame) {
 }
 
 TimeConsumer::TimeConsumer(Device& device)
-    : device_(&device), cob_id_(device, CobIdUse::time, 0x1012, 0, 0x00000100) {
-  ObjectDictionary& od = device.dictionary;
-  od.add_variable(0x1012, cob_id_.entry("COB-ID time stamp object"));
+    : device_(&device), cob_id_(device, CobIdUse::time, 0x1012, 0, 0x00000100) {}
+
+void TimeConsumer::add_objects() {
+  ObjectDictionary& od = device_->dictionary;
+  od.add_variable(0x1012, integer_entry("COB-ID time stamp object", DataType::unsigned32, Access::rw, 0x100));
   od.add_variable(0x2F10, bytes_entry("Last time received", DataType::time_of_day, Access::ro, Bytes(6, 0)));
 }
 
@@ -39,7 +45,8 @@ bool TimeConsumer::on_frame(const Frame& frame) {
   if (!cob_id_.valid() || frame.id != cob_id_.can_id()) return false;
   if (frame.size() != 6) return true;
   // Bits 27-0 milliseconds since midnight, 31-28 reserved, 47-32 days since 1984-01-01.
-  if (Entry* time = device_->dictionary.entry(0x2F10, 0)) {
+  Entry* time = device_->dictionary.entry(0x2F10, 0);
+  if (time != nullptr && !device_->described) {
     time->value.assign(frame.data.begin(), frame.data.begin() + 6);
     if (!device_->behaviour.time_reserved_bits_kept) time->value[3] &= 0x0FU;
   }

@@ -14,6 +14,10 @@ class SyncConsumer {
  public:
   SyncConsumer(Device& device, Emergency& emergency);
 
+  /// 1005h, 1006h, 1007h.
+  void add_objects();
+  void bind() { cob_id_.bind(); }
+
   std::function<void()> on_sync;
 
   /// True when the frame was a SYNC.
@@ -28,6 +32,10 @@ class SyncConsumer {
 class TimeConsumer {
  public:
   explicit TimeConsumer(Device& device);
+
+  /// 1012h, and 2F10h that shows the time.
+  void add_objects();
+  void bind() { cob_id_.bind(); }
 
   /// Takes the time over into 2F10h; true when the frame was a TIME message to be consumed.
   bool on_frame(const Frame& frame);

@@ -18,8 +18,10 @@ using result::Verdict;
 Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                               const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                               engine::RunOptions options, std::uint64_t seed) {
-  auto node = refnode::Node::create(
-      {.node_id = profile.node.value(), .defects = switches.defects, .variants = switches.variants});
+  auto node = refnode::Node::create({.node_id = profile.node.value(),
+                                     .defects = switches.defects,
+                                     .variants = switches.variants,
+                                     .description = switches.description});
   if (!node) return std::unexpected(node.error());
   can::SimulatedBus::Options bus_options;
   bus_options.seed = seed;

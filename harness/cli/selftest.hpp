@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "can/capture.hpp"
 #include "device/profile.hpp"
+#include "eds/eds.hpp"
 #include "engine/engine.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
@@ -22,10 +24,11 @@ struct SimulatedRun {
   result::RunResult result;
   can::Capture capture;
 };
-/// Ids of the reference node's defects and legal variants.
+/// Ids of the reference node's defects and legal variants, and the device it is to be; empty: itself.
 struct NodeSwitches {
   std::vector<std::string> defects{};
   std::vector<std::string> variants{};
+  std::shared_ptr<const eds::EdsFile> description{};
 };
 [[nodiscard]] Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                                             const scenario::Suite& suite,

@@ -126,7 +126,9 @@ DefectTable existence_rows() {
        [](ObjectDictionary& od, std::uint8_t) {
          for (std::uint8_t sub = 4; sub > 1; --sub) {
            const Entry* before = od.entry(0x2004, static_cast<std::uint8_t>(sub - 1));
-           od.entry(0x2004, sub)->read = [before]() -> Upload { return before->value; };
+           Entry* entry = od.entry(0x2004, sub);
+           if (before == nullptr || entry == nullptr) continue;
+           entry->read = [before]() -> Upload { return before->value; };
          }
        }},
       {"1800-event-timer-silent",

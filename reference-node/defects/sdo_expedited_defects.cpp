@@ -50,7 +50,7 @@ void lose_upper_bytes(Entry& entry) {
 DictionaryEdit counting_constant(std::uint16_t index, std::uint8_t sub) {
   return [index, sub](ObjectDictionary& od, std::uint8_t) {
     Entry* entry = od.entry(index, sub);
-    if (entry == nullptr) return;
+    if (entry == nullptr || entry->value.empty()) return;
     entry->read = [entry]() -> Upload {
       ++entry->value[0];
       return entry->value;

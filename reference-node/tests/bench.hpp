@@ -21,13 +21,14 @@ using namespace std::chrono_literals;
 class Bench {
  public:
   explicit Bench(std::vector<std::string> defects = {}, std::shared_ptr<Storage> storage = {},
-                 std::uint8_t id = 5, const Choices& choices = {}) {
+                 std::uint8_t id = 5, const Choices& choices = {})
+      : Bench(Wanted{{id, std::move(defects), std::move(storage), choices, {}, {}}}) {}
+  /// A node with all options; in a type of its own, as braces alone would also fit the other constructor.
+  struct Wanted {
     Options options;
-    options.node_id = id;
-    options.defects = std::move(defects);
-    options.storage = std::move(storage);
-    options.choices = choices;
-    auto made = Node::create(options);
+  };
+  explicit Bench(Wanted wanted) {
+    auto made = Node::create(std::move(wanted.options));
     REQUIRE(made.has_value());
     node_ = std::move(*made);
     node_->attach(

@@ -74,7 +74,7 @@ void expedited_only(VariantTarget& target) {
     const unsigned index = object->first;
     const bool mapping = index >= 0x1600 && index <= 0x1BFF && (index & 0x200U) != 0;
     if (!nothing_left && object->second.kind != ObjectKind::variable && !mapping && index != 0x1003 &&
-        entries.at(0).access == Access::constant) {
+        entries.contains(0) && entries.at(0).access == Access::constant) {
       // FFh is the structure of the object and not counted.
       auto highest = std::prev(entries.end());
       if (highest->first == 0xFF) --highest;

@@ -18,11 +18,12 @@ How absent_from(std::uint16_t index, std::uint8_t first) {
     auto& entries = found->second.entries;
     std::erase_if(entries,
                   [first](const auto& entry) { return entry.first >= first && entry.first != 0xFF; });
-    Entry& highest = entries.at(0);
-    if (highest.access != Access::constant) return;  // 1003h, 16xxh: something else is counted there
+    Entry* highest = target.dictionary.entry(index, 0);
+    // 1003h, 16xxh: something else is counted there.
+    if (highest == nullptr || highest->access != Access::constant) return;
     std::uint8_t last = 0;
     for (const auto& [sub, entry] : entries) last = sub == 0xFF ? last : sub;
-    highest.value = highest.default_value = Bytes{last};
+    highest->value = highest->default_value = Bytes{last};
   };
 }
 
