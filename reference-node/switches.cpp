@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "defects/defect.hpp"
+#include "defects/edits.hpp"
 #include "variants/variant.hpp"
 
 namespace refnode {
@@ -46,6 +47,12 @@ conform::Result<void> apply_variants(const std::vector<std::string>& ids, Device
 conform::Result<void> apply_defects(const std::vector<std::string>& ids, Device& device) {
   std::vector<std::string_view> used;
   for (const std::string& id : ids) {
+    if (const auto edit = parse_edit(id)) {
+      if (!applies(*edit, device.dictionary))
+        return conform::fail("the dictionary has nothing for '" + id + "' to change");
+      edit->how()(device.dictionary, device.node_id);
+      continue;
+    }
     const Defect* defect = find_defect(id);
     if (defect == nullptr) return unknown("defect", id, defects());
     if (std::ranges::find(used, defect->id) != used.end()) {

@@ -274,8 +274,9 @@ int run_command(const RunCommand& options) {
   can::Capture capture;
   std::int64_t epoch = 0;
   if (options.simulate) {
-    auto simulated = simulate({.defects = options.defects, .variants = options.variants}, *profile,
-                              suites->suite, suites->catalogue, run_options, options.seed);
+    auto simulated = simulate(
+        {.defects = options.defects, .variants = options.variants, .description = known->description},
+        *profile, suites->suite, suites->catalogue, run_options, options.seed);
     if (!simulated) return report_error(simulated.error(), exit_usage);
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);
