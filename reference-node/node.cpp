@@ -72,7 +72,7 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
     if (reaction == 0 && device.state == NmtState::operational) nmt.enter(NmtState::pre_operational);
     if (reaction == 2) nmt.enter(NmtState::stopped);
   };
-  sync.on_sync = [this] { pdos.on_sync(); };
+  sync.on_sync = [this](std::optional<std::uint8_t> counter) { pdos.on_sync(counter); };
   if (twin) {
     take_over(std::move(*twin));
   } else {
@@ -156,6 +156,7 @@ void Node::Impl::run_timers() {
   emergency.on_time();
   producer.on_time();
   pdos.on_time();
+  store.on_time();
   sdo.on_time();
   device.outbox.on_time(device.now);
 }
@@ -236,8 +237,8 @@ void Node::on_time(conform::BusTime now) {
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.emergency.next_wakeup(),
-                   impl.producer.next_wakeup(), impl.pdos.next_wakeup(), impl.sdo.next_wakeup(),
-                   impl.device.outbox.next_wakeup()});
+                   impl.producer.next_wakeup(), impl.pdos.next_wakeup(), impl.store.next_wakeup(),
+                   impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

@@ -245,6 +245,7 @@ Accepted ObjectDictionary::download(Multiplexer mux, ByteView bytes) {
   if (valid && found.check) valid = found.check(value);
   if (!found.command && (valid || behaviour_->stores_refused_values)) found.value = std::move(value);
   if (valid && found.written) found.written();
+  if (valid && on_download) on_download(mux);
   return valid;
 }
 

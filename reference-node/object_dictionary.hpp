@@ -134,6 +134,8 @@ class ObjectDictionary {
   /// Sets a value from inside the device: no access check, no hook.
   void set_number(std::uint16_t index, std::uint8_t sub, std::uint64_t value);
 
+  std::function<void(Multiplexer)> on_download;  ///< a value has been taken by SDO, all hooks have run
+
   /// Upload by SDO.
   [[nodiscard]] Upload upload(Multiplexer mux) const;
   /// Whether a download of `size` bytes (nullopt: not known yet) may start.

@@ -12,8 +12,9 @@ namespace {
 constexpr std::uint8_t sub_all = 1;
 constexpr std::uint8_t sub_communication = 2;
 constexpr std::uint8_t sub_application = 3;
-constexpr std::uint8_t sub_last = 0x7F;  // from 04h on: parameters of the manufacturer
-constexpr std::uint64_t on_command = 1;  // capability, bit 0
+constexpr std::uint8_t sub_last = 0x7F;    // from 04h on: parameters of the manufacturer
+constexpr std::uint64_t on_command = 1;    // capability, bit 0
+constexpr std::uint64_t autonomously = 2;  // of 1010h only, bit 1
 constexpr Group all_groups[] = {Group::communication, Group::application, Group::manufacturer};
 
 // The signature in transmission order, least significant byte first.
@@ -83,6 +84,29 @@ void ParameterStore::bind() {
   };
   bind_object(0x1010, &ParameterStore::save);
   bind_object(0x1011, &ParameterStore::restore);
+
+  for (std::uint8_t sub = 1; sub <= sub_last; ++sub) {
+    if ((device_->dictionary.number(0x1010, sub) & autonomously) == 0) continue;
+    for (const Group group : groups_of(sub, {})) autonomous_.push_back(group);
+  }
+  if (!autonomous_.empty()) device_->dictionary.on_download = [this](Multiplexer mux) { store_soon(mux); };
+}
+
+void ParameterStore::store_soon(Multiplexer mux) {
+  constexpr Duration rest = std::chrono::seconds(4);  // a memory is worn by every write
+  const Group group = group_of(mux.index);
+  const Entry* entry = device_->dictionary.entry(mux.index.value(), mux.sub.value());
+  const bool stored = std::ranges::find(autonomous_, group) != autonomous_.end();
+  if (stored && entry != nullptr && is_parameter(*entry)) store_at_ = device_->now + rest;
+}
+
+void ParameterStore::on_time() {
+  if (!store_at_ || device_->now < *store_at_) return;
+  store_at_.reset();
+  Images images = storage_->images();
+  for (const Group group : autonomous_) images[group] = image_of(group, images[group]);
+  // Nobody asked, so nobody can be told that it failed.
+  [[maybe_unused]] const auto kept = storage_->replace(std::move(images));
 }
 
 Image ParameterStore::image_of(Group group, const Image& former) const {
@@ -158,6 +182,7 @@ bool ParameterStore::keeps(Group group, bool whole_node) const {
 }
 
 void ParameterStore::load_power_on_values(bool whole_node) {
+  store_at_.reset();
   for (const Group group : all_groups) {
     if (!keeps(group, whole_node)) load(group);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "device.hpp"
@@ -22,6 +23,9 @@ class ParameterStore {
   /// 1000h-1FFFh.
   void load_power_on_values(bool whole_node);
 
+  void on_time();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return store_at_; }
+
  private:
   /// Makes `images` the content of the memory. Fails while the storage fault (2F20h) is armed.
   [[nodiscard]] Accepted keep(Images images, const StoreFaults& fault);
@@ -33,10 +37,14 @@ class ParameterStore {
   /// The values to store; what is not stored now keeps the value of `former`.
   [[nodiscard]] Image image_of(Group group, const Image& former) const;
   void load(Group group);
+  /// 1010h, bit 1: what is written is stored without a command, when no more is written for a while.
+  void store_soon(Multiplexer mux);
   [[nodiscard]] bool keeps(Group group, bool whole_node) const;
 
   Device* device_;
   std::shared_ptr<Storage> storage_;
+  std::vector<Group> autonomous_;    ///< stored without a command
+  std::optional<BusTime> store_at_;  ///< something of them has been written; a reset forgets it
 };
 
 }  // namespace refnode

@@ -159,8 +159,13 @@ void TransmitPdo::on_application_change() {
   transmit(content());
 }
 
-void TransmitPdo::on_sync() {
+void TransmitPdo::on_sync(std::optional<std::uint8_t> counter) {
   if (!enabled()) return;
+  // Counting begins at the SYNC that has the start value; where SYNCs are not counted it means nothing.
+  if (awaits_start_ && counter) {
+    if (*counter != parameters_.sync_start()) return;
+    awaits_start_ = false;
+  }
   const std::uint8_t type = parameters_.transmission_type();
   if (type == remote_synchronous_type) {
     sampled_ = content();
@@ -192,6 +197,7 @@ void TransmitPdo::restart() {
   event_ = false;
   syncs_ = 0;
   sampled_.clear();
+  awaits_start_ = parameters_.sync_start() != 0;
   inhibited_until_.reset();
   timer_.reset();
   if (!enabled()) return;

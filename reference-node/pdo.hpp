@@ -50,7 +50,8 @@ class TransmitPdo {
 
   /// Something mapped may have changed.
   void on_application_change();
-  void on_sync();
+  /// `counter`: of a SYNC that has one.
+  void on_sync(std::optional<std::uint8_t> counter);
   /// True when the remote frame asks for this PDO.
   bool on_remote(const Frame& frame);
   void on_state_change();
@@ -67,10 +68,11 @@ class TransmitPdo {
 
   Device* device_;
   PdoParameters parameters_;
-  Bytes reported_;           ///< content of the last TPDO, or at the start of Operational
-  Bytes sampled_;            ///< type FCh: content at the last SYNC
-  bool event_ = false;       ///< type 00h, or an event waiting for the inhibit time
-  std::uint32_t syncs_ = 0;  ///< SYNCs since the last TPDO
+  Bytes reported_;             ///< content of the last TPDO, or at the start of Operational
+  Bytes sampled_;              ///< type FCh: content at the last SYNC
+  bool event_ = false;         ///< type 00h, or an event waiting for the inhibit time
+  std::uint32_t syncs_ = 0;    ///< SYNCs since the last TPDO
+  bool awaits_start_ = false;  ///< for the SYNC whose counter is the SYNC start value
   std::optional<BusTime> timer_;
   std::optional<BusTime> inhibited_until_;
 };

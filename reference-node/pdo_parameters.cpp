@@ -10,6 +10,8 @@ namespace {
 constexpr std::uint8_t type_sub = 2;
 constexpr std::uint8_t inhibit_sub = 3;
 constexpr std::uint8_t event_timer_sub = 5;
+constexpr std::uint8_t sync_start_sub = 6;  // TPDO
+constexpr std::uint64_t most_sync_start = 240;
 
 constexpr std::uint16_t to_mapping = 0x200;  // from 14xxh to 16xxh, from 18xxh to 1Axxh
 constexpr std::uint8_t most_mapped = 0x40;
@@ -53,6 +55,9 @@ PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint16
     type->check = [this](ByteView bytes) { return check_type(bytes); };
   if (Entry* inhibit = od.entry(communication_, inhibit_sub))
     inhibit->check = [this](ByteView bytes) { return check_locked(inhibit_sub, bytes); };
+  Entry* start = od.entry(communication_, sync_start_sub);
+  if (start != nullptr && direction == PdoDirection::transmit)
+    start->check = [this](ByteView bytes) { return check_sync_start(bytes); };
 
   const auto changed = [this] {
     if (on_changed) on_changed();
@@ -97,15 +102,27 @@ Duration PdoParameters::event_timer() const {
                                    faults().event_timer_factor);
 }
 
+std::uint64_t PdoParameters::sync_start() const {
+  return device_->dictionary.number(communication_, sync_start_sub);
+}
+
 // 00h-F0h synchronous, FCh and FDh on remote request (TPDO only), FEh and FFh event-driven; the rest is
 // reserved.
 Accepted PdoParameters::check_type(ByteView bytes) const {
   const std::uint64_t type = conform::load_le(bytes);
   const bool remote = type == 0xFC || type == 0xFD;
   const PdoChoices& choice = choices();
+  // What a description begins with is supported, by its word.
+  if (device_->described && type == transmission_type()) return {};
   const bool supported = (type <= 0xF0 && choice.synchronous_types) || (type >= 0xFE && choice.event_types) ||
                          (remote && direction_ == PdoDirection::transmit && choice.remote_types);
   if (!supported && !faults().reserved_type_accepted) return refuse(abort_code::invalid_value);
+  return {};
+}
+
+Accepted PdoParameters::check_sync_start(ByteView bytes) const {
+  if (auto free = check_locked(sync_start_sub, bytes); !free) return free;
+  if (conform::load_le(bytes) > most_sync_start) return refuse(abort_code::invalid_value);
   return {};
 }
 

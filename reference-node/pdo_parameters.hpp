@@ -38,6 +38,7 @@ class PdoParameters {
   [[nodiscard]] std::uint8_t transmission_type() const;
   [[nodiscard]] Duration inhibit_time() const;
   [[nodiscard]] Duration event_timer() const;
+  [[nodiscard]] std::uint64_t sync_start() const;
 
   struct Mapped {
     std::uint16_t index;
@@ -51,6 +52,7 @@ class PdoParameters {
 
  private:
   [[nodiscard]] Accepted check_type(ByteView bytes) const;
+  [[nodiscard]] Accepted check_sync_start(ByteView bytes) const;
   [[nodiscard]] Accepted check_locked(std::uint8_t sub, ByteView bytes) const;
   [[nodiscard]] Accepted check_mapping_count(ByteView bytes) const;
   [[nodiscard]] Accepted check_mapping_entry(std::uint8_t sub, ByteView bytes) const;

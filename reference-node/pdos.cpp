@@ -43,9 +43,9 @@ void Pdos::on_remote(const Frame& frame) {
   }
 }
 
-void Pdos::on_sync() {
+void Pdos::on_sync(std::optional<std::uint8_t> counter) {
   for (ReceivePdo& pdo : receive_) pdo.on_sync();
-  for (TransmitPdo& pdo : transmit_) pdo.on_sync();
+  for (TransmitPdo& pdo : transmit_) pdo.on_sync(counter);
 }
 
 void Pdos::on_state_change() {

@@ -2,6 +2,7 @@
 // All PDOs of the node: as many as the dictionary has communication parameters.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -26,7 +27,7 @@ class Pdos {
   void on_application_change();
   void on_frame(const Frame& frame);
   void on_remote(const Frame& frame);
-  void on_sync();
+  void on_sync(std::optional<std::uint8_t> counter);
   /// A reset or another state: what was buffered is gone, the TPDOs start anew.
   void on_state_change();
   void on_boot_up();

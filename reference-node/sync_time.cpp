@@ -28,7 +28,8 @@ bool SyncConsumer::on_frame(const Frame& frame) {
   } else {
     emergency_->clear(wrong_length);
   }
-  if (on_sync) on_sync();
+  const bool counted = size != 0 && frame.size() == size;
+  if (on_sync) on_sync(counted ? std::optional(frame.data[0]) : std::nullopt);
   return true;
 }
 

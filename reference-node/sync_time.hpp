@@ -2,7 +2,9 @@
 // Consumer of SYNC (1005h to 1007h) and TIME (1012h); the node produces neither.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "cob_id_rules.hpp"
 #include "device.hpp"
@@ -18,7 +20,7 @@ class SyncConsumer {
   void add_objects();
   void bind() { cob_id_.bind(); }
 
-  std::function<void()> on_sync;
+  std::function<void(std::optional<std::uint8_t> counter)> on_sync;
 
   /// True when the frame was a SYNC.
   bool on_frame(const Frame& frame);

@@ -255,6 +255,39 @@ TEST_CASE("Parameters are stored and restored where 1010h and 1011h say so") {
   CHECK(bench.sdo("40 00 20 00 00 00 00 00") == "4F 00 20 00 07 00 00 00");
 }
 
+TEST_CASE("Where 1010h says so, parameters are stored without a command") {
+  Bench bench(described(identity + record("1010") + entry("1010sub1", u32, "rw", "0") +
+                        entry("1010sub2", u32, "rw", "2") + entry("1017", u16, "rw", "0") +
+                        entry("2000", u8, "rw", "7")));
+  bench.wait(100ms);
+  bench.sdo("2B 17 10 00 88 13 00 00");
+  bench.sdo("2F 00 20 00 09 00 00 00");
+  bench.wait(5s);
+  bench.sdo("2B 17 10 00 10 27 00 00");  // a reset comes before this is stored
+  bench.send("000: 81 05");
+  bench.wait(100ms);
+  CHECK(bench.sdo("40 17 10 00 00 00 00 00") == "4B 17 10 00 88 13 00 00");
+  CHECK(bench.sdo("40 00 20 00 00 00 00 00") == "4F 00 20 00 07 00 00 00");
+}
+
+TEST_CASE("A TPDO with a SYNC start value begins at the SYNC of this counter") {
+  Bench bench(described(identity + process + entry("1005", u32, "rw", "0x80") + entry("1019", u8, "rw", "8") +
+                        entry("1014", u32, "rw", "$NODEID+0x80") +
+                        pdo("00", true, "$NODEID+0xC0000180", "0x60000020") +
+                        entry("1800sub6", u8, "rw", "0")));
+  bench.wait(100ms);
+  CHECK(bench.sdo("2F 00 18 02 02 00 00 00") == "60 00 18 02 00 00 00 00");
+  CHECK(bench.sdo("2F 00 18 06 F1 00 00 00") == "80 00 18 06 30 00 09 06");
+  CHECK(bench.sdo("2F 00 18 06 03 00 00 00") == "60 00 18 06 00 00 00 00");
+  CHECK(bench.sdo("23 00 18 01 85 01 00 40") == "60 00 18 01 00 00 00 00");
+  CHECK(bench.sdo("2F 00 18 06 04 00 00 00") == "80 00 18 06 30 00 09 06");
+  bench.send("000: 01 05");
+  CHECK(bench.send("080: 01\n080: 02\n080: 03").empty());
+  CHECK(bench.send("080: 04") == Frames{"185: 07 00 00 00"});
+  CHECK(bench.send("080: 05\n080: 06") == Frames{"185: 07 00 00 00"});
+  CHECK(bench.send("080:") == Frames{"085: 40 82 11 00 03 00 00 00"});
+}
+
 TEST_CASE("Objects at the indices of the node's own extras are plain data") {
   Bench bench(described(identity + entry("1012", u32, "rw", "0x80000100") + entry("2F10", u8, "rw", "1") +
                         entry("2F20", u8, "rw", "1") + entry("2F00", u16, "rw", "1") +
