@@ -45,7 +45,7 @@ std::vector<Group> groups_of(std::uint8_t sub, const StoreFaults& fault) {
 }  // namespace
 
 ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
-    : device_(&device), storage_(std::move(storage)) {
+    : device_(&device), storage_(std::move(storage)), stamp_(device) {
   ObjectDictionary& od = device.dictionary;
   od.add_complex(0x1010, "Store parameters", ObjectKind::array);
   od.add_complex(0x1011, "Restore default parameters", ObjectKind::array);
@@ -101,8 +101,12 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
     return refuse(abort_code::device_state);
   if (!fault.without_effect) {
     Images images = storage_->images();
-    for (const Group group : groups_of(sub, fault)) images[group] = image_of(group, images[group]);
+    const std::vector<Group> groups = groups_of(sub, fault);
+    for (const Group group : groups) images[group] = image_of(group, images[group]);
+    const bool with_stamp = std::ranges::find(groups, Group::communication) != groups.end();
+    const bool outdated = stamp_.before_storing(storage_->images(), images, with_stamp);
     if (auto kept = keep(std::move(images), fault); !kept) return kept;
+    stamp_.after_storing(outdated, with_stamp);
   }
   if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
   return {};
@@ -117,6 +121,7 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
     // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
     Images images = storage_->images();
     for (const Group group : groups_of(sub, fault)) images.erase(group);
+    stamp_.before_restoring(storage_->images(), images);
     if (auto kept = keep(std::move(images), fault); !kept) return kept;
     if (fault.effective_at_once) {
       for (const Group group : groups_of(sub, fault)) load(group);
@@ -136,6 +141,7 @@ bool ParameterStore::keeps(Group group, bool whole_node) const {
 }
 
 void ParameterStore::load_power_on_values(bool whole_node) {
+  stamp_.on_reset();
   for (const Group group : all_groups) {
     if (!keeps(group, whole_node)) load(group);
   }

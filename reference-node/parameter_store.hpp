@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "configuration_stamp.hpp"
 #include "device.hpp"
 #include "storage.hpp"
 
@@ -33,6 +34,7 @@ class ParameterStore {
 
   Device* device_;
   std::shared_ptr<Storage> storage_;
+  ConfigurationStamp stamp_;
 };
 
 }  // namespace refnode
