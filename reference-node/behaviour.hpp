@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "object_faults.hpp"
 #include "sdo_block_faults.hpp"
 #include "sdo_faults.hpp"
 
@@ -143,6 +144,10 @@ struct Behaviour {
   bool consumer_only_first_entry = false;
   bool consumer_zero_time_monitored = false;
   bool consumer_loss_keeps_operational = false;
+  ErrorBehaviourFaults error_behaviour;
+
+  // Guarding
+  bool life_guarding_ignored = false;
 
   // Error register, EMCY, history
   bool error_register_never_set = false;
@@ -179,6 +184,7 @@ struct Behaviour {
   CobIdFaults sync_cob_id;
   CobIdFaults time_cob_id;
   CobIdFaults emergency_cob_id;
+  CobIdFaults emergency_consumer_cob_id;
   CobIdFaults rpdo_cob_id;
   CobIdFaults tpdo_cob_id;
   CobIdFaults sdo_server_cob_id;
@@ -202,6 +208,11 @@ struct Behaviour {
   bool remote_type_sends_at_sync = false;
   bool acyclic_type_sends_every_sync = false;
   bool sync_ratio_off_by_one = false;
+
+  // Single communication objects
+  ClockFaults clock;
+  SyncCounterFaults sync_counter;
+  StampFaults stamp;
 
   // Storage and power-on values
   StoreFaults store;

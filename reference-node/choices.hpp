@@ -76,13 +76,21 @@ struct Choices {
   bool wrong_sync_reported = true;                       ///< EMCY 8240h
   bool wrong_sync_used = true;
 
+  // 1019h
+  AbortCode counter_reserved = abort_code::invalid_value;  ///< the values 1 and 241-255
+  AbortCode counter_locked = abort_code::device_state;     ///< a change while 1006h is not 0
+
   // COB-ID parameters
   CobIdChoices sync_cob_id;
   CobIdChoices time_cob_id;
   CobIdChoices emergency_cob_id;
+  CobIdChoices emergency_consumer_cob_id;
   CobIdChoices rpdo_cob_id;
   CobIdChoices tpdo_cob_id;
   CobIdChoices sdo_cob_id;  ///< 1201h, 1202h, 1280h
+
+  // 1023h, 1025h, 1026h
+  AbortCode nothing_to_deliver = abort_code::no_data;
 
   // PDO
   PdoChoices rpdo;

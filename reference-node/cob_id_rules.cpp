@@ -41,6 +41,7 @@ const CobIdFaults& CobIdRules::faults() const {
     case CobIdUse::sync: return device_->behaviour.sync_cob_id;
     case CobIdUse::time: return device_->behaviour.time_cob_id;
     case CobIdUse::emergency: return device_->behaviour.emergency_cob_id;
+    case CobIdUse::emergency_consumer: return device_->behaviour.emergency_consumer_cob_id;
     case CobIdUse::rpdo: return device_->behaviour.rpdo_cob_id;
     case CobIdUse::sdo_server: return device_->behaviour.sdo_server_cob_id;
     case CobIdUse::sdo_client: return device_->behaviour.sdo_client_cob_id;
@@ -54,6 +55,7 @@ const CobIdChoices& CobIdRules::choices() const {
     case CobIdUse::sync: return device_->choices.sync_cob_id;
     case CobIdUse::time: return device_->choices.time_cob_id;
     case CobIdUse::emergency: return device_->choices.emergency_cob_id;
+    case CobIdUse::emergency_consumer: return device_->choices.emergency_consumer_cob_id;
     case CobIdUse::rpdo: return device_->choices.rpdo_cob_id;
     case CobIdUse::sdo_server:
     case CobIdUse::sdo_client: return device_->choices.sdo_cob_id;
@@ -89,7 +91,8 @@ Accepted CobIdRules::check(ByteView bytes) const {
 
   if (wanted == present) return fault.rewrite_refused ? refuse(abort_code::invalid_value) : Accepted{};
   if ((wanted & bit29) != 0 && !fault.frame_bit_accepted) return refuse(choice.frame_bit);
-  const bool bit30_refused = use_ == CobIdUse::sync || use_ == CobIdUse::time || use_ == CobIdUse::emergency;
+  const bool bit30_refused = use_ == CobIdUse::sync || use_ == CobIdUse::time ||
+                             use_ == CobIdUse::emergency || use_ == CobIdUse::emergency_consumer;
   if (bit30_refused && (wanted & bit30) != 0 && !fault.bit30_accepted) return refuse(choice.fixed_bit);
   const bool remote_refused = use_ == CobIdUse::tpdo && !device_->choices.tpdo.any_remote;
   if (remote_refused && (wanted & bit30) == 0) return refuse(choice.fixed_bit);

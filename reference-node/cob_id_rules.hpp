@@ -9,7 +9,16 @@
 
 namespace refnode {
 
-enum class CobIdUse : std::uint8_t { sync, time, emergency, rpdo, tpdo, sdo_server, sdo_client };
+enum class CobIdUse : std::uint8_t {
+  sync,
+  time,
+  emergency,
+  emergency_consumer,
+  rpdo,
+  tpdo,
+  sdo_server,
+  sdo_client
+};
 
 class CobIdRules {
  public:

@@ -10,6 +10,7 @@
 
 #include "base/check.hpp"
 #include "base/text.hpp"
+#include "module_list.hpp"
 #include "node.hpp"
 #include "object_dictionary.hpp"
 
@@ -144,6 +145,18 @@ std::string list_text(std::string_view section, const std::vector<std::uint16_t>
   return text + "\n";
 }
 
+std::string module_text() {
+  std::string text = fmt::format("[SupportedModules]\nNrOfEntries={}\n", modules.size());
+  for (std::size_t i = 0; i < modules.size(); ++i) text += fmt::format("{}={}\n", i + 1, modules[i].name);
+  text += "\n";
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    text += fmt::format(
+        "[M{}ModuleInfo]\nProductName={}\nProductVersion=1\nProductRevision=0\nOrderCode={:04X}\n\n", i + 1,
+        modules[i].name, modules[i].identifier);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string eds_text() {
@@ -163,7 +176,7 @@ std::string eds_text() {
   return fmt::format(header, dictionary.number(0x1018, 1), dictionary.number(0x1018, 2),
                      dictionary.number(0x1018, 3)) +
          list_text("MandatoryObjects", mandatory) + list_text("OptionalObjects", optional) +
-         list_text("ManufacturerObjects", manufacturer) + objects;
+         list_text("ManufacturerObjects", manufacturer) + module_text() + objects;
 }
 
 }  // namespace refnode

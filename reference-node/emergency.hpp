@@ -27,6 +27,7 @@ class Emergency {
   static constexpr std::uint8_t heartbeat_source = 1;
   static constexpr std::uint8_t rpdo_source = 2;
   static constexpr std::uint8_t sync_source = 3;
+  static constexpr std::uint8_t guarding_source = 4;
   static constexpr std::uint8_t history_depth = 8;
 
   explicit Emergency(Device& device);

@@ -9,14 +9,21 @@
 #include "application_objects.hpp"
 #include "device.hpp"
 #include "emergency.hpp"
+#include "emergency_consumer.hpp"
+#include "error_behaviour.hpp"
 #include "heartbeat.hpp"
+#include "high_resolution_clock.hpp"
 #include "manufacturer_objects.hpp"
+#include "module_list.hpp"
 #include "nmt_slave.hpp"
+#include "node_guarding.hpp"
+#include "operating_system.hpp"
 #include "parameter_store.hpp"
 #include "pdos.hpp"
 #include "sdo_parameters.hpp"
 #include "sdo_servers.hpp"
 #include "standard_objects.hpp"
+#include "stored_description.hpp"
 #include "switches.hpp"
 #include "sync_time.hpp"
 #include "twin.hpp"
@@ -41,9 +48,14 @@ struct Node::Impl {
   HeartbeatConsumer consumer;
   SyncConsumer sync;
   TimeConsumer time;
+  EmergencyConsumer emergencies;
+  HighResolutionClock clock;
+  NodeGuarding guarding;
+  OperatingSystem operating_system;
   Pdos pdos;
   ParameterStore store;
   NmtSlave nmt;
+  ErrorBehaviour error_behaviour;
   SdoServers sdo;
   TwinRemarks remarks;
 };
@@ -55,23 +67,21 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
       consumer(device, emergency),
       sync(device, emergency),
       time(device),
+      emergencies(device),
+      clock(device),
+      guarding(device, emergency),
+      operating_system(device),
       pdos(device, emergency),
       store(device, options.storage),
       nmt(device),
+      error_behaviour(device, nmt),
       sdo(device) {
   device.choices = options.choices;
   nmt.on_reset = [this](Reset kind) { reset(kind); };
   nmt.on_boot_up = [this] { boot_up(); };
   nmt.on_change = [this](NmtState from) { change_state(from); };
-  // Without 1029h (a variant has it) the default error behaviour applies: a lost producer ends Operational
-  // (CiA 301, 7.5.2.32).
-  consumer.on_loss = [this] {
-    if (device.behaviour.consumer_loss_keeps_operational) return;
-    // 1029h:01: 00h ends Operational, 01h changes nothing, 02h stops the node.
-    const std::uint64_t reaction = device.dictionary.number(0x1029, 1);
-    if (reaction == 0 && device.state == NmtState::operational) nmt.enter(NmtState::pre_operational);
-    if (reaction == 2) nmt.enter(NmtState::stopped);
-  };
+  consumer.on_loss = [this] { error_behaviour.on_communication_error(); };
+  guarding.on_loss = [this] { error_behaviour.on_communication_error(); };
   sync.on_sync = [this](std::optional<std::uint8_t> counter) { pdos.on_sync(counter); };
   if (twin) {
     take_over(std::move(*twin));
@@ -84,6 +94,8 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
   consumer.bind();
   sync.bind();
   time.bind();
+  emergencies.bind();
+  guarding.bind();
   pdos.bind();
   store.bind();
   sdo.bind();
@@ -96,9 +108,16 @@ void Node::Impl::add_own_objects() {
   add_error_control_objects(device);
   sync.add_objects();
   time.add_objects();
+  emergencies.add_objects();
+  clock.add_objects();
+  guarding.add_objects();
+  operating_system.add_objects();
+  error_behaviour.add_objects();
   pdos.add_objects();
   store.add_objects();
   sdo.add_objects();
+  add_stored_description(device);
+  add_module_list(device);
   add_sdo_client(device);
   add_application_objects(device, [this] { pdos.on_application_change(); });
   add_sample_objects(device);
@@ -130,6 +149,9 @@ void Node::Impl::reset(Reset kind) {
   if (!device.behaviour.transfer_survives_reset) sdo.reset();
   producer.on_reset();
   consumer.on_reset();
+  guarding.on_reset();
+  clock.on_reset();
+  operating_system.on_reset();
   emergency.on_reset(kind == Reset::node);
   store.load_power_on_values(kind == Reset::node);
   if (!device.described) mirror_outputs(device.dictionary);
@@ -153,6 +175,7 @@ void Node::Impl::change_state(NmtState) {
 void Node::Impl::run_timers() {
   nmt.on_time();
   consumer.on_time();
+  guarding.on_time();
   emergency.on_time();
   producer.on_time();
   pdos.on_time();
@@ -168,7 +191,7 @@ void Node::Impl::dispatch(const Frame& received) {
   if (device.behaviour.accepts_remote_frames) frame.remote = false;
   if (frame.extended) return;
   if (frame.remote) {
-    pdos.on_remote(frame);
+    if (!guarding.on_remote(frame)) pdos.on_remote(frame);
     return;
   }
 
@@ -180,7 +203,7 @@ void Node::Impl::dispatch(const Frame& received) {
     return consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U), frame.data[0]);
   }
   if (device.state == NmtState::stopped) return;
-  if (sync.on_frame(frame) || time.on_frame(frame)) return;
+  if (sync.on_frame(frame) || time.on_frame(frame) || emergencies.on_frame(frame)) return;
   pdos.on_frame(frame);
 }
 
@@ -236,9 +259,9 @@ void Node::on_time(conform::BusTime now) {
 
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
-  return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.emergency.next_wakeup(),
-                   impl.producer.next_wakeup(), impl.pdos.next_wakeup(), impl.store.next_wakeup(),
-                   impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
+  return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.guarding.next_wakeup(),
+                   impl.emergency.next_wakeup(), impl.producer.next_wakeup(), impl.pdos.next_wakeup(),
+                   impl.store.next_wakeup(), impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

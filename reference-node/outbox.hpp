@@ -23,7 +23,7 @@ using conform::BusTime;
 using conform::Duration;
 using conform::can::Frame;
 
-enum class Service : std::uint8_t { boot_up, heartbeat, emergency, sdo, tpdo };
+enum class Service : std::uint8_t { boot_up, heartbeat, guarding, emergency, sdo, tpdo };
 
 enum class NmtState : std::uint8_t {
   initialising = 0x00,

@@ -49,9 +49,10 @@ std::vector<Group> groups_of(std::uint8_t sub, const StoreFaults& fault) {
 }  // namespace
 
 ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
-    : device_(&device), storage_(std::move(storage)) {}
+    : device_(&device), storage_(std::move(storage)), stamp_(device) {}
 
 void ParameterStore::add_objects() {
+  stamp_.add_objects();
   ObjectDictionary& od = device_->dictionary;
   od.add_complex(0x1010, "Store parameters", ObjectKind::array);
   od.add_complex(0x1011, "Restore default parameters", ObjectKind::array);
@@ -68,6 +69,7 @@ void ParameterStore::add_objects() {
 }
 
 void ParameterStore::bind() {
+  stamp_.bind();
   using Command = Accepted (ParameterStore::*)(std::uint8_t, ByteView);
   const auto bind_object = [this](std::uint16_t index, Command command) {
     const auto object = device_->dictionary.objects().find(index);
@@ -147,8 +149,12 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
     return refuse(abort_code::device_state);
   if (!fault.without_effect) {
     Images images = storage_->images();
-    for (const Group group : groups_of(sub, fault)) images[group] = image_of(group, images[group]);
+    const std::vector<Group> groups = groups_of(sub, fault);
+    for (const Group group : groups) images[group] = image_of(group, images[group]);
+    const bool with_stamp = std::ranges::find(groups, Group::communication) != groups.end();
+    const bool outdated = stamp_.before_storing(storage_->images(), images, with_stamp);
     if (auto kept = keep(std::move(images), fault); !kept) return kept;
+    stamp_.after_storing(outdated, with_stamp);
   }
   if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
   return {};
@@ -163,6 +169,7 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
     // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
     Images images = storage_->images();
     for (const Group group : groups_of(sub, fault)) images.erase(group);
+    stamp_.before_restoring(storage_->images(), images);
     if (auto kept = keep(std::move(images), fault); !kept) return kept;
     if (fault.effective_at_once) {
       for (const Group group : groups_of(sub, fault)) load(group);
@@ -183,6 +190,7 @@ bool ParameterStore::keeps(Group group, bool whole_node) const {
 
 void ParameterStore::load_power_on_values(bool whole_node) {
   store_at_.reset();
+  stamp_.on_reset();
   for (const Group group : all_groups) {
     if (!keeps(group, whole_node)) load(group);
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "configuration_stamp.hpp"
 #include "device.hpp"
 #include "storage.hpp"
 
@@ -45,6 +46,7 @@ class ParameterStore {
   std::shared_ptr<Storage> storage_;
   std::vector<Group> autonomous_;    ///< stored without a command
   std::optional<BusTime> store_at_;  ///< something of them has been written; a reset forgets it
+  ConfigurationStamp stamp_;
 };
 
 }  // namespace refnode

@@ -12,13 +12,37 @@ void SyncConsumer::add_objects() {
   // Neither supervises the SYNC here: the period and the window are kept for the application to read.
   od.add_variable(0x1006, integer_entry("Communication cycle period", DataType::unsigned32, Access::rw, 0));
   od.add_variable(0x1007, integer_entry("Synchronous window length", DataType::unsigned32, Access::rw, 0));
+  od.add_variable(0x1019,
+                  integer_entry("Synchronous counter overflow value", DataType::unsigned8, Access::rw, 0));
 }
+
+void SyncConsumer::bind() {
+  cob_id_.bind();
+  if (Entry* counter = device_->dictionary.entry(0x1019, 0))
+    counter->check = [this](ByteView bytes) { return check_overflow(bytes); };
+}
+
+// 0: SYNC without data; 2 to 240: SYNC with a counter of one byte. While the period is not 0 the counter may
+// be running.
+Accepted SyncConsumer::check_overflow(ByteView bytes) const {
+  const std::uint64_t value = conform::load_le(bytes);
+  const SyncCounterFaults& fault = device_->behaviour.sync_counter;
+  if (value == overflow()) return {};
+  const bool reserved = value == 1 || value > 240;
+  if (reserved && !fault.reserved_accepted) return refuse(device_->choices.counter_reserved);
+  const bool running = device_->dictionary.number(0x1006, 0) != 0;
+  if (fault.change_refused || (running && !fault.change_while_running_accepted))
+    return refuse(device_->choices.counter_locked);
+  return {};
+}
+
+std::uint64_t SyncConsumer::overflow() const { return device_->dictionary.number(0x1019, 0); }
 
 bool SyncConsumer::on_frame(const Frame& frame) {
   if (!cob_id_.valid() || frame.id != cob_id_.can_id()) return false;
-  // Only with 1019h does a SYNC have data, a counter; one of another length is reported and used all the
+  // Only with a counter (1019h) does a SYNC have data; one of another length is reported and used all the
   // same.
-  const std::size_t size = device_->dictionary.number(0x1019, 0) > 1 ? 1 : 0;
+  const std::size_t size = overflow() > 1 ? 1 : 0;
   const ErrorCause wrong_length{0x8240, Emergency::sync_source, 0};
   if (frame.size() != size) {
     const bool reported =

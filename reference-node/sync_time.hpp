@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Consumer of SYNC (1005h to 1007h) and TIME (1012h); the node produces neither.
+// Consumer of SYNC (1005h to 1007h, 1019h) and TIME (1012h); the node produces neither.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ class SyncConsumer {
  public:
   SyncConsumer(Device& device, Emergency& emergency);
 
-  /// 1005h, 1006h, 1007h.
+  /// 1005h, 1006h, 1007h, 1019h.
   void add_objects();
-  void bind() { cob_id_.bind(); }
+  void bind();
 
   std::function<void(std::optional<std::uint8_t> counter)> on_sync;
 
@@ -26,6 +26,9 @@ class SyncConsumer {
   bool on_frame(const Frame& frame);
 
  private:
+  [[nodiscard]] Accepted check_overflow(ByteView bytes) const;
+  [[nodiscard]] std::uint64_t overflow() const;
+
   Device* device_;
   Emergency* emergency_;
   CobIdRules cob_id_;

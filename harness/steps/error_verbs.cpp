@@ -18,6 +18,7 @@ using namespace std::chrono_literals;
 constexpr Duration heartbeat_time = 100ms;
 
 constexpr Multiplexer consumer_entry{Index(0x1016), SubIndex(1)};
+constexpr Multiplexer error_behaviour{Index(0x1029), SubIndex(1)};
 
 Result<Actual> write(Session& session, Multiplexer object, const Bytes& bytes) {
   auto answer = session.download(object, bytes, canopen::SdoDownload::Mode::automatic, std::nullopt);
@@ -54,6 +55,20 @@ NodeId missed_node(const Session& session, const device::ErrorTrigger& trigger) 
   return trigger.heartbeat_node.value_or(session.node() == usual ? other : usual);
 }
 
+/// A device that stops at a communication error (1029h:01 = 2) could not be asked about it any more: it is
+/// told to stay as it is, where it lets itself be told.
+Result<void> keep_from_stopping(Session& session) {
+  constexpr std::uint64_t stops = 2;
+  constexpr std::uint8_t no_change = 1;
+  auto present = session.is_present(error_behaviour, false);
+  if (!present) return std::unexpected(present.error());
+  if (!*present) return {};
+  const auto reaction = session.read(error_behaviour);
+  if (!reaction || reaction->number != stops) return {};
+  if (auto told = write(session, error_behaviour, {no_change}); !told) return std::unexpected(told.error());
+  return {};
+}
+
 /// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed
 /// away.
 /// `delay`: how long after raising the effect may be due, beside the caller's own time.
@@ -61,6 +76,7 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
   delay = Duration(0);
   if (trigger.raise) return write(session, trigger.raise->object, trigger.raise->bytes);
   const auto node = missed_node(session, trigger);
+  if (auto kept = keep_from_stopping(session); !kept) return std::unexpected(kept.error());
   const auto monitor = [&](Duration time) {
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time).count();
     const auto value = (std::uint32_t{node.value()} << 16U) | static_cast<std::uint16_t>(ms);

@@ -136,10 +136,10 @@ DefectTable existence_rows() {
        {"OD-GEN-17", "SDO-UPL-03", "OD-1800-20"},
        silent([](const SdoExchange& e) { return upload(e) && e.index() == 0x1800 && e.sub() == 5; })},
       {"optional-object-silent",
-       "Reading absent optional objects 1020h-1029h gets no answer",
+       "Reading absent SDO server parameters 1203h-127Fh gets no answer",
        {"OD-GEN-12"},
        silent(
-           [](const SdoExchange& e) { return no_object(e) && e.index() >= 0x1020 && e.index() <= 0x1029; })},
+           [](const SdoExchange& e) { return no_object(e) && e.index() >= 0x1203 && e.index() <= 0x127F; })},
   };
 }
 

@@ -54,5 +54,8 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable storage_defects();
 [[nodiscard]] DefectTable pdo_defects();
 [[nodiscard]] DefectTable structure_defects();
+[[nodiscard]] DefectTable object_defects();
+[[nodiscard]] DefectTable optional_object_defects();
+[[nodiscard]] DefectTable operating_system_defects();
 
 }  // namespace refnode

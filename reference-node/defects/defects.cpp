@@ -21,11 +21,26 @@ DefectTable join(std::initializer_list<DefectTable (*)()> tables) {
 }  // namespace
 
 std::span<const Defect> defects() {
-  static const DefectTable all =
-      join({sdo_defects, sdo_expedited_defects, sdo_segment_defects, sdo_request_defects,
-            sdo_block_upload_defects, sdo_block_download_defects, sdo_channel_defects, abort_defects,
-            dictionary_defects, history_defects, emergency_defects, nmt_defects, heartbeat_defects,
-            cob_id_defects, storage_defects, pdo_defects, structure_defects});
+  static const DefectTable all = join({sdo_defects,
+                                       sdo_expedited_defects,
+                                       sdo_segment_defects,
+                                       sdo_request_defects,
+                                       sdo_block_upload_defects,
+                                       sdo_block_download_defects,
+                                       sdo_channel_defects,
+                                       abort_defects,
+                                       dictionary_defects,
+                                       history_defects,
+                                       emergency_defects,
+                                       nmt_defects,
+                                       heartbeat_defects,
+                                       cob_id_defects,
+                                       storage_defects,
+                                       pdo_defects,
+                                       structure_defects,
+                                       object_defects,
+                                       optional_object_defects,
+                                       operating_system_defects});
   return all;
 }
 

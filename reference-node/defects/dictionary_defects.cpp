@@ -305,7 +305,7 @@ DefectTable communication_rows() {
       {"1017-absent",
        "1017h does not exist, nor does node guarding",
        {"OD-1017-01", "OD-ERC-01", "EC-GEN-01", "OD-CAT-03"},
-       absent(0x1017)},
+       both(absent(0x1017), both(absent(0x100C), absent(0x100D)))},
       {"1017-is-u32",
        "1017h has four bytes",
        {"OD-1017-01", "OD-LEN-04", "SDO-UPL-03"},

@@ -12,8 +12,8 @@ template <typename Change>
 How everywhere(Change change) {
   return [change](VariantTarget& target) {
     Choices& c = target.choices;
-    for (CobIdChoices* each :
-         {&c.sync_cob_id, &c.time_cob_id, &c.emergency_cob_id, &c.rpdo_cob_id, &c.tpdo_cob_id})
+    for (CobIdChoices* each : {&c.sync_cob_id, &c.time_cob_id, &c.emergency_cob_id,
+                               &c.emergency_consumer_cob_id, &c.rpdo_cob_id, &c.tpdo_cob_id})
       change(*each);
   };
 }

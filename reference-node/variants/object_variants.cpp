@@ -19,7 +19,7 @@ void add_structure(VariantTarget& target) {
       case 0x1600:
       case 0x1A00: return 0x21;
       case 0x1200: return 0x22;
-      case 0x1000: return 0x23;
+      case 0x1000: return index == 0x1023 ? 0x25 : index == 0x1025 ? 0x24 : 0x23;
       default: return 0x40;  // a structure of the manufacturer
     }
   };
@@ -47,15 +47,6 @@ void remove_range(VariantTarget& target, std::uint16_t first, std::uint16_t last
                 [=](const auto& object) { return object.first >= first && object.first <= last; });
 }
 
-void add_error_behaviour(VariantTarget& target) {
-  if (target.dictionary.objects().contains(0x1029)) return;
-  target.dictionary.add_complex(0x1029, "Error behaviour", ObjectKind::array);
-  Entry& entry = target.dictionary.add_sub(
-      0x1029, 1, integer_entry("Communication error", DataType::unsigned8, Access::rw, 0));
-  entry.low = 0;
-  entry.high = 2;
-}
-
 }  // namespace
 
 VariantTable object_variants() {
@@ -69,14 +60,14 @@ VariantTable object_variants() {
       {"1003-depth-7", "a history of seven errors", "7.5.2.4: 1 to 254 fields",
        both(absent_from(0x1003, 8), choose([](Choices& c) { c.history_depth = 7; })), "1003"},
       {.id = "sync-absent",
-       .summary = "no SYNC: 1005h to 1007h absent, no synchronous PDO",
+       .summary = "no SYNC: 1005h to 1007h and 1019h absent, no synchronous PDO",
        .legal = "7.5.2.5: 1005h is for devices that support SYNC",
-       .how = both(absent({0x1005, 0x1006, 0x1007}), choose([](Choices& c) {
+       .how = both(absent({0x1005, 0x1006, 0x1007, 0x1019}), choose([](Choices& c) {
                      c.rpdo.synchronous_types = c.tpdo.synchronous_types = false;
                      c.tpdo.remote_types = false;
                    })),
        .group = "sync",
-       .lacks = {"sync consumer"}},
+       .lacks = {"sync consumer", "sync counter"}},
       {"1006-1007-absent", "neither cycle period nor window length",
        "7.5.2.6, 7.5.2.7: for SYNC producers; optional", absent({0x1006, 0x1007})},
       {"1007-absent", "no synchronous window", "7.5.2.7: optional", absent({0x1007})},
@@ -139,11 +130,6 @@ VariantTable object_variants() {
        access_all(0x1018, Access::ro, Access::constant)},
       {"1000-const", "device type constant", "7.4.5: alike for a client",
        access(0x1000, 0, Access::constant)},
-      {.id = "1029-present",
-       .summary = "error behaviour can be chosen",
-       .legal = "7.5.2.32: optional",
-       .how = add_error_behaviour,
-       .gains = {"error behaviour"}},
       {"1200-absent", "the default SDO is not described", "OD-1200-01", absent({0x1200})},
       {"1200-const", "1200h constant", "OD-1200-04", access_all(0x1200, Access::ro, Access::constant)},
       {.id = "rpdo-absent",

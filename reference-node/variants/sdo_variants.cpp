@@ -62,6 +62,8 @@ void leave_out_size(VariantTarget& target) {
 
 /// Without segmented transfer nothing may be longer than four bytes.
 void expedited_only(VariantTarget& target) {
+  // Commands and replies are longer, and their records cannot be without them.
+  for (std::uint16_t index = 0x1021; index <= 0x1025; ++index) target.dictionary.remove(index);
   for (auto object = target.dictionary.objects().begin(); object != target.dictionary.objects().end();) {
     auto& entries = object->second.entries;
     std::erase_if(entries, [](const auto& entry) {

@@ -90,7 +90,7 @@ VariantTable service_variants() {
        .summary = "a SYNC with data causes no EMCY",
        .legal = "SYNC-CON-07; NMT-SVC-02 tolerates it",
        .how = choose([](Choices& c) { c.wrong_sync_reported = false; }),
-       .warns = {"NMT-SVC-02"}},
+       .warns = {"NMT-SVC-02", "SYNC-CON-05"}},
       {"sync-with-data-ignored", "a SYNC with data is not used", "SYNC-CON-07",
        choose([](Choices& c) { c.wrong_sync_used = false; })},
       {"storing-takes-400ms", "storing takes 400 ms", "OD-1010-07: no limit is set",

@@ -52,5 +52,6 @@ using VariantTable = std::vector<Variant>;
 [[nodiscard]] VariantTable service_variants();
 [[nodiscard]] VariantTable pdo_variants();
 [[nodiscard]] VariantTable sdo_variants();
+[[nodiscard]] VariantTable optional_object_variants();
 
 }  // namespace refnode

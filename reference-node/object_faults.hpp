@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// How single communication objects misbehave beyond what an edit of the dictionary can do.
+#pragma once
+
+namespace refnode {
+
+/// 1029h: the reaction to a communication error.
+struct ErrorBehaviourFaults {
+  bool zero_stops = false;              ///< 00h ends in Stopped
+  bool zero_acts_in_stopped = false;    ///< 00h leads from Stopped to Pre-operational
+  bool one_leaves_operational = false;  ///< 01h acts like 00h
+  bool two_ignored = false;             ///< 02h changes nothing
+};
+
+/// 1013h: the microsecond clock.
+struct ClockFaults {
+  int microseconds_per_tick = 1;
+  bool starts_elsewhere = false;  ///< not with 0 after a reset
+  bool writing_ignored = false;   ///< a written time is confirmed and forgotten
+};
+
+/// 1019h: what may be written.
+struct SyncCounterFaults {
+  bool reserved_accepted = false;
+  bool change_while_running_accepted = false;
+  bool change_refused = false;  ///< even while 1006h is 0
+};
+
+/// 1020h: when date and time of the configuration are discarded.
+struct StampFaults {
+  bool survives_change = false;
+  bool survives_restore = false;
+};
+
+}  // namespace refnode
