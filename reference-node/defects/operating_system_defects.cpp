@@ -49,18 +49,21 @@ DefectTable operating_system_defects() {
        access(0x1023, 0, Access::rw)},
       {"1023-sub-missing",
        "1023h:03 does not exist",
-       {"OD-1023-01", "OD-CAT-02", "OD-GEN-11"},
+       {"OD-1023-01", "OD-CAT-02", "OD-GEN-11", "OD-GEN-17"},
        [](ObjectDictionary& od, std::uint8_t) { od.objects()[0x1023].entries.erase(3); }},
       {"1023-status-reserved-value",
        "The status of 1023h is 04h",
        {"OD-1023-02", "OD-1023-05"},
        reads_as(0x1023, 2, {0x04})},
-      {"1023-status-is-u32", "1023h:02 has four bytes", {"OD-1023-02", "OD-LEN-04"}, type(0x1023, 2, u32)},
+      {"1023-status-is-u32",
+       "1023h:02 has four bytes",
+       {"OD-1023-02", "OD-LEN-04", "OD-GEN-17"},
+       type(0x1023, 2, u32)},
       {"1023-status-writable", "1023h:02 can be written", {"OD-1023-03", "OD-ACC-01"}, writable(0x1023, 2)},
       {"1023-reply-writable", "1023h:03 can be written", {"OD-1023-03", "OD-ACC-01"}, writable(0x1023, 3)},
       {"1023-command-wrong-abort",
        "Reading 1023h:01 is aborted with 0606 0000h",
-       {"OD-1023-04"},
+       {"OD-1023-04", "OD-GEN-17", "OD-CAT-02", "OD-1023-01"},
        [](ObjectDictionary& od, std::uint8_t) {
          if (Entry* entry = od.entry(0x1023, 1))
            entry->read = []() -> Upload { return refuse(abort_code::hardware_error); };
@@ -89,7 +92,7 @@ DefectTable operating_system_defects() {
       {"1025-reply-writable", "1025h:03 can be written", {"OD-1025-03", "OD-ACC-01"}, writable(0x1025, 3)},
       {"1025-command-wrong-abort",
        "Reading 1025h:01 is aborted with 0606 0000h",
-       {"OD-1025-04"},
+       {"OD-1025-04", "OD-GEN-17", "OD-CAT-02", "OD-1025-01"},
        [](ObjectDictionary& od, std::uint8_t) {
          if (Entry* entry = od.entry(0x1025, 1))
            entry->read = []() -> Upload { return refuse(abort_code::hardware_error); };
