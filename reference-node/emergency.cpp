@@ -58,6 +58,8 @@ void Emergency::bind() {
   }
   if (Entry* count = od.entry(0x1003, 0)) {
     count->command = true;
+    count->low.reset();  // of the numbers it shows, not of the 00h that can be written
+    count->high.reset();
     read_by(*count, [this]() -> Upload { return Bytes{recorded()}; });
     count->check = [this](ByteView bytes) { return write_history_count(bytes); };
   }

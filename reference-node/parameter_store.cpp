@@ -77,6 +77,9 @@ void ParameterStore::bind() {
     for (auto& [sub, entry] : object->second.entries) {
       if (sub == 0 || sub > sub_last) continue;
       entry.command = true;
+      // A description may give the signature as the only value; what is wrong about another the command says.
+      entry.low.reset();
+      entry.high.reset();
       if ((entry.number() & on_command) != 0) {
         entry.check = [this, command, sub = sub](ByteView bytes) { return (this->*command)(sub, bytes); };
       } else {

@@ -235,13 +235,15 @@ TEST_CASE("Each SDO server that is described has a channel of its own") {
 TEST_CASE("Parameters are stored and restored where 1010h and 1011h say so") {
   const auto storage = std::make_shared<MemoryStorage>();
   const std::string text = identity + record("1010") + entry("1010sub0", u8, "const", "2") +
-                           entry("1010sub1", u32, "rw", "1") + entry("1010sub2", u32, "rw", "0") +
-                           record("1011") + entry("1011sub1", u32, "rw", "") + entry("2000", u8, "rw", "7");
+                           entry("1010sub1", u32, "rw", "1", "LowLimit=0x65766173\nHighLimit=0x65766173\n") +
+                           entry("1010sub2", u32, "rw", "0") + record("1011") +
+                           entry("1011sub1", u32, "rw", "") + entry("2000", u8, "rw", "7");
   auto wanted = described(text);
   wanted.options.storage = storage;
   Bench bench(std::move(wanted));
   bench.wait(100ms);
   bench.sdo("2F 00 20 00 09 00 00 00");
+  CHECK(bench.sdo("23 10 10 01 6C 6F 61 64") == "80 10 10 01 20 00 00 08");
   CHECK(bench.sdo("23 10 10 02 73 61 76 65") == "80 10 10 02 20 00 00 08");
   CHECK(bench.sdo("23 10 10 01 73 61 76 65") == "60 10 10 01 00 00 00 00");
   CHECK(bench.sdo("40 11 10 01 00 00 00 00") == "43 11 10 01 01 00 00 00");
