@@ -12,11 +12,16 @@ constexpr std::uint32_t stray_start = 0x12345678;
 }  // namespace
 
 void HighResolutionClock::add_objects() {
-  Entry& entry = device_->dictionary.add_variable(
+  device_->dictionary.add_variable(
       0x1013, integer_entry("High resolution time stamp", DataType::unsigned32, Access::rw, 0));
-  entry.storable = false;
-  entry.read = [this]() -> Upload { return conform::to_le(ticks(), 4); };
-  entry.check = [this](ByteView bytes) -> Accepted {
+}
+
+void HighResolutionClock::bind() {
+  Entry* entry = device_->dictionary.entry(0x1013, 0);
+  if (entry == nullptr || entry->type != DataType::unsigned32) return;
+  entry->storable = false;
+  entry->read = [this]() -> Upload { return conform::to_le(ticks(), 4); };
+  entry->check = [this](ByteView bytes) -> Accepted {
     if (!device_->behaviour.clock.writing_ignored)
       offset_ = static_cast<std::uint32_t>(conform::load_le(bytes)) - elapsed();
     return {};

@@ -13,6 +13,7 @@ class HighResolutionClock {
 
   /// 1013h
   void add_objects();
+  void bind();
 
   void on_reset();
 

@@ -95,6 +95,7 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
   sync.bind();
   time.bind();
   emergencies.bind();
+  clock.bind();
   guarding.bind();
   pdos.bind();
   store.bind();

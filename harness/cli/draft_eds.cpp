@@ -86,6 +86,7 @@ class Draft {
     list("MandatoryObjects", [](unsigned index) { return is_mandatory(index); });
     list("OptionalObjects", [](unsigned index) { return !is_mandatory(index) && !is_own(index); });
     list("ManufacturerObjects", is_own);
+    modules();
     return out_ + sections_;
   }
 
@@ -171,6 +172,24 @@ class Draft {
     line(out_, "[{}]\r\nSupportedObjects={}", section, indices.size());
     for (std::size_t i = 0; i < indices.size(); ++i) line(out_, "{}=0x{:04X}", i + 1, indices[i]);
     out_ += "\r\n";
+  }
+
+  /// 1027h counts modules, but does not name them.
+  void modules() {
+    for (const auto& object : objects_) {
+      if (object.index.value() != 0x1027) continue;
+      const auto& count = object.entries.front().value;
+      const unsigned last = count && !count->empty() ? count->front() : 0;
+      line(out_, "[SupportedModules]\r\nNrOfEntries={}", last);
+      for (unsigned i = 1; i <= last; ++i) line(out_, "{}=Module {}", i, i);
+      for (unsigned i = 1; i <= last; ++i) {
+        line(
+            out_,
+            "\r\n[M{}ModuleInfo]\r\nProductName=Module {}\r\nProductVersion=1\r\nProductRevision=0\r\nOrderCode=",
+            i, i);
+      }
+      out_ += "\r\n";
+    }
   }
 
   void describe(const ScannedObject& object) {

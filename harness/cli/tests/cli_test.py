@@ -86,7 +86,7 @@ class CommandLine(unittest.TestCase):
     def test_the_reference_node_conforms_to_its_own_eds(self):
         eds = self.path("reference-node.eds")
         with open(eds, "w", encoding="ascii") as file:
-            subprocess.run([os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--eds"], stdout=file, check=True)
+            subprocess.run([os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--print-eds"], stdout=file, check=True)
         done = run("run", "--simulate", "--eds", eds, "--quiet", "cia301/dictionary")
         self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
         done = run("run", "--simulate", "--eds", eds, "--quiet", "--defect", "1000-is-u16", "cia301/dictionary/declared-entries")
