@@ -9,6 +9,8 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "cli/suite_folder.hpp"
+#include "defects/edits.hpp"
+#include "node.hpp"
 
 using namespace conform;
 
@@ -31,14 +33,24 @@ std::map<std::string, std::string> known_survivors() {
 
 }  // namespace
 
-TEST_CASE("every edit of every entry is noticed, but for those listed with a reason") {
+// Every fifth edit, which takes some ten seconds; `canopen-conform selftest --edits` tries all.
+TEST_CASE("edits of entries are noticed, but for those listed with a reason") {
   auto suites = cli::load_suites(source + "/suites", false);
   REQUIRE(suites.has_value());
   auto profile = device::load_profile_file(source + "/suites/devices/reference-node.yaml");
   REQUIRE(profile.has_value());
-  const auto matrix = cli::edit_matrix(profile->profile, suites->suite, suites->catalogue, 1, 0);
+  const auto node = refnode::Node::create({});
+  REQUIRE(node.has_value());
+  const auto all = refnode::edits_of((*node)->dictionary());
+  CHECK(all.size() > 1000);
+  std::vector<std::string> tried, every;
+  for (const auto& edit : all) {
+    every.push_back(edit.id());
+    if (every.size() % 5 == 0) tried.push_back(every.back());
+  }
+  const auto matrix = cli::edit_matrix(profile->profile, suites->suite, suites->catalogue, 1, 0, tried);
   REQUIRE(matrix.has_value());
-  CHECK(matrix->edits.size() > 500);
+  CHECK(matrix->edits.size() == tried.size());
   const auto survivors = matrix->survivors();
   const auto known = known_survivors();
   std::string unexpected, noticed, unexplained;
@@ -46,7 +58,9 @@ TEST_CASE("every edit of every entry is noticed, but for those listed with a rea
     if (!known.contains(id)) unexpected += "\n  " + id;
   }
   for (const auto& [id, reason] : known) {
-    if (std::ranges::find(survivors, id) == survivors.end()) noticed += "\n  " + id;
+    const bool survives = std::ranges::find(survivors, id) != survivors.end();
+    if (std::ranges::find(tried, id) != tried.end() && !survives) noticed += "\n  " + id;
+    if (std::ranges::find(every, id) == every.end()) noticed += "\n  " + id;
     if (reason.empty()) unexplained += "\n  " + id;
   }
   INFO("not in edit_survivors.txt:" << unexpected);

