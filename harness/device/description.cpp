@@ -113,9 +113,12 @@ class Describer {
     entry.low = limit(described.low_limit, "low limit", entry);
     entry.high = limit(described.high_limit, "high limit", entry);
     read_default(described.default_value, entry);
-    if (described.pdo_mapping.present)
+    // rwr and rww tell into which PDOs, PDOMapping whether at all; without it the words are enough.
+    if (!described.pdo_mapping.empty()) {
       entry.pdo_mappable = eds::pdo_mapping(described) != eds::PdoMapping::no;
-    if (entry.access == Access::rwr || entry.access == Access::rww) entry.pdo_mappable = true;
+    } else if (entry.access == Access::rwr || entry.access == Access::rww) {
+      entry.pdo_mappable = true;
+    }
     // What only the device writes may have another value at any time: process inputs, counters, temperatures.
     if (mux.index.value() >= first_of_device && mux.sub.value() == 0 && code != ObjectCode::var) {
       entry.may_change = false;  // how many sub-indices there are does not change by itself

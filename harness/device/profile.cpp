@@ -109,7 +109,8 @@ Dictionary dictionary_of(const Profile& profile) {
       Entry* entry = dictionary.find(listed.mux);
       const auto index = listed.mux.index.value();
       if (!entry->declared_at.empty() && index >= 0x2000 && index <= 0x9FFF)
-        entry->safe = entry->writable() && !entry->command && !profile.is_untouchable(listed.mux);
+        entry->safe = entry->writable() && !entry->access_open && !entry->command &&
+                      !profile.is_untouchable(listed.mux);
     }
   }
   for (const Multiplexer mux : profile.untouchable) {

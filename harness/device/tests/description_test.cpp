@@ -111,6 +111,12 @@ TEST_CASE("An entry has what the file says of it, and where") {
   CHECK(entry.declared_at == "a.eds:1");
 }
 
+TEST_CASE("PDOMapping goes above what rww and rwr suggest") {
+  CHECK(entry_of(described(variable("2000", "5", "rww")), 0x2000, 0).pdo_mappable);
+  CHECK_FALSE(entry_of(described(variable("2000", "5", "rww", "PDOMapping=0")), 0x2000, 0).pdo_mappable);
+  CHECK(entry_of(described(variable("2000", "5", "ro", "PDOMapping=1")), 0x2000, 0).pdo_mappable);
+}
+
 TEST_CASE("What the device writes by itself is never compared with a default") {
   CHECK(entry_of(described(variable("6000", "5", "ro", "DefaultValue=0")), 0x6000, 0).may_change);
   CHECK(entry_of(described(variable("2000", "5", "rwr", "DefaultValue=0")), 0x2000, 0).may_change);
