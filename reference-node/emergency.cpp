@@ -53,7 +53,7 @@ void Emergency::bind() {
     read_by(*shown, [this]() -> Upload { return Bytes{error_register()}; });
   if (const auto history = od.objects().find(0x1003); history != od.objects().end()) {
     for (auto& [sub, field] : history->second.entries) {
-      if (sub != 0 && sub != 0xFF) read_by(field, [this, sub = sub] { return read_history(sub); });
+      if (sub != 0 && sub != 0xFF) read_by(field, [this, place = sub] { return read_history(place); });
     }
   }
   if (Entry* count = od.entry(0x1003, 0)) {

@@ -68,8 +68,8 @@ void HeartbeatConsumer::bind() {
   for (auto& [sub, entry] : object->second.entries) {
     if (sub == 0 || sub == 0xFF) continue;
     watches_.resize(sub);
-    entry.check = [this, sub = sub](ByteView bytes) { return check(sub, bytes); };
-    entry.written = [this, sub = sub] { on_written(sub); };
+    entry.check = [this, which = sub](ByteView bytes) { return check(which, bytes); };
+    entry.written = [this, which = sub] { on_written(which); };
   }
 }
 

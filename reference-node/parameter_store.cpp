@@ -81,7 +81,7 @@ void ParameterStore::bind() {
       entry.low.reset();
       entry.high.reset();
       if ((entry.number() & on_command) != 0) {
-        entry.check = [this, command, sub = sub](ByteView bytes) { return (this->*command)(sub, bytes); };
+        entry.check = [this, command, which = sub](ByteView bytes) { return (this->*command)(which, bytes); };
       } else {
         entry.check = [](ByteView) -> Accepted { return refuse(abort_code::cannot_store); };
       }

@@ -70,7 +70,7 @@ PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint16
   for (auto& [sub, entry] : mapping->second.entries) {
     if (sub == 0 || sub > most_mapped) continue;
     mapping_entries_ = sub;
-    entry.check = [this, sub = sub](ByteView bytes) { return check_mapping_entry(sub, bytes); };
+    entry.check = [this, which = sub](ByteView bytes) { return check_mapping_entry(which, bytes); };
   }
   if (Entry* count = od.entry(mapping_, 0)) {
     multiplexed_ = device.described && conform::load_le(count->default_value) >= first_multiplexed;

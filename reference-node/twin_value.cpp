@@ -220,8 +220,10 @@ std::optional<double> read_real(std::string_view text, DataType type) {
   if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
     return std::nullopt;
   const auto convert = [text]<typename Real>(Real value) -> std::optional<double> {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    const char* const begin = text.data();
+    const char* const last = begin + text.size();
+    const auto [end, error] = std::from_chars(begin, last, value);
+    if (error != std::errc() || end != last) return std::nullopt;
     return value;
   };
   // In one step to the type itself: by way of a double a REAL32 could be rounded twice.
