@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <utility>
 
-#include "cli/selftest.hpp"
 #include "cli/verdicts.hpp"
 #include "cli/workers.hpp"
 #include "defects/edits.hpp"
@@ -14,39 +14,18 @@
 namespace conform::cli {
 namespace {
 
-using result::Verdict;
-
-struct Bench {
-  const device::Profile& profile;
-  const scenario::Suite& suite;
-  const scenario::Catalogue& catalogue;
-  std::uint64_t seed;
-  const Verdicts& good;  ///< of the conformant node
-};
-
-/// Adds what became worse in the scenarios of `patterns` (empty: all).
-Result<void> expose(const Bench& bench, const std::string& id, std::vector<std::string> patterns,
-                    std::set<std::string>& noticed_by) {
-  engine::RunOptions options;
-  options.plan.selection.patterns = std::move(patterns);
-  auto run = simulate({.defects = {id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
-  if (!run) return std::unexpected(run.error());
-  for (const auto& [key, verdict] : verdicts_of(run->result)) {
-    const auto before = bench.good.find(key);
-    if (worse(before == bench.good.end() ? Verdict::pass : before->second, verdict))
-      noticed_by.insert(key.first);
-  }
-  return {};
-}
-
 Result<EditVerdict> verdict_of(const Bench& bench, const refnode::Edit& edit) {
   EditVerdict out{edit.id(), edit.summary(), {}};
-  std::set<std::string> noticed_by;
   for (const auto& patterns : {std::vector<std::string>{"cia301/dictionary"}, {}}) {
-    if (!noticed_by.empty()) break;
-    if (auto done = expose(bench, out.id, patterns, noticed_by); !done) return std::unexpected(done.error());
+    engine::RunOptions options;
+    options.plan.selection.patterns = patterns;
+    const auto worse = worse_with(out.id, bench, std::move(options));
+    if (!worse) return std::unexpected(worse.error());
+    std::set<std::string> noticed_by;
+    for (const auto& [key, verdict] : *worse) noticed_by.insert(key.first);
+    out.noticed_by.assign(noticed_by.begin(), noticed_by.end());
+    if (!out.noticed_by.empty()) break;
   }
-  out.noticed_by.assign(noticed_by.begin(), noticed_by.end());
   return out;
 }
 

@@ -50,32 +50,18 @@ std::vector<std::string> KillMatrix::survivors() const {
 
 namespace {
 
-/// What the suite judges, and with what to run it.
-struct Bench {
-  const device::Profile& profile;
-  const scenario::Suite& suite;
-  const scenario::Catalogue& catalogue;
-  std::uint64_t seed;
-  const Verdicts& good;  ///< of the conformant node
-  /// Judged by a monitor: any frame of any scenario may show a violation.
-  const std::set<std::string>& monitored;
-};
-
 /// Runs the suite, or what judges one of `requirements`, and adds what became worse.
 Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::string> requirements,
                     bool slow) {
   engine::RunOptions options;
   options.plan.slow = slow;
   options.plan.selection.requirements = std::move(requirements);
-  auto run =
-      simulate({.defects = {defect.id}}, bench.profile, bench.suite, bench.catalogue, options, bench.seed);
-  if (!run) return std::unexpected(run.error());
+  const auto worse = worse_with(defect.id, bench, std::move(options));
+  if (!worse) return std::unexpected(worse.error());
   const auto add = [](std::vector<std::string>& to, const std::string& text) {
     if (std::ranges::find(to, text) == to.end()) to.push_back(text);
   };
-  for (const auto& [key, verdict] : verdicts_of(run->result)) {
-    const auto before = bench.good.find(key);
-    if (!worse(before == bench.good.end() ? Verdict::pass : before->second, verdict)) continue;
+  for (const auto& [key, verdict] : *worse) {
     const auto& [requirement, name] = key;
     if (std::ranges::find(defect.violates, requirement) != defect.violates.end()) {
       add(defect.killed_by, requirement + " " + std::string(to_string(verdict)) + " in " + name);
@@ -87,7 +73,9 @@ Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::
   return {};
 }
 
-Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
+/// `monitored`: judged by a monitor, so that any frame of any scenario may show a violation.
+Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>& monitored,
+                                 const refnode::Defect& row, bool whole) {
   DefectVerdict defect;
   defect.id = row.id;
   defect.summary = row.summary;
@@ -109,10 +97,9 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row,
     }
     // What one scenario leaves behind may show in the next, and a monitor may need the traffic of scenarios
     // that judge something else.
-    whole =
-        defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
-          return bench.monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
-        });
+    whole = defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
+              return monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
+            });
   }
   for (const bool slow : {false, true}) {
     if (!whole || (slow && !defect.killed_by.empty())) break;
@@ -137,7 +124,7 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
     judged.insert(key.first);
     if (key.second.starts_with("monitor/")) monitored.insert(key.first);
   }
-  const Bench bench{profile, suite, catalogue, options.seed, good, monitored};
+  const Bench bench{profile, suite, catalogue, options.seed, good};
   std::vector<const refnode::Defect*> rows;
   for (const auto& row : refnode::defects()) {
     if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
@@ -145,8 +132,9 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   }
   // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
   std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
-  in_parallel(rows.size(), options.jobs,
-              [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole)); });
+  in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
+    verdicts[i].emplace(verdict_of(bench, monitored, *rows[i], options.whole));
+  });
   for (auto& verdict : verdicts) {
     if (!*verdict) return std::unexpected(verdict->error());
     proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());
