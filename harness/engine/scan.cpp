@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scan.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/text.hpp"
@@ -17,38 +18,36 @@ class Scanner {
  public:
   explicit Scanner(RunSession& session) : session_(session) {}
 
-  /// False: the object is not there.
-  Result<bool> look_at(Index index) {
+  Result<void> look_at(Index index) {
     auto first = look({index, SubIndex(0)});
     if (!first) return std::unexpected(first.error());
-    if (!*first) return false;
+    if (!*first) return {};
+    const auto last = last_sub(**first);
     ScannedObject object{index, {}};
-    const auto& head = **first;
-    // A value of one byte may count sub-indices. If there is no 01h, it is the value of a VAR.
-    const bool may_count =
-        (head.value && head.value->size() == 1) || (head.value && head.size_open) || !head.value;
-    const unsigned count = head.value && !head.value->empty() ? head.value->front() : 0;
-    const bool counts = may_count && head.value;
     object.entries.push_back(std::move(**first));
-    unsigned found = 0;
-    const unsigned last = counts ? std::min(std::max(count, 1U), unsigned{sub_ff} - 1) : may_count ? 1 : 0;
     for (unsigned sub = 1; sub <= last; ++sub) {
       auto entry = look({index, SubIndex(static_cast<std::uint8_t>(sub))});
       if (!entry) return std::unexpected(entry.error());
-      if (*entry) {
-        object.entries.push_back(std::move(**entry));
-        ++found;
-      }
+      if (*entry) object.entries.push_back(std::move(**entry));
       // A VAR of one byte with a large value would cost as many requests; arrays with gaps begin early.
-      if (found == 0 && sub == 8) break;
+      if (object.entries.size() == 1 && sub == 8) break;
     }
     objects.push_back(std::move(object));
-    return true;
+    return {};
   }
 
   std::vector<ScannedObject> objects;
 
  private:
+  /// How far to look behind sub-index 00h. A value of one byte may count sub-indices, or be that of a VAR,
+  /// which 01h tells; so does 01h where there is no value.
+  static unsigned last_sub(const ScannedEntry& head) {
+    if (!head.value) return 1;
+    if (head.value->size() != 1 && !head.size_open) return 0;
+    const unsigned count = head.value->empty() ? 0 : head.value->front();
+    return std::clamp(count, 1U, sub_ff - 1U);
+  }
+
   /// nullopt: the entry is not there.
   Result<std::optional<ScannedEntry>> look(Multiplexer mux) {
     using Entry = std::optional<ScannedEntry>;
