@@ -112,11 +112,9 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)
       return std::unexpected(idle.error());
   }
+  for (std::size_t i = 0; i < runs.size(); ++i) lines[i]->latest = runs[i].object;
   if (auto done = run_transfers(recorder_, runs); !done) {
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      lines[i]->latest = runs[i].object;
-      dirty(*lines[i], true);
-    }
+    for (auto* line : lines) dirty(*line, true);
     return std::unexpected(done.error());
   }
   std::vector<steps::SdoAnswer> out;
@@ -126,7 +124,6 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     auto& result = runs[i].result;
     auto& line = *lines[i];
     line.state = result.abandoned ? State::abandoned : State::idle;
-    line.latest = runs[i].object;
     if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
       dirty(line, true);
       line.stale = runs[i].object;
