@@ -17,8 +17,8 @@ using canopen::DataType;
 
 constexpr std::uint16_t first_of_device = 0x2000;  // below are the objects of CiA 301 and 302
 
-/// Which objects show that the device has a feature. Features that an object alone does not prove (who
-/// produces SYNC, whether block transfers are offered) are not claimed.
+/// Which objects show that the device has a feature. Features that an object alone does not prove
+/// (whether block transfers are offered) are not claimed; of some the default tells, see claim_features().
 struct ShownBy {
   std::string_view feature;
   std::uint16_t first, last;
