@@ -103,7 +103,8 @@ class LiveSdo(unittest.TestCase):
         # Without this capability the receive buffer is as small as the kernel's default: some hundred frames.
         small = ["setpriv", "--bounding-set=-net_admin", "--inh-caps=-net_admin"]
         with Node():
-            process = subprocess.Popen(small + command(*PROFILE, "--junit", self.junit, "cia301/sdo/upload/*", "cia301/sdo/segmented-upload/*"),
+            process = subprocess.Popen(small + command(*PROFILE, "--junit", self.junit, "cia301/sdo/upload/*", "cia301/sdo/segmented-upload/*",
+                                                       "cia301/sdo/block-upload/*", "cia301/sdo/download/*"),
                                        stdout=subprocess.PIPE, text=True)
             seen = 0
             for line in process.stdout:
