@@ -104,7 +104,7 @@ class LiveSdo(unittest.TestCase):
         small = ["setpriv", "--bounding-set=-net_admin", "--inh-caps=-net_admin"]
         with Node():
             process = subprocess.Popen(small + command(*PROFILE, "--junit", self.junit, "cia301/sdo/upload/*", "cia301/sdo/segmented-upload/*",
-                                                       "cia301/sdo/block-upload/*", "cia301/sdo/download/*"),
+                                                       "cia301/sdo/download/*", "cia301/sdo/segmented-download/*"),
                                        stdout=subprocess.PIPE, text=True)
             seen = 0
             for line in process.stdout:
