@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/text.hpp"
 #include "eds/lint_rules.hpp"
@@ -35,13 +36,16 @@ constexpr Rule finer_than_granularity{"EDS309", Severity::warning,
 constexpr Rule no_pdo{"EDS310", Severity::note,
                       "Objects can be mapped, but there is no PDO of that direction", pdos};
 constexpr Rule no_cob_id{"EDS311", Severity::error, "A PDO has no COB-ID (sub-index 01h)", pdos};
+constexpr Rule same_cob_id{"EDS312", Severity::warning, "Two TPDOs are sent on one CAN-ID by default",
+                           "CiA 301, 7.5.2.37"};
 
 constexpr const Rule* all[] = {&rpdo_count,       &tpdo_count,
                                &no_mapping,       &no_communication,
                                &count_is_const,   &entries_are_const,
                                &granularity_zero, &mapping_without_cob_id,
                                &compact_without,  &finer_than_granularity,
-                               &no_pdo,           &no_cob_id};
+                               &no_pdo,           &no_cob_id,
+                               &same_cob_id};
 
 struct Direction {
   unsigned communication;  ///< first index
@@ -181,7 +185,31 @@ void check_mappable(const Subject& subject, Findings& findings) {
   }
 }
 
+/// What is on the bus with one CAN-ID cannot be told apart; only one of the two PDOs can be meant.
+void check_can_ids(const Subject& subject, Findings& findings) {
+  constexpr std::uint64_t not_valid = 0x8000'0000;
+  constexpr std::uint64_t can_id = 0x1FFF'FFFF;
+  std::map<std::pair<bool, std::uint64_t>, Index> used;
+  for (const auto& object : subject.objects) {
+    if (!between(object.index, directions[1].communication, directions[1].communication + range - 1))
+      continue;
+    const auto* cob_id = object.find(SubIndex(1));
+    if (cob_id == nullptr) continue;
+    const auto& field = effective_value(*cob_id);
+    const auto number = parse_number(field.text);
+    if (!number || number->negative || (number->magnitude & not_valid) != 0) continue;
+    const auto [first, fresh] =
+        used.emplace(std::pair(number->node_id, number->magnitude & can_id), object.index);
+    if (!fresh)
+      findings.add(same_cob_id, field.at,
+                   fmt::format("{}: '{}' is the CAN-ID of {}, too", section_name(object.index, SubIndex(1)),
+                               shortened(field.text), section_name(first->second, SubIndex(1))),
+                   "set bit 31 of the one that is not sent by default");
+  }
+}
+
 void check(const Subject& subject, Findings& findings) {
+  check_can_ids(subject, findings);
   check_counts(subject, findings);
   check_pairs(subject, findings);
   check_mappable(subject, findings);
