@@ -3,6 +3,7 @@
 // The rows of variants/ set these fields and say why it is legal.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include "abort_codes.hpp"
@@ -99,6 +100,9 @@ struct Choices {
   // Storage
   AbortCode wrong_signature = abort_code::cannot_store;
   bool storing_needs_pre_operational = false;  ///< 0800 0022h in Operational
+  /// Of a device that stores without a command: it waits for the last of several writes, since each wears the
+  /// memory.
+  conform::Duration rest_before_storing = std::chrono::seconds(4);
 };
 
 }  // namespace refnode

@@ -90,28 +90,42 @@ void ParameterStore::bind() {
   bind_object(0x1010, &ParameterStore::save);
   bind_object(0x1011, &ParameterStore::restore);
 
+  device_->dictionary.on_download = [this](Multiplexer mux) { store_soon(mux); };
+}
+
+std::vector<Group> ParameterStore::stored_autonomously() const {
+  std::vector<Group> out;
   for (std::uint8_t sub = 1; sub <= sub_last; ++sub) {
     if ((device_->dictionary.number(0x1010, sub) & autonomously) == 0) continue;
-    for (const Group group : groups_of(sub, {})) autonomous_.push_back(group);
+    for (const Group group : groups_of(sub, {})) out.push_back(group);
   }
-  if (!autonomous_.empty()) device_->dictionary.on_download = [this](Multiplexer mux) { store_soon(mux); };
+  return out;
 }
 
 void ParameterStore::store_soon(Multiplexer mux) {
-  constexpr Duration rest = std::chrono::seconds(4);  // a memory is worn by every write
-  const Group group = group_of(mux.index);
   const Entry* entry = device_->dictionary.entry(mux.index.value(), mux.sub.value());
-  const bool stored = std::ranges::find(autonomous_, group) != autonomous_.end();
-  if (stored && entry != nullptr && is_parameter(*entry)) store_at_ = device_->now + rest;
+  if (entry == nullptr || !is_parameter(*entry)) return;
+  const std::vector<Group> stored = stored_autonomously();
+  if (std::ranges::find(stored, group_of(mux.index)) == stored.end()) return;
+  store_at_ = device_->now + device_->choices.rest_before_storing;
+  if (device_->choices.rest_before_storing == Duration::zero()) on_time();
 }
 
 void ParameterStore::on_time() {
   if (!store_at_ || device_->now < *store_at_) return;
   store_at_.reset();
-  Images images = storage_->images();
-  for (const Group group : autonomous_) images[group] = image_of(group, images[group]);
   // Nobody asked, so nobody can be told that it failed.
-  [[maybe_unused]] const auto kept = storage_->replace(std::move(images));
+  [[maybe_unused]] const auto kept = store(stored_autonomously(), {});
+}
+
+Accepted ParameterStore::store(const std::vector<Group>& groups, const StoreFaults& fault) {
+  Images images = storage_->images();
+  for (const Group group : groups) images[group] = image_of(group, images[group]);
+  const bool with_stamp = std::ranges::find(groups, Group::communication) != groups.end();
+  const bool outdated = stamp_.before_storing(storage_->images(), images, with_stamp);
+  if (auto kept = keep(std::move(images), fault); !kept) return kept;
+  stamp_.after_storing(outdated, with_stamp);
+  return {};
 }
 
 Image ParameterStore::image_of(Group group, const Image& former) const {
@@ -151,13 +165,7 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
   if (good && device_->choices.storing_needs_pre_operational && device_->state == NmtState::operational)
     return refuse(abort_code::device_state);
   if (!fault.without_effect) {
-    Images images = storage_->images();
-    const std::vector<Group> groups = groups_of(sub, fault);
-    for (const Group group : groups) images[group] = image_of(group, images[group]);
-    const bool with_stamp = std::ranges::find(groups, Group::communication) != groups.end();
-    const bool outdated = stamp_.before_storing(storage_->images(), images, with_stamp);
-    if (auto kept = keep(std::move(images), fault); !kept) return kept;
-    stamp_.after_storing(outdated, with_stamp);
+    if (auto kept = store(groups_of(sub, fault), fault); !kept) return kept;
   }
   if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
   return {};

@@ -28,6 +28,8 @@ class ParameterStore {
   [[nodiscard]] std::optional<BusTime> next_wakeup() const { return store_at_; }
 
  private:
+  /// Takes the present values of these groups into the memory, and 1020h with them where it has to go.
+  [[nodiscard]] Accepted store(const std::vector<Group>& groups, const StoreFaults& fault);
   /// Makes `images` the content of the memory. Fails while the storage fault (2F20h) is armed.
   [[nodiscard]] Accepted keep(Images images, const StoreFaults& fault);
   [[nodiscard]] Entry* storage_fault() const;
@@ -38,13 +40,14 @@ class ParameterStore {
   /// The values to store; what is not stored now keeps the value of `former`.
   [[nodiscard]] Image image_of(Group group, const Image& former) const;
   void load(Group group);
-  /// 1010h, bit 1: what is written is stored without a command, when no more is written for a while.
+  /// What is stored without a command: of each sub-index of 1010h with bit 1 (7.5.2.13).
+  [[nodiscard]] std::vector<Group> stored_autonomously() const;
+  /// What is written is stored without a command, when no more is written for a while.
   void store_soon(Multiplexer mux);
   [[nodiscard]] bool keeps(Group group, bool whole_node) const;
 
   Device* device_;
   std::shared_ptr<Storage> storage_;
-  std::vector<Group> autonomous_;    ///< stored without a command
   std::optional<BusTime> store_at_;  ///< something of them has been written; a reset forgets it
   ConfigurationStamp stamp_;
 };

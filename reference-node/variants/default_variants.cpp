@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other values after power-on, and entries that cannot be changed.
+#include <initializer_list>
+#include <vector>
+
 #include "variants/tools.hpp"
 
 namespace refnode {
 
 using namespace variant;
 
+namespace {
+
+/// Device types of logical devices of the same profile, and FFFFh in the upper half of 1000h (CiA
+/// 301, 7.5.2.1).
+How logical_devices(std::initializer_list<std::uint16_t> described) {
+  return [all = std::vector<std::uint16_t>(described)](VariantTarget& target) {
+    preset(0x1000, 0, 0xFFFF0191)(target);
+    for (const std::uint16_t index : all) {
+      target.dictionary.add_variable(
+          index, integer_entry("Device type", DataType::unsigned32, Access::ro, 0x00030191));
+    }
+  };
+}
+
+}  // namespace
+
 VariantTable default_variants() {
   return {
       {"1000-additional-information", "another device type of the same profile", "OD-1000-03",
-       preset(0x1000, 0, 0x00030191)},
+       preset(0x1000, 0, 0x00030191), "1000"},
+      {.id = "logical-devices",
+       .summary = "two logical devices, the second described at 6FFFh",
+       .legal = "OD-1000-05: 67FFh + 1 * 800h",
+       .how = logical_devices({0x6FFF}),
+       .group = "1000",
+       .gains = {"logical devices"}},
+      {.id = "logical-devices-67ff",
+       .summary = "two logical devices, both described",
+       .legal = "OD-1000-05: 67FFh may be there",
+       .how = logical_devices({0x67FF, 0x6FFF}),
+       .group = "1000",
+       .gains = {"logical devices"}},
       {.id = "1000-no-profile",
        .summary = "a device without a device profile",
        .legal = "OD-1000-03: profile number 0",
        .how = preset(0x1000, 0, 0),
+       .group = "1000",
        .lacks = {"profile device"}},
       {"1005-bit-31", "default 8000 0080h", "OD-1005-02: bit 31 is not looked at",
        preset(0x1005, 0, 0x80000080)},

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects a device need not have, and access the standard leaves to the device.
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "variants/tools.hpp"
 
 namespace refnode {
@@ -39,6 +43,41 @@ void add_types(VariantTarget& target) {
     if (target.dictionary.objects().contains(type)) continue;
     target.dictionary.add_variable(
         type, integer_entry("Data type", DataType::unsigned32, Access::ro, bits[type - 1U]));
+  }
+}
+
+/// 1010h, bit 1 of every sub-index.
+How stores_by_itself(Duration rest) {
+  return [rest](VariantTarget& target) {
+    const auto object = target.dictionary.objects().find(0x1010);
+    if (object == target.dictionary.objects().end()) return;
+    for (auto& [sub, entry] : object->second.entries) {
+      if (sub == 0 || sub == 0xFF) continue;
+      entry.default_value[0] |= 2U;
+      entry.value = entry.default_value;
+    }
+    target.choices.rest_before_storing = rest;
+  };
+}
+
+/// A complex data type entry with the types of its elements (CiA 301, 7.4.8).
+How structure(std::uint16_t index, std::vector<std::uint16_t> elements) {
+  return [index, elements = std::move(elements)](VariantTarget& target) {
+    auto& entries = target.dictionary.objects()[index].entries;
+    entries[0] = integer_entry("Number of elements", DataType::unsigned8, Access::ro, elements.size());
+    std::uint8_t sub = 1;
+    for (const auto type : elements)
+      entries[sub++] = integer_entry("Element", DataType::unsigned16, Access::ro, type);
+  };
+}
+
+/// 1010h:03 and 1011h:03 are missing, and nothing above 1FFFh is stored with "all parameters" either.
+void store_communication_only(VariantTarget& target) {
+  absent_from(0x1010, 3)(target);
+  absent_from(0x1011, 3)(target);
+  for (auto& [index, object] : target.dictionary.objects()) {
+    if (index < 0x2000) continue;
+    for (auto& [sub, entry] : object.entries) entry.storable = false;
   }
 }
 
@@ -100,6 +139,12 @@ VariantTable object_variants() {
        both(absent_from(0x1010, 2), absent_from(0x1011, 2)), "storage"},
       {"1010-sub-2-absent", "stores and restores all, or the application parameters", "OD-1010-05: a gap",
        both(gap(0x1010, 2), gap(0x1011, 2)), "storage"},
+      {"1010-communication-only", "stores no application parameter", "OD-1010-10: what the device can store",
+       store_communication_only, "storage"},
+      {"1010-autonomous", "stores by itself what was written, after 4 s of rest", "OD-1010-06: bit 1",
+       stores_by_itself(std::chrono::seconds(4)), "storage"},
+      {"1010-autonomous-at-once", "stores by itself with each write", "OD-1010-06: bit 1",
+       stores_by_itself(Duration::zero()), "storage"},
       {.id = "1012-absent",
        .summary = "does not know TIME",
        .legal = "7.5.2.15: for devices that support TIME",
@@ -156,6 +201,20 @@ VariantTable object_variants() {
       {"empty-entries-absent", "no object without content", "7.4.7: lengths are the device's own",
        [](VariantTarget& target) { target.dictionary.remove_sub(0x2005, 1); }},
       {"types-readable", "lengths of data types 0001h to 0007h can be read", "OD-TYP-01", add_types},
+      {"0020-four-elements", "a PDO communication record of four elements", "OD-TYP-14",
+       structure(0x0020, {7, 5, 6, 5}), "0020"},
+      {"0020-five-elements", "a PDO communication record with an event timer", "OD-TYP-14",
+       structure(0x0020, {7, 5, 6, 5, 6}), "0020"},
+      {"0020-six-elements", "a PDO communication record with a SYNC start value", "OD-TYP-14",
+       structure(0x0020, {7, 5, 6, 5, 6, 5}), "0020"},
+      {"0021-0023-readable", "the structures of mapping, SDO parameter and identity can be read",
+       "OD-TYP-15, OD-TYP-16, OD-TYP-17",
+       both(both(structure(0x0021, std::vector<std::uint16_t>(64, 7)), structure(0x0022, {7, 7, 5})),
+            structure(0x0023, {7, 7, 7, 7}))},
+      {"own-structures-readable", "a structure of the manufacturer and one of a device profile can be read",
+       "OD-TYP-18, OD-TYP-19", both(structure(0x0040, {7}), structure(0x0080, {5, 7}))},
+      {"0024-0025-readable", "the records of debugger and OS command can be read", "7.4.8 tables 50, 51",
+       both(structure(0x0024, {0x0A, 5, 0x0A}), structure(0x0025, {0x0A, 5, 0x0A}))},
       {"structure-readable", "sub-index FFh tells the structure of communication objects", "OD-OBJ-01",
        add_structure, "structure"},
   };

@@ -50,6 +50,8 @@ VariantTable pdo_variants() {
        choose([](Choices& c) { c.tpdo.sends_at_first_sync = true; })},
       {"rpdo-too-long-reported", "an RPDO that is too long causes EMCY 8220h", "PDO-RX-07",
        choose([](Choices& c) { c.long_rpdo_reported = true; })},
+      {"1400-bit-30", "bit 30 of the COB-ID of an RPDO is set", "OD-1400-14: do not care",
+       preset_with_node_id(0x1400, 1, 0x4000'0200)},
       {"1400-sub-4",
        "a compatibility entry 1400h:04",
        "OD-1400-19",
