@@ -2,6 +2,8 @@
 #include "engine/engine.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "base/text.hpp"
 #include "canopen/nmt.hpp"
@@ -96,6 +98,9 @@ class Run {
     auto values = snapshot(session_);
     if (!values) return std::unexpected(values.error());
     snapshot_ = std::move(*values);
+    auto stores = stores_by_itself();
+    if (!stores) return std::unexpected(stores.error());
+    stores_by_itself_ = *stores;
     auto inhibit = session_.is_present(emcy_inhibit_time, false);
     if (!inhibit) return std::unexpected(inhibit.error());
     if (!*inhibit) return {};
@@ -104,6 +109,18 @@ class Run {
     if (held->kind == steps::SdoAnswer::Kind::confirmed && held->data.size() == 2)
       emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(held->data));
     return {};
+  }
+
+  /// Bit 1 of 1010h:01 to 7Fh (CiA 301, 7.5.2.13), or the profile says so.
+  Result<bool> stores_by_itself() {
+    if (profile_.claimed("autonomous storing")) return true;
+    for (const auto& entry : session_.known().object(Index(0x1010))) {
+      if (entry.mux.sub == SubIndex(0) || entry.mux.sub > SubIndex(0x7F)) continue;
+      const auto held = session_.peek(entry.mux);
+      if (!held) return std::unexpected(held.error());
+      if (held->kind == steps::SdoAnswer::Kind::confirmed && (load_le(held->data) & 2U) != 0) return true;
+    }
+    return false;
   }
 
   void make_plan() {
@@ -238,7 +255,12 @@ class Run {
         return std::unexpected(done.error());
       }
     }
-    return enter_pre_operational();
+    if (auto ready = enter_pre_operational(); !ready) return ready;
+    if (stores_by_itself_ && session_.resets() != resets_looked_at_) {
+      resets_looked_at_ = session_.resets();
+      put_back_what_returned();
+    }
+    return {};
   }
 
   Result<void> enter_pre_operational() {
@@ -295,7 +317,7 @@ class Run {
                     "no SDO answer, and no boot-up message after a reset");
       }
     }
-    auto changes = session_.take_journal();
+    auto changes = take_changes();
     if (changes.empty()) return let_emcy_end(out.first_frame);
     // A stop request waits until everything is back: half a restore is the worst of all.
     const StopHeld held(recorder_);
@@ -446,14 +468,37 @@ class Run {
     }
     // First the state: in Stopped no SDO would be answered.
     leave_in_pre_operational();
-    auto changes = session_.take_journal();
-    if (changes.empty()) return;
-    auto report = restore(session_, changes);
+    auto report = restore(session_, take_changes());
     if (!report) {
       out_.notes.push_back("values may not have been put back: " + report.error().text());
       return;
     }
     for (const auto& left : report->left) out_.notes.push_back("could not be put back: " + left);
+    put_back_what_returned();
+  }
+
+  /// The journal of a case; that its entries were written is remembered for the end of the run.
+  std::vector<Change> take_changes() {
+    auto changes = session_.take_journal();
+    for (const auto& change : changes) written_.insert(change.object);
+    return changes;
+  }
+
+  /// A device that stores by itself (1010h, bit 1) may have stored what a test wrote, and a later reset
+  /// brought it back after it had been put right. What the run never wrote is left alone: the device changed
+  /// it.
+  void put_back_what_returned() {
+    std::vector<Change> returned;
+    for (const auto& [object, before] : snapshot_) {
+      if (!written_.contains(object)) continue;
+      const auto found = session_.peek(object);
+      if (!found) return;
+      if (found->kind == steps::SdoAnswer::Kind::confirmed && found->data != before)
+        returned.push_back({object, before});
+    }
+    // Errors and what could not be put back show in the comparison that follows.
+    if (returned.empty()) return;
+    [[maybe_unused]] const auto report = restore(session_, std::move(returned));
   }
 
   void note_not_put_back(const std::string& why) {
@@ -477,6 +522,7 @@ class Run {
     {
       const StopHeld held(recorder_);
       leave_in_pre_operational();
+      if (may(scenario::Risk::config)) put_back_what_returned();
     }
     // The same entries, whatever has been learnt about access in between.
     for (const auto& [object, before] : snapshot_) {
@@ -508,7 +554,10 @@ class Run {
   can::BusHealth health_;           ///< at the last look
   std::size_t trusted_frames_ = 0;  ///< capture's length at that time
   std::map<Multiplexer, Bytes> snapshot_;
-  Duration emcy_inhibit_{};  ///< 1015h, as found
+  std::set<Multiplexer> written_;  ///< by cases, at any time of the run
+  bool stores_by_itself_ = false;
+  std::size_t resets_looked_at_ = 0;  ///< of session_.resets(): what came back after them has been put right
+  Duration emcy_inhibit_{};           ///< 1015h, as found
   result::RunResult out_;
 };
 

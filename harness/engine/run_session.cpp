@@ -241,6 +241,8 @@ std::string RunSession::access_of(Multiplexer object) const {
 }
 
 bool RunSession::may_change(Multiplexer object) const {
+  // The history is the device's to write, whether its fields are described or not.
+  if (object.index == Index(0x1003)) return true;
   const auto* found = entry(object);
   return found != nullptr && found->may_change;
 }
@@ -412,6 +414,7 @@ void RunSession::label(std::string_view name, std::size_t capture_index) {
 }
 
 void RunSession::device_was_reset(bool) {
+  ++resets_;
   emcy_can_id_ = home_emcy_can_id_;
   before_write_.clear();
 }

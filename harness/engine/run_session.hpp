@@ -93,6 +93,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Recorder& recorder() { return recorder_; }
   [[nodiscard]] SdoChannel& channel() { return channel_; }
   [[nodiscard]] device::Dictionary& known() { return dictionary_; }
+  /// How often the device has been reset in this run.
+  [[nodiscard]] std::size_t resets() const { return resets_; }
   [[nodiscard]] std::vector<Change> take_journal();
   /// CAN-ID of EMCY as found after power-on.
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
@@ -125,6 +127,7 @@ class RunSession final : public steps::Session {
   std::map<Multiplexer, bool> present_;
   std::map<Multiplexer, bool> writable_;
   std::vector<Change> journal_;
+  std::size_t resets_ = 0;
   std::map<Multiplexer, Bytes> before_write_;
   steps::Window window_;
   std::optional<bool> offers_block_upload_, offers_block_download_;  ///< once tried
