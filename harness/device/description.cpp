@@ -63,6 +63,12 @@ std::optional<ObjectCode> code_of(eds::ObjectCode code) {
   }
 }
 
+/// Whether a number of the type, as wire bytes of one length, is greater than another.
+bool above(const Bytes& one, const Bytes& other, bool is_signed) {
+  const std::uint64_t sign = is_signed ? std::uint64_t{1} << (8 * one.size() - 1) : 0;
+  return (load_le(one) ^ sign) > (load_le(other) ^ sign);
+}
+
 class Describer {
  public:
   explicit Describer(const eds::EdsFile& file) : file_(file) { out_.file = file.name; }
@@ -112,6 +118,14 @@ class Describer {
     }
     entry.low = limit(described.low_limit, "low limit", entry);
     entry.high = limit(described.high_limit, "high limit", entry);
+    if (entry.low && entry.high && above(*entry.low, *entry.high, canopen::is_signed(entry.type))) {
+      unused(described.low_limit.at,
+             fmt::format("the low limit of {}, '{}', is above the high limit, '{}': neither is used",
+                         to_string(mux), printable(eds::shortened(described.low_limit.text)),
+                         printable(eds::shortened(described.high_limit.text))));
+      entry.low.reset();
+      entry.high.reset();
+    }
     read_default(described.default_value, entry);
     // rwr and rww tell into which PDOs, PDOMapping whether at all; without it the words are enough.
     if (!described.pdo_mapping.empty()) {
@@ -228,6 +242,7 @@ void add_description(Profile& profile, Description description) {
     if (entry.untouchable) profile.untouchable.push_back(entry.mux);
     if (!std::ranges::binary_search(listed, entry.mux)) profile.objects.push_back(std::move(entry));
   }
+  profile.described_in = description.file;
   if (!profile.claims_given) profile.claims.merge(description.claims);
 }
 

@@ -92,6 +92,7 @@ struct Profile {
   bool writes_described =
       false;  ///< tests may write every application entry that the description calls writable
   bool factory_defaults = false;  ///< nothing is stored: values after a reset are the defaults
+  std::string described_in;       ///< file of the device description, as the user wrote it; empty: none
   Identity identity;
   std::vector<KnownDeviation> deviations;
 

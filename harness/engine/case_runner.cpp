@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
+#include "canopen/sdo_initiate.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {
@@ -42,6 +43,16 @@ std::optional<canopen::DataType> type_of(const Step& step, RunSession& session) 
   return entry == nullptr ? std::nullopt : std::optional(entry->type);
 }
 
+/// Where the description tells of an entry, or that it does not.
+std::string described_at(const device::Dictionary& dictionary, const std::string& file, Multiplexer mux) {
+  const auto* entry = dictionary.find(mux);
+  if (entry != nullptr && !entry->declared_at.empty()) return entry->declared_at;
+  for (const auto& sibling : dictionary.object(mux.index)) {
+    if (!sibling.declared_at.empty()) return sibling.declared_at + ", without " + to_string(mux);
+  }
+  return file + ", without " + to_string(mux.index);
+}
+
 }  // namespace
 
 Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out) {
@@ -52,7 +63,12 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   entered_steps_ = false;
   outermost_ = nullptr;
   session_.begin_case(planned.scenario->risk);
-  for (const auto& [name, text] : planned.names) session_.set(name, bind(text, session_, catalogue_));
+  instance_object_.reset();
+  for (const auto& [name, text] : planned.names) {
+    auto value = bind(text, session_, catalogue_);
+    if (value.object && !instance_object_) instance_object_ = value.object;
+    session_.set(name, std::move(value));
+  }
   const auto& scenario = *planned.scenario;
   for (const auto& given : scenario.given) {
     auto entry = look_for(given.query);
@@ -362,7 +378,7 @@ void CaseRunner::record(const Step& step, const std::string& requirement, const 
   if (grade.verdict == Verdict::pass || grade.verdict == Verdict::not_applicable) return;
   if (in_walk) {
     auto& all = offenders(step, requirement);
-    const auto described = declared_at(step);
+    const auto described = declared_at(step, actual);
     all.values.push_back(walk_value_ + (described.empty() ? "" : " (" + described + ")") + ": " +
                          actual.words());
     if (all.values.size() > 1) {
@@ -414,11 +430,32 @@ void CaseRunner::finish_walk() {
   walk_value_.clear();
 }
 
-std::string CaseRunner::declared_at(const Step& step) const {
-  const auto* object = step.action == nullptr ? nullptr : step.action->object();
-  const auto mux = object == nullptr ? std::nullopt : std::optional(object->resolve(session_));
-  const auto* entry = mux && *mux ? session_.dictionary().find(**mux) : nullptr;
-  return entry == nullptr ? "" : entry->declared_at;
+std::string CaseRunner::declared_at(const Step& step, const Actual& actual) const {
+  const auto& file = session_.profile().described_in;
+  if (file.empty() || step.action == nullptr) return {};
+  std::vector<Multiplexer> about;
+  const auto add = [&](const steps::ObjectReference& reference) {
+    if (const auto mux = reference.resolve(session_)) about.push_back(*mux);
+  };
+  if (step.action->object() != nullptr) add(*step.action->object());
+  if (about.empty() && actual.decisive && *actual.decisive < session_.capture().size()) {
+    // Of several transfers in one step it is the refused one that matters.
+    const auto& frame = session_.capture().frames()[*actual.decisive].frame;
+    const auto abort = frame.is_data(canopen::connection_set(session_.node()).sdo_response)
+                           ? canopen::decode_abort(frame.bytes())
+                           : std::nullopt;
+    if (abort) about.push_back(abort->mux);
+  }
+  if (about.empty()) {
+    for (const auto& reference : step.action->concerns()) add(reference);
+  }
+  if (about.empty() && instance_object_) about.push_back(*instance_object_);
+  std::vector<std::string> places;
+  for (const auto mux : about) {
+    auto place = described_at(session_.dictionary(), file, mux);
+    if (std::ranges::find(places, place) == places.end()) places.push_back(std::move(place));
+  }
+  return join(places, "; ");
 }
 
 result::Finding CaseRunner::make_finding(const Step& step, const std::string& requirement, const Grade& grade,
@@ -446,7 +483,7 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   out.actual = actual.words();
   out.actual_bytes.assign(actual.data.begin(), actual.data.end());
   out.reason = grade.reason;
-  out.declared_at = declared_at(step);
+  out.declared_at = declared_at(step, actual);
   out.evidence = evidence(step_begin_, actual.decisive);
   out.frames_seen = session_.capture().size();
   return out;

@@ -57,8 +57,8 @@ class CaseRunner {
   [[nodiscard]] std::vector<std::string> checks_of(const steps::Step& step) const;
   void record(const steps::Step& step, const std::string& requirement, const steps::Grade& grade,
               const steps::Actual& actual);
-  /// Where the description tells of the entry a step is about; empty when it does not.
-  [[nodiscard]] std::string declared_at(const steps::Step& step) const;
+  /// Where the description tells of what a step is about, or that it does not; empty without a description.
+  [[nodiscard]] std::string declared_at(const steps::Step& step, const steps::Actual& actual) const;
   [[nodiscard]] result::Finding make_finding(const steps::Step& step, const std::string& requirement,
                                              const steps::Grade& grade, const steps::Actual& actual);
   [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t begin,
@@ -80,6 +80,7 @@ class CaseRunner {
   std::string walk_value_;  ///< not empty: inside an `over`
   std::vector<Offenders>
       offenders_;  ///< in the order of the first judgement: addresses must not decide any order
+  std::optional<Multiplexer> instance_object_;  ///< the object a case of for_each is about
   std::string stopped_because_;
   bool entered_steps_ = false;
   const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs

@@ -339,6 +339,14 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   }
 }
 
+void collect_objects(const Tree& node, std::vector<ObjectReference>& out) {
+  if (node.object.empty()) {
+    for (const auto& part : node.parts) collect_objects(*part, out);
+  } else {
+    out.push_back(node.object);
+  }
+}
+
 void collect_names(const Tree& node, std::vector<std::string>& out) {
   for (const auto& names : {node.object.names(), node.left.names(), node.right.names()}) {
     out.insert(out.end(), names.begin(), names.end());
@@ -379,6 +387,12 @@ Result<bool> Condition::evaluate(Facts& facts) const {
 std::vector<std::string> Condition::names() const {
   std::vector<std::string> out;
   if (tree_) collect_names(*tree_, out);
+  return out;
+}
+
+std::vector<ObjectReference> Condition::objects() const {
+  std::vector<ObjectReference> out;
+  if (tree_) collect_objects(*tree_, out);
   return out;
 }
 

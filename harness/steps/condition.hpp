@@ -53,6 +53,8 @@ class Condition {
   [[nodiscard]] Result<bool> evaluate(Facts& facts) const;
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] std::vector<std::string> names() const;
+  /// The entries it asks about ("is present", "is writable"), in the order of the text.
+  [[nodiscard]] std::vector<ObjectReference> objects() const;
   [[nodiscard]] bool empty() const { return tree_ == nullptr; }
   /// Whether finding the answer may write to the device ("is writable" rewrites a value).
   [[nodiscard]] bool may_write() const;

@@ -221,6 +221,10 @@ class AwaitEmcy final : public Action {
     return out;
   }
   Measures measures() const override { return {"register"}; }
+  std::vector<ObjectReference> concerns() const override {
+    auto cob_id = ObjectReference::parse("1014h:00");
+    return cob_id ? std::vector{std::move(*cob_id)} : std::vector<ObjectReference>{};
+  }
   bool acts() const override { return false; }
   std::string words(Session& session) const override {
     std::string out = "EMCY";

@@ -90,6 +90,7 @@ class ObjectReference {
   [[nodiscard]] Result<Multiplexer> resolve(Scope& scope) const;
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] bool empty() const { return text_.empty(); }
   /// The entry, when it is written out and needs no scope.
   [[nodiscard]] std::optional<Multiplexer> literal() const;
 

@@ -18,6 +18,7 @@ class Require final : public Action {
     return out;
   }
   bool reads_only() const override { return !condition_.may_write(); }
+  std::vector<ObjectReference> concerns() const override { return condition_.objects(); }
   std::string words(Session&) const override { return "require " + condition_.text(); }
   Result<Actual> run(Session& session) const override {
     auto holds = condition_.evaluate(session);

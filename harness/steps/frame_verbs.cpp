@@ -43,6 +43,17 @@ struct Source {
 
   [[nodiscard]] std::string words() const { return service.empty() ? "CAN-ID " + id.text() : service; }
 
+  /// The entry that configures the service.
+  [[nodiscard]] std::vector<ObjectReference> concerns() const {
+    const std::string_view entry = service == "heartbeat" || service == "boot-up" ? "1017h:00"
+                                   : service == "emcy"                            ? "1014h:00"
+                                   : service == "sync"                            ? "1005h:00"
+                                   : service == "tpdo 1"                          ? "1800h:01"
+                                                                                  : "";
+    auto object = ObjectReference::parse(entry);
+    return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
+  }
+
   [[nodiscard]] Result<Session::Match> match(Session& session) const {
     const auto set = canopen::connection_set(session.node());
     if (service == "anything") {
@@ -208,6 +219,7 @@ class AwaitFrame final : public Action {
     }
     return id && within ? std::move(out) : nullptr;
   }
+  std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
   std::string words(Session&) const override {
     return "a frame of " + source_.words() + " within " + within_.text();
@@ -267,6 +279,9 @@ class Silence final : public Action {
     }
     parse_after(fields, context, out->after_);
     return of && time ? std::move(out) : nullptr;
+  }
+  std::vector<ObjectReference> concerns() const override {
+    return sources_.empty() ? std::vector<ObjectReference>{} : sources_.front().concerns();
   }
   bool acts() const override { return false; }
   std::string words(Session&) const override {
@@ -332,6 +347,7 @@ class Collect final : public Action {
     return from && time ? std::move(out) : nullptr;
   }
   Measures measures() const override { return {"count", "first", "state", "period", "shortest", "longest"}; }
+  std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
   std::string words(Session&) const override { return "collect " + source_.words() + " for " + time_.text(); }
 

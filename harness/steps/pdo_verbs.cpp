@@ -161,6 +161,7 @@ class SetPdo final : public Action {
     return pdo ? std::move(out) : nullptr;
   }
 
+  std::vector<ObjectReference> concerns() const override { return {pdo_}; }
   std::string words(Session& session) const override {
     std::string out = "configure " + pdo_words(pdo_, session);
     if (maps_) out += ", " + std::to_string(entries_.size()) + " mapped";
@@ -333,6 +334,7 @@ class PdoMapping final : public Action {
   }
   Measures measures() const override { return {"count", "bits", "absent", "longer", "shorter"}; }
   bool reads_only() const override { return true; }
+  std::vector<ObjectReference> concerns() const override { return {pdo_}; }
   std::string words(Session& session) const override {
     return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);
   }
@@ -356,7 +358,7 @@ class PdoMapping final : public Action {
     actual->measured["longer"] = mapping.longer;
     actual->measured["shorter"] = mapping.shorter;
     std::vector<std::string> parts;
-    for (const auto entry : mapping.entries) parts.push_back(hex(entry, 8) + "h");
+    for (const auto entry : mapping.entries) parts.push_back(hex(entry, 8).insert(4, " "));
     actual->detail = std::to_string(mapping.entries.size()) + " entries, " + std::to_string(mapping.bits) +
                      " bits; " + std::to_string(mapping.absent) + " absent, " +
                      std::to_string(mapping.longer) + " longer and " + std::to_string(mapping.shorter) +

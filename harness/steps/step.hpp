@@ -38,6 +38,9 @@ class Action {
   [[nodiscard]] virtual bool reads_only() const { return !acts(); }
   /// The entry it is about, for `current` and for printing values.
   [[nodiscard]] virtual const ObjectReference* object() const { return nullptr; }
+  /// Where object() is none: the entries that it looks at or configures, the one that tells most first. For
+  /// pointing at the device description.
+  [[nodiscard]] virtual std::vector<ObjectReference> concerns() const { return {}; }
   /// The measurements its outcome may have. To ask for others is a mistake of the author, which would be
   /// counted against the device.
   [[nodiscard]] virtual Measures measures() const { return {}; }

@@ -98,6 +98,33 @@ class CommandLine(unittest.TestCase):
         run("run", "--simulate", "cia301/sdo/upload", "--capture", capture)
         self.assertEqual(run("judge", capture, "--node", "1", "--eds", eds).returncode, 0)
 
+    def test_findings_name_the_place_in_the_description_also_of_what_it_leaves_out(self):
+        eds = self.path("device.eds")
+        own = subprocess.run([os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--print-eds"],
+                             capture_output=True, check=True).stdout.decode("ascii")
+        # Without heartbeat and guarding; of the mapping parameter of the RPDO only sub-index 00h is left.
+        sections = [section for section in ("\n" + own).split("\n[")
+                    if not section.startswith(("1017]", "100C]", "100D]", "1600sub1]", "1600sub2]"))]
+        with open(eds, "w", encoding="ascii") as file:
+            file.write("\n[".join(sections).lstrip("\n"))
+        with open(eds, encoding="ascii") as file:
+            mapping = file.read().splitlines().index("[1600sub0]") + 1
+        done = run("run", "--simulate", "--eds", eds, "--quiet", "cia301/heartbeat/producer-entry", "cia301/pdo/rpdo-mapping/procedure",
+                   "cia301/dictionary/conditional-objects/error-control")
+        self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
+        text = " ".join(done.stdout.replace("\n  |", " ").split())
+        for described in (f"{eds}, without 1017h", f"{eds}, without 1017h; {eds}, without 100Ch; {eds}, without 100Dh",
+                          f"{eds}:{mapping}, without 1600h:01"):
+            self.assertIn(f"described {described} ", text)
+
+    def test_a_device_that_stores_by_itself_is_left_as_it_was_found(self):
+        # A reset brings back what a test wrote and the device stored before it was put right.
+        for variant in ("1010-autonomous", "1010-autonomous-at-once"):
+            with self.subTest(variant=variant):
+                done = run("run", "--simulate", "--variant", variant, "cia301/heartbeat", "cia301/emergency", "cia301/nmt")
+                self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+                self.assertNotIn("before the run", done.stdout)
+
     def test_an_eds_that_says_nothing_usable_is_noted_and_one_that_cannot_be_read_exits_2(self):
         eds = self.path("odd.eds")
         with open(eds, "w", encoding="ascii") as file:

@@ -185,6 +185,18 @@ TEST_CASE("What cannot be used is said with its place and not expected of the de
         "the data type 0041h of 2001h:00 is none of the basic ones: its length is not compared");
 }
 
+TEST_CASE("Limits that exclude each other are not used") {
+  // 65535 of an INTEGER16 and FFFFFFFFh of an INTEGER32 are -1, below the low limit.
+  const auto description = described(variable("2000", "4", "rw", "LowLimit=0\nHighLimit=0xFFFFFFFF") +
+                                     variable("2001", "4", "rw", "LowLimit=-5\nHighLimit=5"));
+  CHECK_FALSE(entry_of(description, 0x2000, 0).low.has_value());
+  CHECK_FALSE(entry_of(description, 0x2000, 0).high.has_value());
+  REQUIRE(description.unused.size() == 1);
+  CHECK(description.unused[0].what ==
+        "the low limit of 2000h:00, '0', is above the high limit, '0xFFFFFFFF': neither is used");
+  CHECK(entry_of(description, 0x2001, 0).high.has_value());
+}
+
 TEST_CASE("An entry without an access type is not said to be writable or not") {
   const auto description = described("[2000]\nParameterName=A\nObjectType=7\nDataType=5\n");
   CHECK(entry_of(description, 0x2000, 0).access_open);
