@@ -6,9 +6,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/strong.hpp"
@@ -93,14 +95,45 @@ struct SubObject {
   Entry entry;
 };
 
+/// Lists that few objects have.
+struct ObjectLists {
+  NumberedList names, values, denotations;  ///< [xxxxName], [xxxxValue], [xxxxDenotation] of CompactSubObj
+  NumberedList links;                       ///< [xxxxObjectLinks]
+};
+
+/// A value that is mostly empty and takes no room then: a dictionary has thousands of objects.
+template <typename T>
+class Rare {
+ public:
+  Rare() = default;
+  Rare(const Rare& other) : held_(other.held_ ? std::make_unique<T>(*other.held_) : nullptr) {}
+  Rare(Rare&&) noexcept = default;
+  Rare& operator=(Rare other) noexcept {
+    held_ = std::move(other.held_);
+    return *this;
+  }
+  ~Rare() = default;
+  [[nodiscard]] const T* operator->() const {
+    static const T empty;
+    return held_ ? held_.get() : &empty;
+  }
+  /// To be filled.
+  [[nodiscard]] T& edit() {
+    if (!held_) held_ = std::make_unique<T>();
+    return *held_;
+  }
+
+ private:
+  std::unique_ptr<T> held_;
+};
+
 struct Object {
   Index index;
   bool described = true;  ///< false: only sub-objects have sections, `entry` is empty
   Entry entry;
   Field sub_number, compact_sub_obj;
-  std::vector<SubObject> subs;              ///< ascending, each sub-index once
-  NumberedList names, values, denotations;  ///< [xxxxName], [xxxxValue], [xxxxDenotation] of CompactSubObj
-  NumberedList links;                       ///< [xxxxObjectLinks]
+  std::vector<SubObject> subs;  ///< ascending, each sub-index once
+  Rare<ObjectLists> lists;
 
   [[nodiscard]] const Entry* find(SubIndex sub) const;
 };

@@ -86,9 +86,9 @@ class Expander {
     for (const auto& row : entry_fields) bytes_ += (object.entry.*row.field).text.size() * count;
     if (bytes_ > most_implied_bytes || count_ + count > most_implied) return false;
     const auto by = object.compact_sub_obj.at;
-    const auto names = by_number(object.names);
-    const auto values = by_number(object.values);
-    const auto denotations = by_number(object.denotations);
+    const auto names = by_number(object.lists->names);
+    const auto values = by_number(object.lists->values);
+    const auto denotations = by_number(object.lists->denotations);
     std::vector<SubObject> subs;
     for (unsigned sub = 0; sub <= count; ++sub) {
       const auto index = SubIndex(static_cast<std::uint8_t>(sub));
@@ -176,6 +176,12 @@ class Expander {
 };
 
 }  // namespace
+
+bool implies_entries(const EdsFile& file) {
+  return number_of(file.device_info.compact_pdo).value_or(0) != 0 ||
+         std::ranges::any_of(file.objects,
+                             [](const Object& object) { return !object.compact_sub_obj.empty(); });
+}
 
 Result<std::vector<Object>> expand(const EdsFile& file) { return Expander(file).run(); }
 

@@ -15,6 +15,9 @@ inline constexpr std::size_t most_implied = 100'000;
 /// At most so many bytes of names and values are repeated by that.
 inline constexpr std::size_t most_implied_bytes = 64U * 1024U * 1024U;
 
+/// Whether expand() adds anything: CompactSubObj or CompactPDO is there.
+[[nodiscard]] bool implies_entries(const EdsFile& file);
+
 /// All objects, ascending by index, with those entries that are only implied. An implied entry has
 /// `Entry::implied_by`, the place of the CompactSubObj or CompactPDO; what is described stays as it is.
 ///

@@ -69,6 +69,12 @@ class IniParser {
           fmt::format("the file has {} bytes; at most {} are read", bytes_.size(), IniFile::most_bytes),
           place({1, 1}));
     }
+    file_.text_ = std::make_shared<const std::string>(bytes_);
+    bytes_ = *file_.text_;
+    // Of most files one look is enough.
+    only_plain_ = std::ranges::none_of(bytes_, [](char c) {
+      return static_cast<unsigned char>(c) >= 0x80 || (is_control(c) && c != '\r' && c != '\n');
+    });
     std::size_t begin = 0;
     if (bytes_.starts_with(utf8_mark)) {
       remark(Deviation::byte_order_mark, 0);
@@ -126,6 +132,7 @@ class IniParser {
   }
 
   void look_at_characters(std::string_view text) {
+    if (only_plain_) return;
     const auto high =
         std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
     if (high != text.end()) {
@@ -165,7 +172,8 @@ class IniParser {
     const auto [known, is_new] = file_.first_by_name_.try_emplace(lower(name), file_.sections_.size());
     if (!is_new && !name.empty())
       remark(Deviation::duplicate_section, lead, name, file_.sections_[known->second].at);
-    file_.sections_.push_back({std::string(name), at(number_, lead), {}});
+    file_.sections_.push_back({std::string(name), at(number_, lead), {}, !is_new});
+    file_.sections_.back().entries.reserve(8);  // as many as an object has, mostly
   }
 
   void entry(std::string_view text, std::string_view body, std::size_t lead) {
@@ -187,8 +195,7 @@ class IniParser {
     const auto behind = text.substr(equals + 1);
     const auto value = without_blanks(behind);
     const auto value_offset = equals + 1 + (value.empty() ? 0 : leading_blanks(behind));
-    file_.sections_.back().entries.push_back(
-        {std::string(key), std::string(value), at(number_, lead), at(number_, value_offset)});
+    file_.sections_.back().entries.push_back({key, value, at(number_, lead), at(number_, value_offset)});
   }
 
   std::string_view bytes_;
@@ -199,6 +206,7 @@ class IniParser {
   std::size_t number_ = 0;
   std::size_t entries_ = 0;
   LineEnd first_end_ = LineEnd::none;
+  bool only_plain_ = false;
   bool said_cr_ = false;
   bool said_mixed_ = false;
 };

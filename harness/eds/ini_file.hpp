@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -15,10 +16,10 @@
 
 namespace conform::eds {
 
-/// `key=value`. Both are raw bytes without the blanks around them.
+/// `key=value`. Both are raw bytes without the blanks around them, inside the text that the IniFile keeps.
 struct IniEntry {
-  std::string key;
-  std::string value;
+  std::string_view key;
+  std::string_view value;
   Position key_at;
   Position value_at;  ///< of an empty value: behind the '='
 };
@@ -28,6 +29,7 @@ struct IniSection {
   std::string name;  ///< as spelled, without blanks around it
   Position at;       ///< of the '['
   std::vector<IniEntry> entries;
+  bool repeated = false;  ///< an earlier section has the name, in whatever case
 
   /// The first entry with this key in whatever case; nullptr when there is none.
   [[nodiscard]] const IniEntry* find(std::string_view key) const;
@@ -51,6 +53,7 @@ class IniFile {
 
  private:
   friend class IniParser;
+  std::shared_ptr<const std::string> text_;  ///< what the entries point into, also in a copy
   std::vector<IniSection> sections_;
   std::unordered_map<std::string, std::size_t> first_by_name_;  ///< lower case -> place in sections_
   Remarks remarks_;

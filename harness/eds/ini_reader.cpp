@@ -15,7 +15,9 @@
 namespace conform::eds {
 namespace {
 
-Field to_field(const IniEntry& entry) { return {entry.value, entry.value_at, entry.key_at, true}; }
+Field to_field(const IniEntry& entry) {
+  return {std::string(entry.value), entry.value_at, entry.key_at, true};
+}
 
 /// The decimal number behind `prefix` in a key, as in Line12.
 std::optional<std::uint64_t> numbered(std::string_view key, std::string_view prefix, int base = 10) {
@@ -31,10 +33,16 @@ std::optional<std::uint64_t> numbered(std::string_view key, std::string_view pre
 class Taker {
  public:
   Taker(const IniSection& section, Remarks& remarks) : section_(section), remarks_(remarks) {
-    taken_.resize(section.entries.size());
-    for (std::size_t i = 0; i < section.entries.size(); ++i) {
-      const auto [known, is_new] = first_.try_emplace(lower(section.entries[i].key), i);
-      if (!is_new) again_.push_back({i, known->second});
+    const auto count = section.entries.size();
+    taken_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::size_t first = i;
+      if (count <= few) {
+        first = place_of(section.entries[i].key);
+      } else {
+        first = first_.try_emplace(lower(section.entries[i].key), i).first->second;
+      }
+      if (first != i) again_.push_back({i, first});
     }
   }
 
@@ -44,10 +52,10 @@ class Taker {
   }
 
   void field(std::string_view key, Field& into) {
-    const auto found = first_.find(lower(key));
-    if (found == first_.end()) return;
-    taken_[found->second] = true;
-    if (!into.present) into = to_field(section_.entries[found->second]);
+    const auto place = place_of(key);
+    if (place == section_.entries.size()) return;
+    taken_[place] = true;
+    if (!into.present) into = to_field(section_.entries[place]);
   }
 
   /// Every entry with a number behind `prefix`, repeated ones included.
@@ -81,45 +89,66 @@ class Taker {
     std::size_t place;
     std::size_t first;
   };
+  static constexpr std::size_t few = 32;  // entries that are faster to look through than to index
+
+  /// Of the first entry with this key; the number of entries when there is none.
+  [[nodiscard]] std::size_t place_of(std::string_view key) const {
+    const auto& entries = section_.entries;
+    if (entries.size() <= few) {
+      const auto found =
+          std::ranges::find_if(entries, [key](const auto& entry) { return same_word(entry.key, key); });
+      return static_cast<std::size_t>(found - entries.begin());
+    }
+    const auto found = first_.find(lower(key));
+    return found == first_.end() ? entries.size() : found->second;
+  }
+
   const IniSection& section_;
   Remarks& remarks_;
-  std::unordered_map<std::string, std::size_t> first_;
+  std::unordered_map<std::string, std::size_t> first_;  ///< empty when there are few
   std::vector<Again> again_;
   std::vector<bool> taken_;
 };
 
-/// Objects while they are collected: sections come in any order.
-struct Pile {
-  struct Builder {
-    Object object;
-    bool described = false;
-    Position first;
-    std::map<SubIndex, Entry> subs;
-  };
-  std::map<Index, Builder> objects;
+/// Objects while they are collected: sections come in any order, mostly in that of the indices. An object is
+/// large, so it is made where it stays.
+class Pile {
+ public:
+  /// So many will come, at most.
+  void expect(std::size_t count) { objects_.reserve(std::min<std::size_t>(count, 0x10000)); }
 
-  Builder& at(Index index, Position position) {
-    auto& builder = objects[index];
-    if (!builder.first.known()) builder.first = position;
-    builder.object.index = index;
-    return builder;
+  Object& object(Index index, Position position) {
+    const auto [place, fresh] = places_.try_emplace(index, objects_.size());
+    if (fresh) {
+      objects_.emplace_back();
+      objects_.back().index = index;
+      objects_.back().described = false;
+      objects_.back().entry.at = position;  // for a sub-object without object
+    }
+    return objects_[place->second];
+  }
+
+  /// The entry of a sub-index; it stays where it is until the next call.
+  static Entry& sub_entry(Object& object, SubIndex sub) {
+    const auto place = std::ranges::lower_bound(object.subs, sub, {}, &SubObject::sub);
+    if (place != object.subs.end() && place->sub == sub) return place->entry;
+    return object.subs.insert(place, SubObject{sub, {}})->entry;
   }
 
   std::vector<Object> finish(Remarks& remarks) {
-    std::vector<Object> out;
-    out.reserve(objects.size());
-    for (auto& [index, builder] : objects) {
-      if (!builder.described) {
-        remarks.add(Deviation::sub_without_object, builder.first, to_string(index));
-        if (builder.subs.empty()) continue;
-        builder.object.entry.at = builder.first;
-        builder.object.described = false;
-      }
-      for (auto& [sub, entry] : builder.subs) builder.object.subs.push_back({sub, std::move(entry)});
-      out.push_back(std::move(builder.object));
+    if (!std::ranges::is_sorted(objects_, {}, &Object::index))
+      std::ranges::sort(objects_, {}, &Object::index);
+    for (const auto& object : objects_) {
+      if (!object.described)
+        remarks.add(Deviation::sub_without_object, object.entry.at, to_string(object.index));
     }
-    return out;
+    std::erase_if(objects_, [](const Object& object) { return !object.described && object.subs.empty(); });
+    return std::move(objects_);
   }
+
+ private:
+  std::vector<Object> objects_;
+  std::map<Index, std::size_t> places_;
 };
 
 class Reader {
@@ -130,10 +159,16 @@ class Reader {
   }
 
   EdsFile read() {
+    std::vector<SectionName> names;
+    names.reserve(file_.sections().size());
+    for (const auto& section : file_.sections()) names.push_back(parse_section_name(section.name));
+    pile_.expect(
+        static_cast<std::size_t>(std::ranges::count(names, SectionKind::object, &SectionName::kind)));
+    auto next_name = names.begin();
     for (const auto& section : file_.sections()) {
-      const auto name = parse_section_name(section.name);
+      const auto& name = *next_name++;
       // Of a section that is there twice the first counts; the others have been remarked.
-      if (file_.find(section.name) != &section) continue;
+      if (section.repeated) continue;
       if (name.odd_form) out_.remarks.add(Deviation::section_name_form, section.at, section.name);
       take(section, name);
     }
@@ -179,16 +214,16 @@ class Reader {
       case SectionKind::comments: list(taker, section, out_.comments, "Lines", "Line"); break;
       case SectionKind::supported_modules: list(taker, section, out_.supported_modules, "NrOfEntries"); break;
       case SectionKind::names:
-        list(taker, section, pile_.at(name.index, section.at).object.names, "NrOfEntries");
+        list(taker, section, pile_.object(name.index, section.at).lists.edit().names, "NrOfEntries");
         break;
       case SectionKind::values:
-        list(taker, section, pile_.at(name.index, section.at).object.values, "NrOfEntries");
+        list(taker, section, pile_.object(name.index, section.at).lists.edit().values, "NrOfEntries");
         break;
       case SectionKind::denotations:
-        list(taker, section, pile_.at(name.index, section.at).object.denotations, "NrOfEntries");
+        list(taker, section, pile_.object(name.index, section.at).lists.edit().denotations, "NrOfEntries");
         break;
       case SectionKind::links:
-        list(taker, section, pile_.at(name.index, section.at).object.links, "ObjectLinks");
+        list(taker, section, pile_.object(name.index, section.at).lists.edit().links, "ObjectLinks");
         break;
       case SectionKind::object:
       case SectionKind::sub_object: object(taker, section, name, pile_); break;
@@ -226,18 +261,18 @@ class Reader {
   }
 
   void object(Taker& taker, const IniSection& section, const SectionName& name, Pile& pile) {
-    auto& builder = pile.at(name.index, section.at);
+    auto& object = pile.object(name.index, section.at);
     const bool is_sub = name.kind == SectionKind::sub_object || name.kind == SectionKind::fixed_sub_object;
     // Written in two ways ([1018sub1] and [1018sub01]) they are still one; what came first counts.
-    auto& entry = is_sub ? builder.subs[name.sub] : builder.object.entry;
-    if (entry.at.known())
+    auto& entry = is_sub ? Pile::sub_entry(object, name.sub) : object.entry;
+    if (is_sub ? entry.at.known() : object.described)
       out_.remarks.add(Deviation::duplicate_section, section.at, section.name, entry.at);
     else
       entry.at = section.at;
     taker.fields(entry, std::span<const FieldRow<Entry>>(entry_fields));
     if (is_sub) return;
-    builder.described = true;
-    taker.fields(builder.object, std::span<const FieldRow<Object>>(object_fields));
+    object.described = true;
+    taker.fields(object, std::span<const FieldRow<Object>>(object_fields));
   }
 
   void module(Taker& taker, const IniSection& section, const SectionName& name) {
@@ -274,7 +309,8 @@ class Reader {
     };
     return out_.commissioning.present || !out_.file_info.last_eds.empty() ||
            std::ranges::any_of(out_.objects, [&](const Object& object) {
-             return object.values.present || object.denotations.present || configured(object.entry) ||
+             return object.lists->values.present || object.lists->denotations.present ||
+                    configured(object.entry) ||
                     std::ranges::any_of(object.subs, [&](const auto& sub) { return configured(sub.entry); });
            });
   }

@@ -63,9 +63,10 @@ LintReport Findings::finish() {
 }
 
 LintReport lint(const EdsFile& file) {
-  auto expanded = expand(file);
-  const auto& objects = expanded ? *expanded : file.objects;
-  Subject subject{file, objects, {}, {}};
+  // Most files write everything out: then there is nothing to copy.
+  const auto expanded = implies_entries(file) ? expand(file) : std::vector<Object>();
+  const bool in_full = expanded && !expanded->empty();
+  Subject subject{file, in_full ? *expanded : file.objects, {}, {}};
   if (!expanded) {
     subject.expansion_fault = expanded.error().what;
     for (const auto& object : file.objects) {

@@ -56,7 +56,7 @@ void check(const Subject& subject, Findings& findings) {
     if (size > 254)
       findings.add(bad_size, object.compact_sub_obj.at,
                    fmt::format("{}: CompactSubObj {} is above 254", name, size));
-    for (const auto* list : {&object.names, &object.values, &object.denotations})
+    for (const auto* list : {&object.lists->names, &object.lists->values, &object.lists->denotations})
       check_list(*list, size, findings);
     if (size == 0) continue;
     if (number_of(object.sub_number).value_or(0) > 0)

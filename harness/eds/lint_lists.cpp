@@ -137,7 +137,7 @@ class Check {
 
   void links() {
     for (const auto& object : file_.objects) {
-      const auto& list = object.links;
+      const auto& list = object.lists->links;
       if (!list.present) continue;
       const auto count = number_of(list.count).value_or(0);
       if (count != list.entries.size())
