@@ -110,9 +110,11 @@ std::string coverage_page(const std::vector<CoveredRule>& rules) {
     out += fmt::format("\n## {}\n\n| rule | judged by | violated by |\n|---|---|---|\n", area.name);
     for (const auto& rule : rules) {
       if (rule.requirement->area != area.name) continue;
-      const auto judged = rule.judged()           ? code_list(rule.scenarios, 4)
-                          : rule.reason().empty() ? std::string("*to come*")
-                                                  : std::string("*left out*");
+      const auto judged = rule.judged()            ? code_list(rule.scenarios, 4)
+                          : !rule.reason().empty() ? std::string("*left out*")
+                          : rule.requirement->planned.empty()
+                              ? std::string("*to come*")
+                              : "*to come with " + rule.requirement->planned + "*";
       out += fmt::format("| {} | {} | {} |\n", rule.requirement->id, judged, code_list(rule.defects, 4));
     }
   }

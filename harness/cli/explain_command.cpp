@@ -38,6 +38,7 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   out += paragraph("proof",
                    requirement.proof.empty() ? "" : requirement.proof + ": " + requirement.proof_reason);
   out += paragraph("left out", requirement.not_judged);
+  out += paragraph("to come with", requirement.planned);
   out += paragraph("note", requirement.note);
   out += paragraph("source", "suites/" + requirement.file + ":" + std::to_string(requirement.line));
   std::string scenarios;

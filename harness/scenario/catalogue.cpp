@@ -40,6 +40,7 @@ Requirement read_requirement(const yaml::Field& item) {
   out.proof = fields.optional("proof").one_of({"manual", "reference node only"}).value_or("");
   out.proof_reason = fields.optional("proof_reason").text().value_or("");
   out.not_judged = fields.optional("not_judged").text().value_or("");
+  out.planned = fields.optional("planned").text().value_or("");
   if (out.proof.empty() != out.proof_reason.empty()) item.error("'proof' and 'proof_reason' go together");
   out.line = item.node()->position().line;
   return out;

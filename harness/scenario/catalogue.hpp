@@ -32,6 +32,7 @@ struct Requirement {
   std::string proof;  ///< "", "manual", "reference node only"
   std::string proof_reason;
   std::string not_judged;  ///< why no scenario decides it, where that is meant to stay so
+  std::string planned;     ///< which scenarios will decide it, where none does yet
   std::string area;
   std::string file;  ///< relative to the suites
   int line = 0;
