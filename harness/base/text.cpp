@@ -124,6 +124,17 @@ std::optional<std::uint64_t> parse_number(std::string_view text) {
   return decimal_value(text);
 }
 
+std::optional<NumberRange> parse_number_range(std::string_view text) {
+  const auto dots = text.find("..");
+  const auto low = parse_number(text.substr(0, dots));
+  if (!low) return std::nullopt;
+  if (dots == std::string_view::npos) return NumberRange{*low, *low};
+  const auto upper = text.substr(dots + 2);
+  if (upper.empty()) return NumberRange{*low, ~std::uint64_t{0}};
+  const auto high = parse_number(upper);
+  return high ? std::optional(NumberRange{*low, *high}) : std::nullopt;
+}
+
 std::optional<Multiplexer> parse_multiplexer(std::string_view text) {
   const std::size_t colon = text.find(':');
   const auto index = marked_hex_value(text.substr(0, colon));

@@ -33,6 +33,13 @@ namespace conform {
 /// Unsigned number in one of our forms: "17", "1Fh", "0x1F", "0609 0030h". A leading zero without h or 0x,
 /// signs, underscores and anything else are refused (nullopt): YAML readers disagree on them.
 [[nodiscard]] std::optional<std::uint64_t> parse_number(std::string_view text);
+/// Both ends belong to it.
+struct NumberRange {
+  std::uint64_t low = 0, high = 0;
+  [[nodiscard]] constexpr bool holds(std::uint64_t value) const { return value >= low && value <= high; }
+};
+/// "2000h..5FFFh", "4" (from 4 to 4), "15.." (no upper end); the numbers as in parse_number.
+[[nodiscard]] std::optional<NumberRange> parse_number_range(std::string_view text);
 /// "1003h:00", "1003h" (sub-index 00h), "0x1003:0x00"; the sub-index is hexadecimal with or without h.
 [[nodiscard]] std::optional<Multiplexer> parse_multiplexer(std::string_view text);
 /// "100 ms", "1 s", "1.5 s", "250 us", "2 min": a unit is mandatory, up to nine decimals, at most 24 h.

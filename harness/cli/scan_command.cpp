@@ -34,12 +34,10 @@ std::atomic<int> stop_signal{0};
 void on_signal(int signal) { stop_signal = signal; }
 
 Result<engine::IndexRange> range_of(std::string_view text) {
-  const auto dots = text.find("..");
-  const auto low = parse_number(text.substr(0, dots));
-  const auto high = dots == std::string_view::npos ? low : parse_number(text.substr(dots + 2));
-  if (!low || !high || *low > *high || *high > 0xFFFF || *low == 0)
+  const auto range = parse_number_range(text);
+  if (!range || range->low > range->high || range->high > 0xFFFF || range->low == 0)
     return fail("'" + std::string(text) + "' is no range of indices", {}, "--range 2000h..2FFFh");
-  return engine::IndexRange{static_cast<std::uint16_t>(*low), static_cast<std::uint16_t>(*high)};
+  return engine::IndexRange{static_cast<std::uint16_t>(range->low), static_cast<std::uint16_t>(range->high)};
 }
 
 /// Reads through `transport` and makes the text.

@@ -59,23 +59,17 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
     return Clause([type = *type](const Entry& entry) { return entry.type == type; });
   }
   if (words.front() == "size" && words.size() == 2) {
-    const auto dots = words[1].find("..");
-    const auto low = parse_number(words[1].substr(0, dots));
-    const auto high = dots == std::string_view::npos ? low : parse_number(words[1].substr(dots + 2));
-    if (!low || !high) return fail("'size' needs a number of bytes or a range", {}, "size 4, size 2..8");
-    return Clause([low = *low, high = *high](const Entry& entry) {
+    const auto range = parse_number_range(words[1]);
+    if (!range) return fail("'size' needs a number of bytes or a range", {}, "size 4, size 2..8");
+    return Clause([range = *range](const Entry& entry) {
       const auto size = entry.size();
-      return size && *size >= low && *size <= high;
+      return size && range.holds(*size);
     });
   }
   if (words.front() == "index" && words.size() == 2) {
-    const auto dots = words[1].find("..");
-    const auto low = parse_number(words[1].substr(0, dots));
-    const auto high = dots == std::string_view::npos ? low : parse_number(words[1].substr(dots + 2));
-    if (!low || !high) return fail("'index' needs a range", {}, "index 2000h..5FFFh");
-    return Clause([low = *low, high = *high](const Entry& entry) {
-      return entry.mux.index.value() >= low && entry.mux.index.value() <= high;
-    });
+    const auto range = parse_number_range(words[1]);
+    if (!range) return fail("'index' needs a range", {}, "index 2000h..5FFFh");
+    return Clause([range = *range](const Entry& entry) { return range.holds(entry.mux.index.value()); });
   }
   struct Word {
     std::string_view word;
@@ -125,12 +119,9 @@ Result<Query::Holding> parse_holding(const std::vector<std::string_view>& words)
     return fail("'holding' needs a number or range of bytes", {}, "holding 15.. bytes, holding 8 bytes");
   };
   if (words.size() != 3 || words[2] != "bytes") return wrong();
-  const auto dots = words[1].find("..");
-  const auto low = parse_number(words[1].substr(0, dots));
-  const auto high_text = dots == std::string_view::npos ? words[1] : words[1].substr(dots + 2);
-  const auto high = high_text.empty() ? std::optional(~std::uint64_t{0}) : parse_number(high_text);
-  if (!low || !high || *low > *high) return wrong();
-  return Query::Holding{*low, *high};
+  const auto range = parse_number_range(words[1]);
+  if (!range || range->low > range->high) return wrong();
+  return Query::Holding{range->low, range->high};
 }
 
 }  // namespace

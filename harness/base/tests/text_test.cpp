@@ -3,7 +3,10 @@
 #include "base/text.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include "catch.hpp"
 
@@ -226,4 +229,20 @@ TEST_CASE("Printable output is printable: a second pass changes nothing") {
   for (int i = 255; i >= 0; --i) all += static_cast<char>(i);
   const std::string once = printable(all);
   CHECK(printable(once) == once);
+}
+
+TEST_CASE("A range of numbers has two ends, one, or no upper one") {
+  const auto range = [](std::string_view text) {
+    const auto parsed = parse_number_range(text);
+    return parsed ? std::pair(parsed->low, parsed->high) : std::pair(std::uint64_t{1}, std::uint64_t{0});
+  };
+  CHECK(range("2000h..5FFFh") == std::pair(std::uint64_t{0x2000}, std::uint64_t{0x5FFF}));
+  CHECK(range("4") == std::pair(std::uint64_t{4}, std::uint64_t{4}));
+  CHECK(range("15..") == std::pair(std::uint64_t{15}, ~std::uint64_t{0}));
+  for (const std::string_view wrong : {"", "..", "..5", "2000h..x", "4...5", "a..b"}) {
+    CAPTURE(wrong);
+    CHECK_FALSE(parse_number_range(wrong).has_value());
+  }
+  CHECK(parse_number_range("1..3")->holds(3));
+  CHECK_FALSE(parse_number_range("1..3")->holds(4));
 }
