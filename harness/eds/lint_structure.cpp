@@ -112,7 +112,10 @@ constexpr Row rows[] = {
      "the standard spells it [DeviceComissioning]", "many tools know only the spelling of the standard"},
     {Deviation::xml_bad_index, &xml_bad_index, "'{}' is no index", {}},
     {Deviation::xml_no_object_list, &xml_no_object_list, "no CANopenObjectList", {}},
-    {Deviation::xml_unknown_reference, &xml_reference, "no parameter has the uniqueID '{}'", {}},
+    {Deviation::xml_unknown_reference,
+     &xml_reference,
+     "no parameter or template of this kind has the uniqueID '{}'",
+     {}},
     {Deviation::xml_duplicate_object, &xml_duplicate, "{} is there a second time", {}},
     {Deviation::xml_unknown_mapping, &xml_mapping, "'{}' is no PDOmapping", {}},
 };

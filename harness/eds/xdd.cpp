@@ -38,15 +38,10 @@ struct AccessName {
   std::string_view attribute;
   std::string_view access;
 };
-/// The access of a parameter; "read" is the schema's default.
+/// The access of a parameter.
 constexpr AccessName access_names[] = {
-    {"", "ro"},
-    {"read", "ro"},
-    {"write", "wo"},
-    {"readWrite", "rw"},
-    {"const", "const"},
-    {"readWriteInput", "rww"},
-    {"readWriteOutput", "rwr"},
+    {"read", "ro"},           {"write", "wo"},           {"readWrite", "rw"},
+    {"const", "const"},       {"readWriteInput", "rww"}, {"readWriteOutput", "rwr"},
     {"noAccess", "noAccess"},
 };
 
@@ -115,7 +110,9 @@ class XddReader {
       object_lists_.push_back(node);
       return true;
     }
-    if (name == "parameter" || name == "array" || name == "enum" || name == "derived") {
+    static constexpr std::string_view referred_to[] = {
+        "parameter", "parameterTemplate", "allowedValuesTemplate", "array", "enum", "derived"};
+    if (std::ranges::find(referred_to, name) != std::end(referred_to)) {
       if (const auto id = node.attribute("uniqueID")) by_id_.try_emplace(id.value(), node);
     }
     if (name == "dummy") dummy(node);
@@ -279,6 +276,29 @@ class XddReader {
       return;
     }
     const auto& parameter = found->second;
+    take(parameter, into);
+    // CiA 311: what the parameter leaves out is in its template.
+    if (const auto other = referred(parameter, "templateIDRef", "parameterTemplate")) take(other, into);
+    const auto at = text_.position(parameter);
+    // The default of the schema.
+    if (into.access_type.empty() && object_code(into) == ObjectCode::var)
+      into.access_type = {"ro", at, at, true};
+  }
+
+  /// The element of this kind that the attribute names; a null node when there is no attribute, or no such
+  /// element.
+  pugi::xml_node referred(const pugi::xml_node& node, const char* attribute, std::string_view kind) {
+    const auto reference = node.attribute(attribute);
+    if (!reference) return {};
+    const auto found = by_id_.find(reference.value());
+    if (found != by_id_.end() && local_name(found->second) == kind) return found->second;
+    out_.remarks.add(Deviation::xml_unknown_reference, text_.attribute(node, attribute).at,
+                     reference.value());
+    return {};
+  }
+
+  /// What a parameter or its template says of an entry that says nothing itself.
+  void take(const pugi::xml_node& parameter, Entry& into) {
     const auto at = text_.position(parameter);
     const auto type = type_of(parameter);
     const auto fill = [](Field& field, Field from) {
@@ -292,7 +312,9 @@ class XddReader {
       into.access_type = {std::string(access->access), at, at, true};
     fill(into.default_value, text_.attribute(child(parameter, "defaultValue"), "value"));
     fill(into.parameter_value, text_.attribute(child(parameter, "actualValue"), "value"));
-    const auto range = child(child(parameter, "allowedValues"), "range");
+    const auto allowed = child(parameter, "allowedValues");
+    auto range = child(allowed, "range");
+    if (!range) range = child(referred(allowed, "templateIDRef", "allowedValuesTemplate"), "range");
     fill(into.low_limit, text_.attribute(child(range, "minValue"), "value"));
     fill(into.high_limit, text_.attribute(child(range, "maxValue"), "value"));
   }

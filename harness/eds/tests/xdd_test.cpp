@@ -79,6 +79,41 @@ TEST_CASE("What an object leaves open comes from the parameter it refers to") {
   CHECK(mode->parameter_value.text == "3");
 }
 
+TEST_CASE("What a parameter leaves open comes from its template") {
+  const std::string xml =
+      R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.1">
+<ISO15745Profile><ProfileBody><ApplicationProcess>
+<templateList>
+<parameterTemplate uniqueID="PERCENT" access="readWrite"><USINT/><defaultValue value="50"/>
+<allowedValues templateIDRef="UP_TO_100"/></parameterTemplate>
+<allowedValuesTemplate uniqueID="UP_TO_100"><range><minValue value="0"/><maxValue value="100"/></range></allowedValuesTemplate>
+</templateList>
+<parameterList>
+<parameter uniqueID="OPENING" templateIDRef="PERCENT"><defaultValue value="25"/></parameter>
+<parameter uniqueID="LOST" templateIDRef="OPENING"><USINT/></parameter>
+</parameterList>
+</ApplicationProcess></ProfileBody></ISO15745Profile>
+<ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>
+<CANopenObject index="2000" name="Opening" objectType="7" uniqueIDRef="OPENING"/>
+<CANopenObject index="2001" name="Lost" objectType="7" uniqueIDRef="LOST"/>
+</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile>
+</ISO15745ProfileContainer>)";
+  const auto file = eds::read(xml, "a.xdd");
+  REQUIRE(file);
+  const auto* opening = file->find(Multiplexer{Index(0x2000), SubIndex(0)});
+  REQUIRE(opening != nullptr);
+  CHECK(data_type(*opening) == 5);
+  CHECK(access(*opening) == Access::rw);
+  CHECK(opening->default_value.text == "25");
+  CHECK(opening->low_limit.text == "0");
+  CHECK(opening->high_limit.text == "100");
+  CHECK(opening->high_limit.at.line == 6);
+  // A parameter is no template.
+  REQUIRE(file->remarks.all().size() == 1);
+  CHECK(file->remarks.all()[0].what == Deviation::xml_unknown_reference);
+  CHECK(file->remarks.all()[0].at.line == 10);
+}
+
 TEST_CASE("Broken, foreign and hostile XML is refused with its place") {
   const auto where = [](const std::string& xml) {
     const auto file = eds::read(xml, "a.xdd");
