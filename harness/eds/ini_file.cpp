@@ -75,6 +75,10 @@ class IniParser {
     only_plain_ = std::ranges::none_of(bytes_, [](char c) {
       return static_cast<unsigned char>(c) >= 0x80 || (is_control(c) && c != '\r' && c != '\n');
     });
+    const auto sections = std::min<std::size_t>(static_cast<std::size_t>(std::ranges::count(bytes_, '[')),
+                                                IniFile::most_sections);
+    file_.sections_.reserve(sections);
+    file_.first_by_name_.reserve(sections);
     std::size_t begin = 0;
     if (bytes_.starts_with(utf8_mark)) {
       remark(Deviation::byte_order_mark, 0);

@@ -118,14 +118,19 @@ class Pile {
   void expect(std::size_t count) { objects_.reserve(std::min<std::size_t>(count, 0x10000)); }
 
   Object& object(Index index, Position position) {
-    const auto [place, fresh] = places_.try_emplace(index, objects_.size());
-    if (fresh) {
-      objects_.emplace_back();
-      objects_.back().index = index;
-      objects_.back().described = false;
-      objects_.back().entry.at = position;  // for a sub-object without object
+    if (!objects_.empty() && objects_.back().index == index) return objects_.back();
+    if (places_.empty() && !objects_.empty() && index < objects_.back().index) {
+      for (std::size_t i = 0; i < objects_.size(); ++i) places_.emplace(objects_[i].index, i);
     }
-    return objects_[place->second];
+    if (!places_.empty()) {
+      const auto [place, fresh] = places_.try_emplace(index, objects_.size());
+      if (!fresh) return objects_[place->second];
+    }
+    auto& object = objects_.emplace_back();
+    object.index = index;
+    object.described = false;
+    object.entry.at = position;  // for a sub-object without object
+    return object;
   }
 
   /// The entry of a sub-index; it stays where it is until the next call.
@@ -148,7 +153,7 @@ class Pile {
 
  private:
   std::vector<Object> objects_;
-  std::map<Index, std::size_t> places_;
+  std::map<Index, std::size_t> places_;  ///< empty as long as the indices come in their order
 };
 
 class Reader {
