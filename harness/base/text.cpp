@@ -132,7 +132,7 @@ std::optional<NumberRange> parse_number_range(std::string_view text) {
   const auto upper = text.substr(dots + 2);
   if (upper.empty()) return NumberRange{*low, ~std::uint64_t{0}};
   const auto high = parse_number(upper);
-  return high ? std::optional(NumberRange{*low, *high}) : std::nullopt;
+  return high && *high >= *low ? std::optional(NumberRange{*low, *high}) : std::nullopt;
 }
 
 std::optional<Multiplexer> parse_multiplexer(std::string_view text) {

@@ -38,7 +38,7 @@ struct NumberRange {
   std::uint64_t low = 0, high = 0;
   [[nodiscard]] constexpr bool holds(std::uint64_t value) const { return value >= low && value <= high; }
 };
-/// "2000h..5FFFh", "4" (from 4 to 4), "15.." (no upper end); the numbers as in parse_number.
+/// "2000h..5FFFh", "4" (from 4 to 4), "15.." (no upper end), never downwards; the numbers as in parse_number.
 [[nodiscard]] std::optional<NumberRange> parse_number_range(std::string_view text);
 /// "1003h:00", "1003h" (sub-index 00h), "0x1003:0x00"; the sub-index is hexadecimal with or without h.
 [[nodiscard]] std::optional<Multiplexer> parse_multiplexer(std::string_view text);

@@ -35,7 +35,7 @@ void on_signal(int signal) { stop_signal = signal; }
 
 Result<engine::IndexRange> range_of(std::string_view text) {
   const auto range = parse_number_range(text);
-  if (!range || range->low > range->high || range->high > 0xFFFF || range->low == 0)
+  if (!range || range->high > 0xFFFF || range->low == 0)
     return fail("'" + std::string(text) + "' is no range of indices", {}, "--range 2000h..2FFFh");
   return engine::IndexRange{static_cast<std::uint16_t>(range->low), static_cast<std::uint16_t>(range->high)};
 }

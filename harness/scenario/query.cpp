@@ -120,7 +120,7 @@ Result<Query::Holding> parse_holding(const std::vector<std::string_view>& words)
   };
   if (words.size() != 3 || words[2] != "bytes") return wrong();
   const auto range = parse_number_range(words[1]);
-  if (!range || range->low > range->high) return wrong();
+  if (!range) return wrong();
   return Query::Holding{range->low, range->high};
 }
 

@@ -78,6 +78,8 @@ TEST_CASE("Clauses on access, type and size select by the description") {
   CHECK(selected("entries with not writable and not size 4") == "1008h:00 1800h:00");
   CHECK(selected("entries with type VISIBLE_STRING") == "1008h:00");
   CHECK(selected("entries with size 2..4") == "1000h:00 1400h:01 2000h:00");
+  CHECK(selected("entries with size 3..") == selected("entries with size 4..8"));
+  CHECK(selected("entries with index 2001h..") == "2001h:00 2002h:01");
   CHECK(selected("entries with not fixed size") == "1008h:00 2001h:00");
   CHECK(selected("entries with domain") == "2001h:00");
   CHECK(selected("entries with integer and index 2000h..2FFFh") == "2000h:00 2002h:01");
@@ -116,7 +118,9 @@ TEST_CASE("A query that cannot be read says which word is wrong") {
   CHECK(refusal("entries with access rx") == "unknown access 'rx' (ro, wo, rw, rwr, rww or const)");
   CHECK(refusal("entries with type UINT8") == "unknown data type 'UINT8'");
   CHECK(refusal("entries with size big") == "'size' needs a number of bytes or a range (size 4, size 2..8)");
-  CHECK(refusal("entries with index 2000h..") == "'index' needs a range (index 2000h..5FFFh)");
+  CHECK(refusal("entries with size 8..2") == "'size' needs a number of bytes or a range (size 4, size 2..8)");
+  CHECK(refusal("entries with index 5FFFh..2000h") == "'index' needs a range (index 2000h..5FFFh)");
+  CHECK(refusal("entries with index 2000h..x") == "'index' needs a range (index 2000h..5FFFh)");
 }
 
 TEST_CASE("Thousands of 'not' in a query do not end on the stack") {
