@@ -104,7 +104,8 @@ Accepted CobIdRules::check(ByteView bytes) const {
   if (moved && (fault.change_refused || choice.only_valid_bit)) return refuse(choice.locked);
   const bool lockable = locked(wanted) || choice.locked_by_former_value;
   if (moved && locked(present) && lockable && !fault.lock_missing) return refuse(choice.locked);
-  const bool looked_at = active(wanted) || choice.restricted_always;
+  // 000h in an entry that is not valid names no CAN-ID yet: the default of many of them (8000 0000h).
+  const bool looked_at = active(wanted) || (choice.restricted_always && (wanted & can_id_mask) != 0);
   if (looked_at && restricted_can_id(wanted & can_id_mask) && !fault.restricted_accepted)
     return refuse(choice.restricted);
   return {};

@@ -334,6 +334,7 @@ class Run {
     }
     for (const auto& left : report->left)
       out_.notes.push_back(out.name() + ": could not be put back: " + left);
+    if (!report->left.empty()) session_.note_left_changed();
     return let_emcy_end(out.first_frame);
   }
 

@@ -43,7 +43,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool claims(std::string_view feature) const override;
   [[nodiscard]] std::size_t error_triggers() const override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
-  [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults; }
+  /// What the run itself could not put back may come back with each reset where the device stores by itself.
+  [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults && !left_changed_; }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
   [[nodiscard]] Result<steps::Value> declared(Multiplexer object, steps::Declared what) override;
   [[nodiscard]] bool is_described() const override { return !profile_.objects.empty(); }
@@ -106,6 +107,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::optional<std::size_t> take_reset();
   [[nodiscard]] bool silence_seen() const { return silence_seen_; }
   void clear_silence_seen() { silence_seen_ = false; }
+  /// A value could not be put back.
+  void note_left_changed() { left_changed_ = true; }
   /// Uploads that judge nothing and open no window.
   [[nodiscard]] Result<steps::SdoAnswer> peek(Multiplexer object);
 
@@ -128,6 +131,7 @@ class RunSession final : public steps::Session {
   std::map<Multiplexer, bool> writable_;
   std::vector<Change> journal_;
   std::size_t resets_ = 0;
+  bool left_changed_ = false;
   std::map<Multiplexer, Bytes> before_write_;
   steps::Window window_;
   std::optional<bool> offers_block_upload_, offers_block_download_;  ///< once tried

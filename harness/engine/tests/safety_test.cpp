@@ -122,6 +122,37 @@ TEST_CASE("a value that cannot be put back is said in the notes") {
   CHECK(out.run.notes.front().find("1017h:00") != std::string::npos);
 }
 
+TEST_CASE("after a value could not be put back nothing is said to be a factory default") {
+  auto profile = device::default_profile(NodeId(1));
+  profile.factory_defaults = true;
+  const std::string defaults = R"(
+  - id: defaults
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+        when: factory defaults are active
+        expect: {value: 0}
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+        unless: factory defaults are active
+        expect: {value: 0}
+        warn: ok
+)";
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  // Takes one value and keeps it: a device that stores by itself and refuses what it had before.
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] != 0x2B || self.writes.empty()) return false;
+    self.abort(frame, 0x08000000);
+    return true;
+  };
+  const auto out = play(bus, device, change_1017 + defaults, {}, profile);
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[1].verdict == Verdict::warn);
+}
+
 TEST_CASE("when nothing is heard every case is an error, none a failure, and the exit code is 3") {
   can::SimulatedBus bus;
   ScriptedDevice device;
