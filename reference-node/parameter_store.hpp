@@ -35,8 +35,6 @@ class ParameterStore {
   [[nodiscard]] Entry* storage_fault() const;
   [[nodiscard]] Accepted save(std::uint8_t sub, ByteView signature);
   [[nodiscard]] Accepted restore(std::uint8_t sub, ByteView signature);
-  [[nodiscard]] std::vector<Group> groups_to_save(std::uint8_t sub) const;
-  [[nodiscard]] std::vector<Group> groups_to_restore(std::uint8_t sub) const;
   /// The values to store; what is not stored now keeps the value of `former`.
   [[nodiscard]] Image image_of(Group group, const Image& former) const;
   void load(Group group);
