@@ -67,6 +67,17 @@ TEST_CASE("combinations of legal variants are never failed") {
   for (std::uint64_t number = 0; number < 40; ++number) check(cli::draw_combination(1, number));
 }
 
+TEST_CASE("a device that stores by itself what its restricted CAN-IDs forbid to undo is not failed") {
+  // OD-DSC-03 was failed: the node refused its own default as the restricted CAN-ID 000h, and kept what a
+  // test had written.
+  //   601 [8] 23 28 10 01 81 00 00 80   581 [8] 60 28 10 01 00 00 00 00   1028h:01 = 8000 0081h, stored at
+  //   once 601 [8] 23 28 10 01 00 00 00 80   581 [8] 80 28 10 01 30 00 09 06   0609 0030h 000 [2] 81 01 701
+  //   [1] 00 601 [8] 40 28 10 01 00 00 00 00   581 [8] 43 28 10 01 81 00 00 80   declared default: 8000 0000h
+  cli::Combination combination;
+  combination.variants = {"1010-autonomous-at-once", "restricted-always"};
+  check(combination);
+}
+
 TEST_CASE("rows of the variants are sound") {
   std::set<std::string_view> ids, groups;
   for (const auto& variant : refnode::variants()) {
