@@ -231,20 +231,28 @@ std::string lower(std::string_view text) {
 
 namespace {
 
-/// Damerau-Levenshtein distance (optimal string alignment: one swap of neighbours counts one).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+/// Damerau-Levenshtein distance (optimal string alignment: one swap of neighbours counts one); any number
+/// above `most` when it is above `most`.
+std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t most) {
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  std::size_t least_before = 0;  // of the row `last`
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
+    std::size_t least = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t substitution = last[j - 1] + (a[i - 1] == b[j - 1] ? 0U : 1U);
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, substitution});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         row[j] = std::min(row[j], before[j - 2] + 1);
+      least = std::min(least, row[j]);
     }
+    // What follows is made of these two rows, and none of it becomes less; a swap adds one to the older of
+    // them.
+    if (least > most && least_before + 1 > most) return most + 1;
+    least_before = least;
     std::swap(before, last);
     std::swap(last, row);
   }
@@ -294,7 +302,8 @@ std::string_view did_you_mean(std::string_view word, std::span<const std::string
     const std::size_t longer = std::max(word.size(), candidate.size());
     const std::size_t allowed = std::max<std::size_t>(longer, 3) / 3;
     if (longer - std::min(word.size(), candidate.size()) > allowed) continue;
-    const std::size_t distance = edit_distance(wanted, lower(candidate));
+    const std::size_t distance =
+        edit_distance(wanted, lower(candidate), std::min(allowed, best_distance - 1));
     if (distance > allowed || distance >= best_distance) continue;
     if (distance == longer) continue;  // nothing in common
     best = candidate;
