@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/files.hpp"
 #include "base/text.hpp"
 #include "cli/commands.hpp"
 #include "cli/eds_formats.hpp"
@@ -13,6 +14,7 @@
 #include "cli/terminal.hpp"
 #include "eds/compare.hpp"
 #include "eds/expand.hpp"
+#include "eds/ini_file.hpp"
 #include "eds/read.hpp"
 
 namespace conform::cli {
@@ -23,11 +25,17 @@ using Json = nlohmann::ordered_json;
 EdsLinted lint_file(const std::string& path) {
   EdsLinted out;
   out.file = path;
-  const auto file = eds::read_file(path);
+  auto bytes = read_file(path, eds::IniFile::most_bytes);
+  if (!bytes) {
+    out.unreadable = bytes.error();
+    return out;
+  }
+  const auto file = eds::read(*bytes, path);
   if (!file) {
     out.unreadable = file.error();
     return out;
   }
+  out.bytes = std::move(*bytes);
   out.kind = std::string(to_string(file->format));
   out.report = eds::lint(*file);
   return out;

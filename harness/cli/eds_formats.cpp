@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/excerpt.hpp"
 #include "base/text.hpp"
 
 namespace conform::cli {
@@ -65,6 +67,35 @@ std::string uri(std::string_view path) {
   return out;
 }
 
+/// The lines of a description, ended as its reader takes them: LF, CR LF or CR.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) {
+    while (!text.empty()) {
+      const auto end = std::min(text.find_first_of("\r\n"), text.size());
+      lines_.push_back(text.substr(0, end));
+      text.remove_prefix(std::min(end + (text.substr(end).starts_with("\r\n") ? 2U : 1U), text.size()));
+    }
+  }
+
+  /// In code points, as editors and SARIF count; positions count bytes.
+  [[nodiscard]] int column(eds::Position at) const {
+    if (at.line == 0 || at.line > lines_.size()) return static_cast<int>(at.column);
+    return code_points(lines_[at.line - 1].substr(0, at.column - 1)) + 1;
+  }
+
+  /// Two lines to print: the line of the place, and a caret below it.
+  [[nodiscard]] std::string excerpt_at(eds::Position at, std::string_view tint, std::string_view off) const {
+    // What is missing from the file as a whole stands at its begin.
+    const bool whole_file = at == eds::Position{1, 1};
+    if (whole_file || !at.known() || at.line > lines_.size()) return {};
+    return to_lines(excerpt(lines_[at.line - 1], column(at), 1), static_cast<int>(at.line), tint, off);
+  }
+
+ private:
+  std::vector<std::string_view> lines_;
+};
+
 std::string with_hint(const eds::Finding& finding) {
   return printable(finding.message) + (finding.hint.empty() ? "" : "; " + printable(finding.hint));
 }
@@ -76,6 +107,7 @@ std::string eds_lint_text(const std::vector<EdsLinted>& files, bool colour) {
   const std::string_view bold = colour ? "\x1b[1m" : "";
   std::string out;
   for (const auto& file : files) {
+    const Lines lines(file.bytes);
     for (const auto& finding : file.report.findings) {
       const auto severity = finding.rule->severity;
       const std::string_view tint = !colour                              ? ""
@@ -84,6 +116,7 @@ std::string eds_lint_text(const std::vector<EdsLinted>& files, bool colour) {
                                                                          : "\x1b[1;36m";
       out += fmt::format("{}{}:{}:{} {}{}[{}]:{} {}\n", bold, printable(file.file), to_string(finding.at),
                          off, tint, to_string(severity), finding.rule->code, off, with_hint(finding));
+      out += lines.excerpt_at(finding.at, tint, off);
     }
     if (file.report.left_out > 0)
       out += fmt::format("{}: {} more not shown\n", printable(file.file), file.report.left_out);
@@ -159,11 +192,12 @@ std::string eds_lint_sarif(const std::vector<EdsLinted>& files) {
     if (file.unreadable)
       notifications.push_back(
           {{"level", "error"}, {"message", {{"text", printable(file.unreadable->text())}}}});
+    const Lines lines(file.bytes);
     for (const auto& finding : file.report.findings) {
       Json place;
       place["physicalLocation"]["artifactLocation"]["uri"] = uri(file.file);
       place["physicalLocation"]["region"] = {{"startLine", finding.at.line},
-                                             {"startColumn", finding.at.column}};
+                                             {"startColumn", lines.column(finding.at)}};
       results.push_back({{"ruleId", std::string(finding.rule->code)},
                          {"ruleIndex", places.at(finding.rule->code)},
                          {"level", std::string(to_string(finding.rule->severity))},
@@ -176,7 +210,6 @@ std::string eds_lint_sarif(const std::vector<EdsLinted>& files) {
       {"name", "canopen-conform"}, {"version", CONFORM_VERSION}, {"rules", std::move(rules)}};
   run["invocations"] = Json::array(
       {{{"executionSuccessful", notifications.empty()}, {"toolExecutionNotifications", notifications}}});
-  // Columns count bytes; the nearest unit that SARIF knows.
   run["columnKind"] = "unicodeCodePoints";
   run["results"] = std::move(results);
   Json out;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/excerpt.hpp"
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
-#include "yaml/source.hpp"
 
 namespace conform::steps {
 namespace {
@@ -52,8 +52,8 @@ class LineParser {
     if (at == std::string_view::npos) at = at_;
     at = std::min(at, text_.size());
     // Editors count characters, not bytes.
-    problems_.push_back({number_, yaml::code_points(text_.substr(0, at)),
-                         std::max(yaml::code_points(text_.substr(at, length)), 1), std::move(what),
+    problems_.push_back({number_, code_points(text_.substr(0, at)),
+                         std::max(code_points(text_.substr(at, length)), 1), std::move(what),
                          std::move(hint)});
     return std::nullopt;
   }
@@ -140,8 +140,8 @@ class LineParser {
         at_ = close + 1;
         auto pattern = parse_braces(inside, begin, close - begin + 1);
         if (!pattern) return false;
-        pattern->column = yaml::code_points(text_.substr(0, begin));
-        pattern->length = yaml::code_points(text_.substr(begin, at_ - begin));
+        pattern->column = code_points(text_.substr(0, begin));
+        pattern->length = code_points(text_.substr(begin, at_ - begin));
         line.bytes.push_back(*pattern);
         continue;
       }

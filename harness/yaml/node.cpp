@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/excerpt.hpp"
+
 namespace conform::yaml {
 
 const Node* Node::find(std::string_view key) const {

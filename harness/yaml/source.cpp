@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/excerpt.hpp"
+
 namespace conform::yaml {
 namespace {
 
@@ -25,17 +27,6 @@ constexpr bool is_continuation(char c) { return (static_cast<unsigned char>(c) &
 }  // namespace
 
 std::string to_string(Position position) { return fmt::format("{}:{}", position.line, position.column); }
-
-int code_points(std::string_view text) {
-  int count = 0;
-  bool inside = false;  // behind a lead byte; a stray continuation byte counts for itself
-  for (const char c : text) {
-    const bool continuation = is_continuation(c);
-    if (!continuation || !inside) ++count;
-    inside = continuation ? inside : static_cast<unsigned char>(c) >= 0xC0U;
-  }
-  return count;
-}
 
 Source::Source(std::string name, std::string_view text) : name_(std::move(name)), text_(normalise(text)) {
   line_starts_.push_back(0);

@@ -48,7 +48,4 @@ using SourcePtr = std::shared_ptr<const Source>;
 
 [[nodiscard]] SourcePtr make_source(std::string name, std::string_view text);
 
-/// Code points in a UTF-8 text; a byte of an invalid sequence counts as one.
-[[nodiscard]] int code_points(std::string_view text);
-
 }  // namespace conform::yaml

@@ -43,6 +43,18 @@ class Descriptions(unittest.TestCase):
         self.assertRegex(done.stdout, r"^bad-value-range\.eds:\d+:14: error\[EDS070\]: \[2000\] DefaultValue: 300 is no value of UNSIGNED8\n")
         self.assertIn("2 files, 1 error, 0 warnings, 0 notes", done.stdout)
 
+    def test_a_finding_shows_its_line_and_a_caret_under_the_place(self):
+        for end in (b"\n", b"\r\n", b"\r"):
+            path = self.write("caret.eds", end.join([b"[FileInfo]", b"; \xe4", b"\t[\xc3\xa4 x", b""]))
+            self.assertIn("caret.eds:3:2: error[EDS002]: ", run("lint", path).stdout)
+            self.assertIn("\n    3 |     [\xe4 x\n      |     ^\n", run("lint", path).stdout)
+
+    def test_sarif_counts_characters(self):
+        path = self.write("characters.eds", "[FileInfo]\n[ä] x\n".encode())
+        run_of = json.loads(run("lint", "-f", "sarif", path).stdout)["runs"][0]
+        regions = [result["locations"][0]["physicalLocation"]["region"] for result in run_of["results"]]
+        self.assertIn({"startLine": 2, "startColumn": 5}, regions)
+
     def test_warnings_exit_0_unless_strict(self):
         self.assertEqual(run("lint", fixture("bad-long-line.eds")).returncode, 0)
         self.assertEqual(run("lint", "--strict", fixture("bad-long-line.eds")).returncode, 2)
