@@ -292,6 +292,16 @@ constexpr bool is_harmful(std::uint32_t c) {
 
 }  // namespace
 
+std::size_t code_point_size(std::string_view text) {
+  return std::max<std::size_t>(decode_utf8(text).size, 1);
+}
+
+int code_points(std::string_view text) {
+  int count = 0;
+  for (; !text.empty(); text.remove_prefix(code_point_size(text))) ++count;
+  return count;
+}
+
 std::string_view did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
   const std::string wanted = lower(word);
   std::string_view best;

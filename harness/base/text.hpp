@@ -47,6 +47,16 @@ struct NumberRange {
 /// "2F 03 10 00", "2F031000"; nullopt when not made of whole bytes.
 [[nodiscard]] std::optional<Bytes> parse_bytes(std::string_view text);
 
+/// Whether a byte continues a UTF-8 sequence that another has begun.
+[[nodiscard]] constexpr bool is_utf8_continuation(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+/// Bytes of the first code point of a text that is not empty; a byte that begins no well-formed UTF-8
+/// sequence counts as one.
+[[nodiscard]] std::size_t code_point_size(std::string_view text);
+/// How many of them the text is made of.
+[[nodiscard]] int code_points(std::string_view text);
+
 [[nodiscard]] std::string_view trim(std::string_view text);
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
 [[nodiscard]] std::string join(std::span<const std::string> parts, std::string_view separator);

@@ -78,10 +78,18 @@ class Lines {
     }
   }
 
-  /// In code points, as editors and SARIF count; positions count bytes.
-  [[nodiscard]] int column(eds::Position at) const {
+  /// In code points, as editors and SARIF count; positions count bytes. Ascending positions are counted once.
+  [[nodiscard]] int column(eds::Position at) {
     if (at.line == 0 || at.line > lines_.size()) return static_cast<int>(at.column);
-    return code_points(lines_[at.line - 1].substr(0, at.column - 1)) + 1;
+    if (at.line != counted_.line || at.column < counted_.column) {
+      counted_ = {at.line, 1};
+      counted_column_ = 1;
+    }
+    const auto line = lines_[at.line - 1];
+    const auto begin = std::min<std::size_t>(counted_.column - 1, line.size());
+    counted_column_ += code_points(line.substr(begin, at.column - counted_.column));
+    counted_ = at;
+    return counted_column_;
   }
 
   /// Two lines to print: the line of the place, and a caret below it.
@@ -89,11 +97,13 @@ class Lines {
     // What is missing from the file as a whole stands at its begin.
     const bool whole_file = at == eds::Position{1, 1};
     if (whole_file || !at.known() || at.line > lines_.size()) return {};
-    return to_lines(excerpt(lines_[at.line - 1], column(at), 1), static_cast<int>(at.line), tint, off);
+    return to_lines(excerpt(lines_[at.line - 1], at.column - 1, 1), static_cast<int>(at.line), tint, off);
   }
 
  private:
   std::vector<std::string_view> lines_;
+  eds::Position counted_;  ///< up to where `counted_column_` has counted
+  int counted_column_ = 1;
 };
 
 std::string with_hint(const eds::Finding& finding) {
@@ -192,7 +202,7 @@ std::string eds_lint_sarif(const std::vector<EdsLinted>& files) {
     if (file.unreadable)
       notifications.push_back(
           {{"level", "error"}, {"message", {{"text", printable(file.unreadable->text())}}}});
-    const Lines lines(file.bytes);
+    Lines lines(file.bytes);
     for (const auto& finding : file.report.findings) {
       Json place;
       place["physicalLocation"]["artifactLocation"]["uri"] = uri(file.file);

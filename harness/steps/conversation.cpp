@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/excerpt.hpp"
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 

@@ -56,8 +56,9 @@ std::string Diagnostics::render(bool colour) const {
                        printable(diagnostic.message), diagnostic.hint.empty() ? "" : "; ",
                        printable(diagnostic.hint), off);
     if (diagnostic.begin.line > source_->line_count()) continue;
-    const auto shown =
-        excerpt(source_->line(diagnostic.begin.line), diagnostic.begin.column, diagnostic.length);
+    const auto shown = excerpt(
+        source_->line(diagnostic.begin.line),
+        source_->offset(diagnostic.begin) - source_->offset({diagnostic.begin.line, 1}), diagnostic.length);
     out += to_lines(shown, diagnostic.begin.line, tint, off);
   }
   if (left_out_ > 0) out += fmt::format("{}: {} more not shown\n", printable(source_->name()), left_out_);

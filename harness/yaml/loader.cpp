@@ -14,8 +14,8 @@
 #include <yaml-cpp/parser.h>
 
 #include "base/check.hpp"
-#include "base/excerpt.hpp"
 #include "base/files.hpp"
+#include "base/text.hpp"
 #include "yaml/syntax_error.hpp"
 #include "yaml/text_check.hpp"
 

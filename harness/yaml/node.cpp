@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/excerpt.hpp"
+#include "base/text.hpp"
 
 namespace conform::yaml {
 

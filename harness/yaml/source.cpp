@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/excerpt.hpp"
+#include "base/text.hpp"
 
 namespace conform::yaml {
 namespace {
@@ -21,8 +21,6 @@ std::string normalise(std::string_view text) {
   }
   return out;
 }
-
-constexpr bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 }  // namespace
 
@@ -62,8 +60,7 @@ std::size_t Source::offset(Position position) const {
   const std::string_view text = line(position.line);
   std::size_t at = 0;
   for (int column = 1; column < position.column && at < text.size(); ++column) {
-    ++at;
-    while (at < text.size() && is_continuation(text[at])) ++at;
+    at += code_point_size(text.substr(at));
   }
   return line_starts_[static_cast<std::size_t>(position.line - 1)] + at;
 }
