@@ -277,8 +277,10 @@ class XddReader {
     }
     const auto& parameter = found->second;
     take(parameter, into);
-    // CiA 311: what the parameter leaves out is in its template.
-    if (const auto other = referred(parameter, "templateIDRef", "parameterTemplate")) take(other, into);
+    // CiA 311: what the parameter leaves out is in its template. An element of its own replaces that of the
+    // template, also where it says less: a list of values has no limits.
+    const auto other = referred(parameter, "templateIDRef", "parameterTemplate");
+    if (other) take(other, into, !child(parameter, "allowedValues"));
     const auto at = text_.position(parameter);
     // The default of the schema.
     if (into.access_type.empty() && object_code(into) == ObjectCode::var)
@@ -298,7 +300,7 @@ class XddReader {
   }
 
   /// What a parameter or its template says of an entry that says nothing itself.
-  void take(const pugi::xml_node& parameter, Entry& into) {
+  void take(const pugi::xml_node& parameter, Entry& into, bool limits = true) {
     const auto at = text_.position(parameter);
     const auto type = type_of(parameter);
     const auto fill = [](Field& field, Field from) {
@@ -306,12 +308,16 @@ class XddReader {
     };
     if (into.data_type.empty() && !type.empty() && object_code(into) == ObjectCode::var)
       into.data_type = {std::string(type), at, at, true};
-    const std::string_view wish = parameter.attribute("access").value();
-    const auto* access = std::ranges::find(access_names, wish, &AccessName::attribute);
-    if (into.access_type.empty() && access != std::end(access_names) && object_code(into) == ObjectCode::var)
-      into.access_type = {std::string(access->access), at, at, true};
+    if (into.access_type.empty() && parameter.attribute("access") && object_code(into) == ObjectCode::var) {
+      // A word that nobody knows stays as it is, for the lint to find.
+      into.access_type = text_.attribute(parameter, "access");
+      const std::string_view word = into.access_type.text;
+      const auto* known = std::ranges::find(access_names, word, &AccessName::attribute);
+      if (known != std::end(access_names)) into.access_type.text = known->access;
+    }
     fill(into.default_value, text_.attribute(child(parameter, "defaultValue"), "value"));
     fill(into.parameter_value, text_.attribute(child(parameter, "actualValue"), "value"));
+    if (!limits) return;
     const auto allowed = child(parameter, "allowedValues");
     auto range = child(allowed, "range");
     if (!range) range = child(referred(allowed, "templateIDRef", "allowedValuesTemplate"), "range");

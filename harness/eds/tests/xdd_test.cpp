@@ -114,6 +114,39 @@ TEST_CASE("What a parameter leaves open comes from its template") {
   CHECK(file->remarks.all()[0].at.line == 10);
 }
 
+TEST_CASE("What a parameter says itself replaces its template, and a word nobody knows is kept") {
+  const std::string xml =
+      R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.1">
+<ISO15745Profile><ProfileBody><ApplicationProcess>
+<templateList>
+<parameterTemplate uniqueID="T" access="readWrite"><USINT/>
+<allowedValues><range><minValue value="0"/><maxValue value="10"/></range></allowedValues></parameterTemplate>
+</templateList>
+<parameterList>
+<parameter uniqueID="LIST" templateIDRef="T"><allowedValues><value value="1"/><value value="200"/></allowedValues></parameter>
+<parameter uniqueID="WORD" access="ReadWrite"><USINT/></parameter>
+</parameterList>
+</ApplicationProcess></ProfileBody></ISO15745Profile>
+<ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>
+<CANopenObject index="2000" name="List" objectType="7" uniqueIDRef="LIST"/>
+<CANopenObject index="2001" name="Word" objectType="7" uniqueIDRef="WORD"/>
+</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile>
+</ISO15745ProfileContainer>)";
+  const auto file = eds::read(xml, "a.xdd");
+  REQUIRE(file);
+  const auto* list = file->find(Multiplexer{Index(0x2000), SubIndex(0)});
+  REQUIRE(list != nullptr);
+  CHECK(access(*list) == Access::rw);
+  CHECK(list->low_limit.empty());
+  CHECK(list->high_limit.empty());
+  const auto* word = file->find(Multiplexer{Index(0x2001), SubIndex(0)});
+  REQUIRE(word != nullptr);
+  CHECK_FALSE(access(*word).has_value());
+  CHECK(word->access_type.text == "ReadWrite");
+  CHECK(word->access_type.at.line == 9);
+  CHECK(file->remarks.all().empty());
+}
+
 TEST_CASE("Broken, foreign and hostile XML is refused with its place") {
   const auto where = [](const std::string& xml) {
     const auto file = eds::read(xml, "a.xdd");
