@@ -188,7 +188,7 @@ void check_mappable(const Subject& subject, Findings& findings) {
 /// What is on the bus with one CAN-ID cannot be told apart; only one of the two PDOs can be meant.
 void check_can_ids(const Subject& subject, Findings& findings) {
   constexpr std::uint64_t not_valid = 0x8000'0000;
-  constexpr std::uint64_t can_id = 0x1FFF'FFFF;
+  constexpr std::uint64_t can_id = 0x3FFF'FFFF;  // with bit 29: a base and an extended frame are two
   std::map<std::pair<bool, std::uint64_t>, Index> used;
   for (const auto& object : subject.objects) {
     if (!between(object.index, directions[1].communication, directions[1].communication + range - 1))
