@@ -45,11 +45,11 @@ struct Source {
 
   /// The entry that configures the service.
   [[nodiscard]] std::vector<ObjectReference> concerns() const {
-    const std::string_view entry = service == "heartbeat" || service == "boot-up" ? "1017h:00"
-                                   : service == "emcy"                            ? "1014h:00"
-                                   : service == "sync"                            ? "1005h:00"
-                                   : service == "tpdo 1"                          ? "1800h:01"
-                                                                                  : "";
+    const std::string_view entry = service == "heartbeat" ? "1017h:00"
+                                   : service == "emcy"    ? "1014h:00"
+                                   : service == "sync"    ? "1005h:00"
+                                   : service == "tpdo 1"  ? "1800h:01"
+                                                          : "";
     auto object = ObjectReference::parse(entry);
     return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
   }
