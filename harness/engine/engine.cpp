@@ -174,6 +174,8 @@ class Run {
   Result<void> run_case(const PlannedCase& planned, CaseResult& out) {
     if (auto ready = baseline(*planned.scenario); !ready) {
       out.reason = "not run: " + ready.error().text();
+      // A reset may have brought back what cases before this one wrote.
+      restore_after_fault(nullptr);
       return ready;
     }
     note_losses();
@@ -258,7 +260,8 @@ class Run {
     if (auto ready = enter_pre_operational(); !ready) return ready;
     if (stores_by_itself_ && session_.resets() != resets_looked_at_) {
       resets_looked_at_ = session_.resets();
-      put_back_what_returned();
+      const StopHeld held(recorder_);
+      note_left(put_back_what_returned());
     }
     return {};
   }
@@ -474,32 +477,42 @@ class Run {
       out_.notes.push_back("values may not have been put back: " + report.error().text());
       return;
     }
-    for (const auto& left : report->left) out_.notes.push_back("could not be put back: " + left);
-    put_back_what_returned();
+    note_left(report->left);
+    note_left(put_back_what_returned());
   }
 
-  /// The journal of a case; that its entries were written is remembered for the end of the run.
+  /// The journal of a case; that its entries were written is remembered: a reset may bring back what was
+  /// written.
   std::vector<Change> take_changes() {
     auto changes = session_.take_journal();
     for (const auto& change : changes) written_.insert(change.object);
     return changes;
   }
 
-  /// A device that stores by itself (1010h, bit 1) may have stored what a test wrote, and a later reset
-  /// brought it back after it had been put right. What the run never wrote is left alone: the device changed
-  /// it.
-  void put_back_what_returned() {
+  /// A device that stores by itself (1010h, bit 1, or without saying so) may have stored what a test wrote,
+  /// and a later reset brought it back after it had been put right. What the run never wrote is left alone:
+  /// the device changed it. Gives what could not be put back.
+  std::vector<std::string> put_back_what_returned() {
     std::vector<Change> returned;
     for (const auto& [object, before] : snapshot_) {
       if (!written_.contains(object)) continue;
       const auto found = session_.peek(object);
-      if (!found) return;
+      if (!found) return {};
       if (found->kind == steps::SdoAnswer::Kind::confirmed && found->data != before)
         returned.push_back({object, before});
     }
-    // Errors and what could not be put back show in the comparison that follows.
-    if (returned.empty()) return;
-    [[maybe_unused]] const auto report = restore(session_, std::move(returned));
+    if (returned.empty()) return {};
+    auto report = restore(session_, std::move(returned));
+    // An environment that failed shows in the next step of the run.
+    return report ? std::move(report->left) : std::vector<std::string>{};
+  }
+
+  /// Says once of each value that it could not be put back.
+  void note_left(const std::vector<std::string>& left) {
+    for (const auto& each : left) {
+      session_.note_left_changed();
+      if (left_.insert(each).second) out_.notes.push_back("could not be put back: " + each);
+    }
   }
 
   void note_not_put_back(const std::string& why) {
@@ -523,7 +536,8 @@ class Run {
     {
       const StopHeld held(recorder_);
       leave_in_pre_operational();
-      if (may(scenario::Risk::config)) put_back_what_returned();
+      // What is left shows in the comparison that follows.
+      if (may(scenario::Risk::config)) (void)put_back_what_returned();
     }
     // The same entries, whatever has been learnt about access in between.
     for (const auto& [object, before] : snapshot_) {
@@ -556,6 +570,7 @@ class Run {
   std::size_t trusted_frames_ = 0;  ///< capture's length at that time
   std::map<Multiplexer, Bytes> snapshot_;
   std::set<Multiplexer> written_;  ///< by cases, at any time of the run
+  std::set<std::string> left_;     ///< what the notes say of values that a reset brought back
   bool stores_by_itself_ = false;
   std::size_t resets_looked_at_ = 0;  ///< of session_.resets(): what came back after them has been put right
   Duration emcy_inhibit_{};           ///< 1015h, as found

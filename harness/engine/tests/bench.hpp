@@ -39,6 +39,7 @@ class ScriptedDevice final : public can::Participant {
   std::vector<std::string> writes;  ///< "1017h = E8 03"
   std::vector<std::uint8_t> nmt;    ///< command specifiers received
   Intercept before;
+  std::function<void(ScriptedDevice&)> on_reset;
   bool dead = false;
 
   void attach(Sender sender, BusTime) override { send_ = std::move(sender); }
@@ -57,6 +58,7 @@ class ScriptedDevice final : public can::Participant {
     if (dead) return;
     if (frame.is_data(CanId(0x000)) && frame.size() == 2) {
       nmt.push_back(frame.data[0]);
+      if (frame.data[0] >= 0x81 && on_reset) on_reset(*this);
       if (frame.data[0] >= 0x81) send(can::data_frame(CanId(0x701), {0x00}));
       return;
     }

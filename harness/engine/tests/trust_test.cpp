@@ -103,6 +103,41 @@ TEST_CASE("a stop request in the middle of restoring waits until the values are 
   CHECK(out.run.signal == SIGINT);
 }
 
+TEST_CASE("a run stopped while a reset brings back what a test wrote puts it back all the same") {
+  ScriptedDevice device;
+  std::atomic<int> stop{0};
+  // Stores by itself.
+  device.on_reset = [&stop](ScriptedDevice& self) {
+    if (self.writes.empty()) return;
+    self.entries[0x101700] = {0xE8, 0x03};
+    stop = SIGINT;
+  };
+  auto options = RunOptions{};
+  options.stop = &stop;
+  can::SimulatedBus bus;
+  const auto out = play(bus, device, R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+  - id: next
+    title: t
+    risk: config
+    fresh: node
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+)",
+                        options);
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[0].verdict == Verdict::pass);
+  CHECK(out.run.cases[1].verdict == Verdict::error);
+  CHECK(out.run.aborted == "stopped by the user");
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+}
+
 TEST_CASE("a run stopped while the device is in Stopped puts values back all the same") {
   ScriptedDevice device;
   std::atomic<int> stop{0};
