@@ -85,6 +85,8 @@ class Describer {
 
  private:
   void add_object(const eds::Object& object) {
+    const auto& main = object.entry;
+    out_.places.objects.emplace(object.index, place(main.at.known() ? main.at : main.implied_by));
     const bool structured = eds::is_structured(object);
     auto code = structured ? ObjectCode::record : ObjectCode::var;
     if (const auto written = eds::object_code(object.entry)) {
@@ -107,6 +109,7 @@ class Describer {
     if (!name.empty()) entry.name = printable(name.text);
     const auto at = described.at.known() ? described.at : described.implied_by;
     entry.declared_at = place(at);
+    out_.places.entries.emplace(mux, entry.declared_at);
     read_type(described, standard.has_value(), entry);
     if (const auto access = eds::access(described)) {
       entry.access = access_of(*access);
@@ -243,6 +246,7 @@ void add_description(Profile& profile, Description description) {
     if (!std::ranges::binary_search(listed, entry.mux)) profile.objects.push_back(std::move(entry));
   }
   profile.described_in = description.file;
+  profile.described_places = std::move(description.places);
   if (!profile.claims_given) profile.claims.merge(description.claims);
 }
 

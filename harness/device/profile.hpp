@@ -53,6 +53,13 @@ struct StoreFault {
   TriggerWrite disarm;
 };
 
+/// Where the device description tells of what: "device.eds:120". Also of what no test judges, and of what the
+/// profile says otherwise.
+struct DescribedPlaces {
+  std::map<Index, std::string> objects;
+  std::map<Multiplexer, std::string> entries;
+};
+
 /// Wanted content of 1018h; what is absent is not compared.
 struct Identity {
   std::optional<std::uint32_t> vendor, product, revision, serial;
@@ -93,6 +100,7 @@ struct Profile {
       false;  ///< tests may write every application entry that the description calls writable
   bool factory_defaults = false;  ///< nothing is stored: values after a reset are the defaults
   std::string described_in;       ///< file of the device description, as the user wrote it; empty: none
+  DescribedPlaces described_places;
   Identity identity;
   std::vector<KnownDeviation> deviations;
 

@@ -44,13 +44,15 @@ std::optional<canopen::DataType> type_of(const Step& step, RunSession& session) 
 }
 
 /// Where the description tells of an entry, or that it does not.
-std::string described_at(const device::Dictionary& dictionary, const std::string& file, Multiplexer mux) {
-  const auto* entry = dictionary.find(mux);
-  if (entry != nullptr && !entry->declared_at.empty()) return entry->declared_at;
-  for (const auto& sibling : dictionary.object(mux.index)) {
-    if (!sibling.declared_at.empty()) return sibling.declared_at + ", without " + to_string(mux);
-  }
-  return file + ", without " + to_string(mux.index);
+std::string described_at(const device::Profile& profile, Multiplexer mux) {
+  const auto& [objects, entries] = profile.described_places;
+  if (const auto entry = entries.find(mux); entry != entries.end()) return entry->second;
+  const auto object = objects.find(mux.index);
+  if (object == objects.end()) return profile.described_in + ", without " + to_string(mux.index);
+  // A data type has no entries.
+  const auto first = entries.lower_bound({mux.index, SubIndex(0)});
+  const bool has_entries = first != entries.end() && first->first.index == mux.index;
+  return object->second + (has_entries ? ", without " + to_string(mux) : "");
 }
 
 }  // namespace
@@ -452,7 +454,7 @@ std::string CaseRunner::declared_at(const Step& step, const Actual& actual) cons
   if (about.empty() && instance_object_) about.push_back(*instance_object_);
   std::vector<std::string> places;
   for (const auto mux : about) {
-    auto place = described_at(session_.dictionary(), file, mux);
+    auto place = described_at(session_.profile(), mux);
     if (std::ranges::find(places, place) == places.end()) places.push_back(std::move(place));
   }
   return join(places, "; ");
