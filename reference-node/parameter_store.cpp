@@ -97,7 +97,9 @@ std::vector<Group> ParameterStore::stored_autonomously() const {
   std::vector<Group> out;
   for (std::uint8_t sub = 1; sub <= sub_last; ++sub) {
     if ((device_->dictionary.number(0x1010, sub) & autonomously) == 0) continue;
-    for (const Group group : groups_of(sub, {})) out.push_back(group);
+    for (const Group group : groups_of(sub, {})) {
+      if (!restored_.contains(group)) out.push_back(group);
+    }
   }
   return out;
 }
@@ -166,6 +168,7 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
     return refuse(abort_code::device_state);
   if (!fault.without_effect) {
     if (auto kept = store(groups_of(sub, fault), fault); !kept) return kept;
+    for (const Group group : groups_of(sub, fault)) restored_.erase(group);
   }
   if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
   return {};
@@ -182,6 +185,7 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
     for (const Group group : groups_of(sub, fault)) images.erase(group);
     stamp_.before_restoring(storage_->images(), images);
     if (auto kept = keep(std::move(images), fault); !kept) return kept;
+    for (const Group group : groups_of(sub, fault)) restored_.insert(group);
     if (fault.effective_at_once) {
       for (const Group group : groups_of(sub, fault)) load(group);
     }
@@ -201,6 +205,7 @@ bool ParameterStore::keeps(Group group, bool whole_node) const {
 
 void ParameterStore::load_power_on_values(bool whole_node) {
   store_at_.reset();
+  restored_.clear();
   stamp_.on_reset();
   for (const Group group : all_groups) {
     if (!keeps(group, whole_node)) load(group);

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "configuration_stamp.hpp"
@@ -47,6 +48,7 @@ class ParameterStore {
   Device* device_;
   std::shared_ptr<Storage> storage_;
   std::optional<BusTime> store_at_;  ///< something of them has been written; a reset forgets it
+  std::set<Group> restored_;  ///< their defaults wait for the reset: not stored without a command until then
   ConfigurationStamp stamp_;
 };
 

@@ -104,6 +104,30 @@ TEST_CASE("Load takes effect with the reset, each sub-index for its own paramete
   CHECK(values(bench) == "00 00 / FF / 00");
 }
 
+TEST_CASE("What is stored without a command never undoes load before the reset") {
+  for (const char* variant : {"1010-autonomous", "1010-autonomous-at-once"}) {
+    CAPTURE(variant);
+    Bench bench(Bench::Wanted{{5, {}, {}, {}, {variant}, {}}});
+    bench.wait(100ms);
+    change_all(bench);
+    bench.sdo("23 11 10 01 6C 6F 61 64");
+    bench.sdo("2F 06 62 01 01 00 00 00");
+    bench.wait(6s);
+    reset_node(bench);
+    CHECK(values(bench) == "00 00 / FF / 00");
+    // With the reset it begins again.
+    change_all(bench);
+    bench.wait(6s);
+    reset_node(bench);
+    CHECK(values(bench) == "D0 07 / 00 / 2A");
+    // A command stores, whatever was to be restored.
+    bench.sdo("23 11 10 01 6C 6F 61 64");
+    bench.sdo("23 10 10 01 73 61 76 65");
+    reset_node(bench);
+    CHECK(values(bench) == "D0 07 / 00 / 2A");
+  }
+}
+
 TEST_CASE("A failure of the memory is a hardware error and changes nothing") {
   Bench bench({}, std::make_shared<BrokenStorage>());
   bench.wait(100ms);
