@@ -21,7 +21,9 @@
 #include "cli/selftest.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
+#include "cli/variant_profile.hpp"
 #include "engine/monitor_cases.hpp"
+#include "node.hpp"
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
@@ -52,9 +54,15 @@ void catch_signals() {
 
 Result<KnownDevice> device_of(const RunCommand& options, const std::string& suites) {
   DeviceWords words{options.device, options.eds, options.node};
-  if (options.simulate && words.profile.empty() && words.eds.empty())
-    words.profile = suites + "/devices/reference-node.yaml";
+  const bool of_reference_node = options.simulate && words.profile.empty() && words.eds.empty();
+  if (of_reference_node) words.profile = suites + "/devices/reference-node.yaml";
   auto known = known_device(words, options.simulate ? std::optional(NodeId(5)) : std::nullopt);
+  if (known && of_reference_node && !options.variants.empty()) {
+    auto node = refnode::Node::create(
+        {.node_id = known->profile.node.value(), .defects = {}, .variants = options.variants});
+    if (!node) return std::unexpected(node.error());
+    known->profile = profile_of_variants(known->profile, (*node)->dictionary(), options.variants);
+  }
   if (known && !options.interface.empty()) known->profile.interface = options.interface;
   return known;
 }

@@ -108,7 +108,7 @@ class CommandLine(unittest.TestCase):
         with open(eds, "w", encoding="ascii") as file:
             file.write("\n[".join(sections).lstrip("\n"))
         with open(eds, encoding="ascii") as file:
-            mapping = file.read().splitlines().index("[1600sub0]") + 1
+            mapping = file.read().splitlines().index("[1600]") + 1
         done = run("run", "--simulate", "--eds", eds, "--quiet", "cia301/heartbeat/producer-entry", "cia301/pdo/rpdo-mapping/procedure",
                    "cia301/dictionary/conditional-objects/error-control")
         self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
@@ -116,6 +116,32 @@ class CommandLine(unittest.TestCase):
         for described in (f"{eds}, without 1017h", f"{eds}, without 1017h; {eds}, without 100Ch; {eds}, without 100Dh",
                           f"{eds}:{mapping}, without 1600h:01"):
             self.assertIn(f"described {described} ", text)
+
+    def test_what_the_profile_lists_itself_is_described_all_the_same(self):
+        eds = self.path("device.eds")
+        own = subprocess.run([os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--print-eds"],
+                             capture_output=True, check=True).stdout.decode("ascii")
+        with open(eds, "w", encoding="ascii") as file:
+            file.write(own)
+        line = own.splitlines().index("[1017]") + 1
+        profile = self.path("device.yaml")
+        with open(profile, "w", encoding="ascii") as file:
+            file.write("format: 1\nname: Device\nnode: 1\nobjects:\n  - {object: 1017h:00, default: 0}\n")
+        done = run("run", "--simulate", "--defect", "1017-is-u32", "--device", profile, "--eds", eds, "--quiet",
+                   "cia301/heartbeat/producer-entry")
+        self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
+        text = " ".join(done.stdout.replace("\n  |", " ").split())
+        self.assertIn(f"described {eds}:{line} ", text)
+        self.assertNotIn("without 1017h", text)
+
+    def test_a_legal_variant_of_the_simulated_node_is_described_as_it_is(self):
+        for variant in ("logical-devices", "1017-absent", "1010-communication-only", "1400-bit-30"):
+            with self.subTest(variant=variant):
+                done = run("run", "--simulate", "--quiet", "--variant", variant, "cia301/dictionary", "cia301/storage")
+                self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+        done = run("run", "--simulate", "--variant", "1010-autonomous", "--variant", "1010-communication-only")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("1010-communication-only", done.stderr)
 
     def test_a_device_that_stores_by_itself_is_left_as_it_was_found(self):
         # A reset brings back what a test wrote and the device stored before it was put right.

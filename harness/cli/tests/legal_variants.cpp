@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "can/simulated_bus.hpp"
+#include "cli/variant_profile.hpp"
 #include "engine/engine.hpp"
 #include "neighbours.hpp"
 #include "node.hpp"
@@ -21,60 +22,6 @@ using result::Verdict;
 
 // std::uniform_int_distribution may differ between libraries; this does not, and the bias is of no interest.
 std::uint64_t below(std::mt19937_64& random, std::uint64_t limit) { return random() % limit; }
-
-device::Access access_of(refnode::Access access, device::Access declared) {
-  switch (access) {
-    case refnode::Access::ro: return device::Access::ro;
-    case refnode::Access::wo: return device::Access::wo;
-    case refnode::Access::constant: return device::Access::constant;
-    case refnode::Access::rw: break;
-  }
-  return device::is_writable(declared) && device::is_readable(declared) ? declared : device::Access::rw;
-}
-
-/// The description of the node as it is: what the maker of such a device would write.
-device::Profile describe(const device::Profile& reference, const refnode::ObjectDictionary& dictionary,
-                         const Combination& combination) {
-  device::Profile out = reference;
-  const auto held = [&dictionary](Multiplexer mux) {
-    return dictionary.entry(mux.index.value(), mux.sub.value());
-  };
-  const auto gone = [&held](Multiplexer mux) { return held(mux) == nullptr; };
-  std::erase_if(out.objects, [&gone](const device::Entry& entry) { return gone(entry.mux); });
-  std::erase_if(out.safe_objects, gone);
-  for (device::Entry& entry : out.objects) {
-    const refnode::Entry& node_entry = *held(entry.mux);
-    entry.access = access_of(node_entry.access, entry.access);
-    // A default that is the standard's need not be declared, another one is.
-    if (entry.default_value || node_entry.default_value != node_entry.value ||
-        entry.mux.index == Index(0x1017)) {
-      entry.default_value = node_entry.default_value;
-      entry.default_adds_node_id = false;
-    }
-  }
-  std::erase_if(out.errors, [&](const device::ErrorTrigger& error) {
-    if (error.heartbeat_node) {
-      const auto* consumer = dictionary.entry(0x1016, 1);
-      return consumer == nullptr || consumer->access != refnode::Access::rw;
-    }
-    return (error.raise && gone(error.raise->object)) || (error.clear && gone(error.clear->object));
-  });
-  if (out.store_fault && gone(out.store_fault->arm.object)) out.store_fault.reset();
-  if (held({Index(0x1018), SubIndex(2)}) == nullptr) out.identity.product.reset();
-  if (held({Index(0x1018), SubIndex(3)}) == nullptr) out.identity.revision.reset();
-  if (held({Index(0x1018), SubIndex(4)}) == nullptr) out.identity.serial.reset();
-  for (const std::string& id : combination.variants) {
-    const refnode::Variant* variant = refnode::find_variant(id);
-    if (variant == nullptr) continue;
-    for (const auto word : variant->lacks) out.claims.erase(std::string(word));
-    for (const auto word : variant->gains) out.claims.insert(std::string(word));
-  }
-  // Nothing is mapped variably without PDOs.
-  if (!out.claimed("rpdo") && !out.claimed("tpdo")) out.claims.erase("variable mapping");
-  if (combination.neighbours) out.claims.erase("only node on the bus");
-  out.boot_time = std::chrono::seconds(5);
-  return out;
-}
 
 std::string details_of(const result::Finding& finding) {
   return fmt::format("    {}:{}: {} {} -> {} ({}); passes: {}\n", finding.position.file,
@@ -162,8 +109,10 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
                                      .variants = combination.variants});
   if (!node) return std::unexpected(node.error());
   const NodeId node_id(static_cast<std::uint8_t>(combination.node));
-  device::Profile profile = combination.described ? describe(reference, (*node)->dictionary(), combination)
-                                                  : device::default_profile(node_id);
+  device::Profile profile = combination.described
+                                ? profile_of_variants(reference, (*node)->dictionary(), combination.variants)
+                                : device::default_profile(node_id);
+  if (combination.described && combination.neighbours) profile.claims.erase("only node on the bus");
   profile.node = node_id;
 
   can::SimulatedBus::Options bus_options;
