@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/interpretations.md, "Contradictions between the sources": each names what would tell if the other reading were followed.
 A defect follows the wrong reading, and the kill matrix shows that one of the rules it violates finds it; here it has to be
-one of the paragraph's. A variant is a device that the wrong reading would fail, and the test of the variants runs each.
+one of the paragraph's. A variant is a device that the wrong reading would fail, and the test of the variants runs each; a
+fixture is a description that it would find fault with, and the test of the lint reads each. Of these it is only looked here
+whether they are there.
 Usage: readings_test.py PROGRAM-FOLDER"""
 import os
 import re
@@ -11,7 +13,9 @@ import sys
 import unittest
 
 PROGRAMS = sys.argv.pop(1)
-PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../docs/interpretations.md")
+HERE = os.path.dirname(os.path.abspath(__file__))
+FIXTURES = os.path.join(HERE, "../../eds/tests/fixtures")
+PAGE = os.path.join(HERE, "../../../docs/interpretations.md")
 
 
 def paragraphs():
@@ -61,12 +65,15 @@ class Readings(unittest.TestCase):
                 self.assertIsNotNone(shown, "has no line 'Shown by:'")
                 words = shown.group(1)
                 named = {"defect": [], "variant": []}
-                for kind, names in re.findall(r"(defect|variant)s? ((?:`[^`]+`(?:, )?)+)", words):
-                    named[kind] += re.findall(r"`([^`]+)`", names)
+                fixtures = re.findall(r"fixture `(legal-[^`]+)`", words)
+                for name in fixtures:
+                    self.assertTrue(os.path.isfile(os.path.join(FIXTURES, name)), name)
+                for kind, names in re.findall(r"([Dd]efect|variant)s? ((?:`[^`]+`(?:, )?)+)", words):
+                    named[kind.lower()] += re.findall(r"`([^`]+)`", names)
                 if words.startswith("nothing yet"):
                     self.assertIn("no scenario", words)
                     continue
-                self.assertTrue(named["defect"] or named["variant"], words)
+                self.assertTrue(named["defect"] or named["variant"] or fixtures, words)
                 for name in named["defect"]:
                     self.assertIn(name, defects)
                     violated = set(re.findall(r"[A-Z][A-Z0-9-]*-\d+", re.search(r"violates (.*)", defects[name]).group(1)))
