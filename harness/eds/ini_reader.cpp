@@ -193,8 +193,11 @@ class Reader {
       case SectionKind::unknown:
         if (!section.name.empty()) out_.remarks.add(Deviation::unknown_section, section.at, section.name);
         return;
-      case SectionKind::tools:
       case SectionKind::dynamic_channels:
+        out_.dynamic_channels = section.at;
+        taker.rest_is_known();
+        break;
+      case SectionKind::tools:
       case SectionKind::module_comments: taker.rest_is_known(); break;
       case SectionKind::file_info: info(taker, section, out_.file_info, file_info_fields); break;
       case SectionKind::device_info:

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "eds/ini_file.hpp"
 #include "eds/lint_rules.hpp"
+#include "eds/type_table.hpp"
 
 namespace conform::eds {
 namespace {
@@ -42,12 +43,19 @@ constexpr Rule bad_node_id{"EDS114", Severity::error, "The node-ID is not in 1 t
 constexpr Rule unsupported_rate{"EDS115", Severity::error,
                                 "The configured bit rate is not supported by the device", dcf};
 constexpr Rule lmt_entry{"EDS116", Severity::note, "A reserved LMT_ entry is used", device_information};
+constexpr Rule fine_dummy{"EDS117", Severity::note, "A dummy that is allowed is shorter than the granularity",
+                          "CiA 306, [DummyUsage]"};
+constexpr Rule open_dummy{"EDS119", Severity::warning, "A dummy that is allowed has no fixed length",
+                          "CiA 306, [DummyUsage]"};
+constexpr Rule dynamic_channels{"EDS118", Severity::warning,
+                                "DynamicChannelsSupported and [DynamicChannels] contradict each other",
+                                device_information};
 
 constexpr const Rule* all[] = {
     &no_file_info,     &no_device_info, &no_dummy_usage, &no_version,         &bad_version,
     &bad_date,         &bad_time,       &other_name,     &missing_file_entry, &missing_device_entry,
     &no_baud_rate,     &odd_baud_rate,  &comment_count,  &no_commissioning,   &bad_node_id,
-    &unsupported_rate, &lmt_entry};
+    &unsupported_rate, &lmt_entry,      &fine_dummy,     &dynamic_channels,   &open_dummy};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -166,6 +174,31 @@ void check_commissioning(const EdsFile& file, Findings& findings) {
                  fmt::format("Baudrate is {} kbit/s, but BaudRate_{} is 0", *rate, *rate));
 }
 
+void check_dummies(const EdsFile& file, Findings& findings) {
+  const auto granularity = number_of(file.device_info.granularity).value_or(0);
+  for (const auto& dummy : file.dummy_usage.entries) {
+    const auto* type = dummy.number <= 0xFFFF ? find_type(static_cast<std::uint16_t>(dummy.number)) : nullptr;
+    if (type == nullptr || flag_of(dummy.field) != true) continue;
+    if (type->bits == 0) {
+      findings.add(open_dummy, dummy.field.at, fmt::format("{} has no fixed length", type->name));
+      continue;
+    }
+    if (type->bits >= granularity || granularity > 64) continue;
+    findings.add(fine_dummy, dummy.field.at,
+                 fmt::format("{} has {} bit, but Granularity is {}", type->name, type->bits, granularity));
+  }
+}
+
+void check_dynamic_channels(const EdsFile& file, Findings& findings) {
+  const auto& field = file.device_info.dynamic_channels;
+  const auto supported = number_of(field);
+  if (!supported) return;
+  if (*supported != 0 && !file.dynamic_channels.known())
+    findings.add(dynamic_channels, field.at, "there is no [DynamicChannels]");
+  if (*supported == 0 && file.dynamic_channels.known())
+    findings.add(dynamic_channels, field.at, "[DynamicChannels] is there, but DynamicChannelsSupported is 0");
+}
+
 void check(const Subject& subject, Findings& findings) {
   const auto& file = subject.file;
   if (file.is_xml()) {
@@ -175,6 +208,8 @@ void check(const Subject& subject, Findings& findings) {
   }
   check_file_info(file, findings);
   check_device_info(file, findings);
+  check_dummies(file, findings);
+  check_dynamic_channels(file, findings);
   if (!file.dummy_usage.present) findings.add(no_dummy_usage, {}, "there is no [DummyUsage]");
   const auto& comments = file.comments;
   if (comments.present) {

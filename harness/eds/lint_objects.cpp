@@ -33,11 +33,13 @@ constexpr Rule configured_read_only{"EDS212", Severity::warning, "A configured v
                                     "CiA 306, DCF"};
 constexpr Rule record_type{"EDS213", Severity::error, "A variable has the data type of a record",
                            "CiA 301, 7.4.7"};
+constexpr Rule typed_domain{"EDS214", Severity::warning, "A DOMAIN has another data type or limits",
+                            "CiA 301, 7.4.3"};
 
 constexpr const Rule* all[] = {
     &no_name,      &bad_object_type,  &no_data_type,         &bad_data_type,      &no_access,
     &bad_access,   &not_for_variable, &no_object_type,       &variable_with_subs, &unmappable,
-    &no_direction, &unknown_flags,    &configured_read_only, &record_type};
+    &no_direction, &unknown_flags,    &configured_read_only, &record_type,        &typed_domain};
 
 class Check {
  public:
@@ -99,6 +101,13 @@ class Check {
           fmt::format("DataType {} is reserved", shortened(entry.data_type.text)));
     } else if (info != nullptr && info->kind == TypeKind::record) {
       add(record_type, entry.data_type, fmt::format("{} is no type of a variable", info->name));
+    }
+    if (code == ObjectCode::domain) {
+      if (info != nullptr && info->kind != TypeKind::domain)
+        add(typed_domain, entry.data_type, fmt::format("the data type of a DOMAIN is not {}", info->name));
+      for (const auto* limit : {&entry.low_limit, &entry.high_limit}) {
+        if (!limit->empty()) add(typed_domain, *limit, "a DOMAIN has no limits");
+      }
     }
     const auto& word = entry.access_type;
     const auto allowed = access(entry);

@@ -38,6 +38,9 @@ constexpr Rule no_pdo{"EDS310", Severity::note,
 constexpr Rule no_cob_id{"EDS311", Severity::error, "A PDO has no COB-ID (sub-index 01h)", pdos};
 constexpr Rule same_cob_id{"EDS312", Severity::warning, "Two TPDOs are sent on one CAN-ID by default",
                            "CiA 301, 7.5.2.37"};
+constexpr Rule restricted_can_id{"EDS313", Severity::error,
+                                 "A PDO or the EMCY uses a restricted CAN-ID by default",
+                                 "CiA 301, 7.3.3, table 40"};
 
 constexpr const Rule* all[] = {&rpdo_count,       &tpdo_count,
                                &no_mapping,       &no_communication,
@@ -45,7 +48,7 @@ constexpr const Rule* all[] = {&rpdo_count,       &tpdo_count,
                                &granularity_zero, &mapping_without_cob_id,
                                &compact_without,  &finer_than_granularity,
                                &no_pdo,           &no_cob_id,
-                               &same_cob_id};
+                               &same_cob_id,      &restricted_can_id};
 
 struct Direction {
   unsigned communication;  ///< first index
@@ -208,8 +211,44 @@ void check_can_ids(const Subject& subject, Findings& findings) {
   }
 }
 
+/// CiA 301, table 40: identifiers of NMT, SDO, error control and those kept for later.
+bool is_restricted(std::uint64_t can_id) {
+  struct Ids {
+    std::uint64_t first, last;
+  };
+  constexpr Ids table[] = {{0x000, 0x07F}, {0x101, 0x180}, {0x581, 0x5FF}, {0x601, 0x67F},
+                           {0x6E0, 0x6FF}, {0x701, 0x77F}, {0x780, 0x7FF}};
+  return std::ranges::any_of(table,
+                             [can_id](const Ids& ids) { return can_id >= ids.first && can_id <= ids.last; });
+}
+
+/// With some node-ID the object would use it from power-on.
+void check_restricted(const Subject& subject, Findings& findings) {
+  constexpr std::uint64_t not_valid = 0x8000'0000;
+  constexpr std::uint64_t extended = 0x2000'0000;
+  each_described(subject, [&](const Spot& spot) {
+    const bool emcy = spot.object.index == Index(0x1014) && !spot.sub;
+    const bool pdo = is_communication_parameter(spot.object.index) && spot.sub == SubIndex(1);
+    if (!emcy && !pdo) return;
+    const auto& field = effective_value(spot.entry);
+    const auto number = parse_number(field.text);
+    if (!number || number->negative || (number->magnitude & (not_valid | extended)) != 0) return;
+    for (const unsigned node : {1U, 127U}) {
+      const auto can_id = (number->magnitude + (number->node_id ? node : 0U)) & 0x7FFU;
+      if (!is_restricted(can_id)) continue;
+      findings.add(restricted_can_id, field.at,
+                   fmt::format("{}: '{}' is {:03X}h{}, which no such object may use", spot.name(),
+                               shortened(field.text), can_id,
+                               number->node_id ? fmt::format(" with node-ID {}", node) : std::string()),
+                   "set bit 31 where the object is not used by default");
+      return;
+    }
+  });
+}
+
 void check(const Subject& subject, Findings& findings) {
   check_can_ids(subject, findings);
+  check_restricted(subject, findings);
   check_counts(subject, findings);
   check_pairs(subject, findings);
   check_mappable(subject, findings);

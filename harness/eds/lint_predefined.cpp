@@ -20,8 +20,15 @@ constexpr Rule other_code{"EDS231", Severity::warning, "An object of CiA 301 has
 constexpr Rule too_open{"EDS232", Severity::warning, "An object of CiA 301 that is read-only can be written",
                         dictionary};
 constexpr Rule not_readable{"EDS233", Severity::warning, "An object of CiA 301 cannot be read", dictionary};
+constexpr Rule mappable{"EDS234", Severity::error, "An object that CiA 301 keeps out of PDOs can be mapped",
+                        dictionary};
+constexpr Rule half_guarding{"EDS235", Severity::error, "Of guard time and life time factor one is missing",
+                             "CiA 301, 7.5.2.9 and 7.5.2.10"};
+constexpr Rule incomplete{"EDS236", Severity::warning, "An object lacks the one that it works with",
+                          dictionary};
 
-constexpr const Rule* all[] = {&other_type, &other_code, &too_open, &not_readable};
+constexpr const Rule* all[] = {&other_type, &other_code,    &too_open,  &not_readable,
+                               &mappable,   &half_guarding, &incomplete};
 
 constexpr unsigned u8 = 0x05, u16 = 0x06, u32 = 0x07, text = 0x09;
 constexpr int any_sub = -1;  // 01h to FEh
@@ -93,9 +100,45 @@ void compare(const Spot& spot, const Row& row, Findings& findings) {
                  fmt::format("{}: by CiA 301 it can be read", spot.name()));
 }
 
+/// 1001h, 1002h, 1013h and 1026h may be mapped; what is not listed here other profiles define.
+bool is_kept_out_of_pdos(Index index) {
+  return index == Index(0x1000) || index == Index(0x1003) || between(index, 0x1005, 0x1012) ||
+         between(index, 0x1014, 0x1020) || between(index, 0x1028, 0x1029) || between(index, 0x1400, 0x1BFF);
+}
+
+void check_mappable(const Spot& spot, Findings& findings) {
+  if (!is_kept_out_of_pdos(spot.object.index)) return;
+  const auto mapping = pdo_mapping(spot.entry);
+  if (spot.entry.pdo_mapping.empty() || mapping == PdoMapping::no) return;
+  findings.add(mappable, spot.entry.pdo_mapping.at,
+               fmt::format("{}: by CiA 301 it cannot be mapped into a PDO", spot.name()));
+}
+
+struct Pair {
+  std::uint16_t present, missing;
+  const Rule* rule;
+};
+constexpr Pair pairs[] = {{0x100C, 0x100D, &half_guarding},
+                          {0x100D, 0x100C, &half_guarding},
+                          {0x1019, 0x1005, &incomplete},
+                          {0x1021, 0x1022, &incomplete},
+                          {0x1022, 0x1021, &incomplete}};
+
+void check_pairs(const Subject& subject, Findings& findings) {
+  for (const auto& pair : pairs) {
+    const auto* object = find_object(subject.objects, Index(pair.present));
+    if (object == nullptr || find_object(subject.objects, Index(pair.missing)) != nullptr) continue;
+    findings.add(*pair.rule, object->entry.at,
+                 fmt::format("{} is there without {}", section_name(Index(pair.present)),
+                             section_name(Index(pair.missing))));
+  }
+}
+
 void check(const Subject& subject, Findings& findings) {
+  check_pairs(subject, findings);
   each_described(subject, [&](const Spot& spot) {
     if (spot.object.index.value() > 0x1FFF) return;
+    check_mappable(spot, findings);
     const bool is_head = !spot.has_value();
     const int sub = spot.sub ? spot.sub->value() : 0;
     for (const auto& row : rows) {
