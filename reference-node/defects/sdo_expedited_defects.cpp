@@ -181,7 +181,7 @@ DefectTable upload_rows() {
        respond([](const SdoExchange& e) { return upload_initiated(e) && reserved_bits_used(e); }, 0x60, 0)},
       {"constant-counts-reads",
        "The constant 2001h:04 is another one at each upload",
-       {"SDO-UPL-15", "OD-ACC-06"},
+       {"SDO-UPL-15", "OD-ACC-06", "EDS-VSD-06"},
        counting_constant(0x2001, 4)},
   };
 }
