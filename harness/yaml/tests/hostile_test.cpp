@@ -80,7 +80,7 @@ TEST_CASE("A scalar may be large, a text beyond the limit is refused unparsed") 
   CHECK(large.messages().empty());
   CHECK(large.root->find("a")->text().size() == 900'000);
   CHECK(Checked(fmt::format("a: {}", std::string(max_file_size, 'x'))).brief() ==
-        "1:1 the text is longer than 1048576 bytes; split it\n");
+        "1:1 the text is longer than 1000000 bytes; split it\n");
 }
 
 TEST_CASE("One line of many values is as quick as many lines") {
