@@ -264,18 +264,14 @@ class XddReader {
     static constexpr std::string_view mappings[] = {"", "no", "default", "optional", "TPDO", "RPDO"};
     if (std::ranges::find(mappings, out.pdo_mapping.text) == std::end(mappings))
       out_.remarks.add(Deviation::xml_unknown_mapping, out.pdo_mapping.at, out.pdo_mapping.text);
-    if (const auto reference = node.attribute("uniqueIDRef")) resolve(node, reference.value(), out);
+    resolve(node, out);
     return out;
   }
 
   /// Fills what the object leaves to the parameter it refers to.
-  void resolve(const pugi::xml_node& node, const std::string& id, Entry& into) {
-    const auto found = by_id_.find(id);
-    if (found == by_id_.end() || local_name(found->second) != "parameter") {
-      out_.remarks.add(Deviation::xml_unknown_reference, text_.attribute(node, "uniqueIDRef").at, id);
-      return;
-    }
-    const auto& parameter = found->second;
+  void resolve(const pugi::xml_node& node, Entry& into) {
+    const auto parameter = referred(node, "uniqueIDRef", "parameter");
+    if (!parameter) return;
     take(parameter, into);
     // CiA 311: what the parameter leaves out is in its template. An element of its own replaces that of the
     // template, also where it says less: a list of values has no limits.
