@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "base/text.hpp"
 #include "eds/lint_rules.hpp"
@@ -188,9 +189,16 @@ void check_mappable(const Subject& subject, Findings& findings) {
   }
 }
 
+/// A COB-ID whose object is used from power-on; nullopt with bit 31 set, or where the field is no number.
+std::optional<Number> valid_cob_id(const Field& field) {
+  constexpr std::uint64_t not_valid = 0x8000'0000;
+  const auto number = parse_number(field.text);
+  if (!number || number->negative || (number->magnitude & not_valid) != 0) return std::nullopt;
+  return *number;
+}
+
 /// What is on the bus with one CAN-ID cannot be told apart; only one of the two PDOs can be meant.
 void check_can_ids(const Subject& subject, Findings& findings) {
-  constexpr std::uint64_t not_valid = 0x8000'0000;
   constexpr std::uint64_t can_id = 0x3FFF'FFFF;  // with bit 29: a base and an extended frame are two
   std::map<std::pair<bool, std::uint64_t>, Index> used;
   for (const auto& object : subject.objects) {
@@ -199,8 +207,8 @@ void check_can_ids(const Subject& subject, Findings& findings) {
     const auto* cob_id = object.find(SubIndex(1));
     if (cob_id == nullptr) continue;
     const auto& field = effective_value(*cob_id);
-    const auto number = parse_number(field.text);
-    if (!number || number->negative || (number->magnitude & not_valid) != 0) continue;
+    const auto number = valid_cob_id(field);
+    if (!number) continue;
     const auto [first, fresh] =
         used.emplace(std::pair(number->node_id, number->magnitude & can_id), object.index);
     if (!fresh)
@@ -224,15 +232,14 @@ bool is_restricted(std::uint64_t can_id) {
 
 /// With some node-ID the object would use it from power-on.
 void check_restricted(const Subject& subject, Findings& findings) {
-  constexpr std::uint64_t not_valid = 0x8000'0000;
   constexpr std::uint64_t extended = 0x2000'0000;
   each_described(subject, [&](const Spot& spot) {
     const bool emcy = spot.object.index == Index(0x1014) && !spot.sub;
     const bool pdo = is_communication_parameter(spot.object.index) && spot.sub == SubIndex(1);
     if (!emcy && !pdo) return;
     const auto& field = effective_value(spot.entry);
-    const auto number = parse_number(field.text);
-    if (!number || number->negative || (number->magnitude & (not_valid | extended)) != 0) return;
+    const auto number = valid_cob_id(field);
+    if (!number || (number->magnitude & extended) != 0) return;
     for (const unsigned node : {1U, 127U}) {
       const auto can_id = (number->magnitude + (number->node_id ? node : 0U)) & 0x7FFU;
       if (!is_restricted(can_id)) continue;
