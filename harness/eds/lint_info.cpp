@@ -45,11 +45,11 @@ constexpr Rule unsupported_rate{"EDS115", Severity::error,
 constexpr Rule lmt_entry{"EDS116", Severity::note, "A reserved LMT_ entry is used", device_information};
 constexpr Rule fine_dummy{"EDS117", Severity::note, "A dummy that is allowed is shorter than the granularity",
                           "CiA 306, [DummyUsage]"};
-constexpr Rule open_dummy{"EDS119", Severity::warning, "A dummy that is allowed has no fixed length",
-                          "CiA 306, [DummyUsage]"};
 constexpr Rule dynamic_channels{"EDS118", Severity::warning,
                                 "DynamicChannelsSupported and [DynamicChannels] contradict each other",
                                 device_information};
+constexpr Rule open_dummy{"EDS119", Severity::warning, "A dummy that is allowed has no fixed length",
+                          "CiA 306, [DummyUsage]"};
 
 constexpr const Rule* all[] = {
     &no_file_info,     &no_device_info, &no_dummy_usage, &no_version,         &bad_version,
