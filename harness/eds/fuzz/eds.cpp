@@ -34,12 +34,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto report = eds::lint(*file);
   std::size_t shown = 0;
   for (const auto& finding : report.findings) {
+    CONFORM_CHECK(finding.at.known());
     // As if the file were one line.
     if (++shown <= 20) {
       const auto excerpt = conform::excerpt(text, finding.at.column - 1, 1);
       CONFORM_CHECK(excerpt.underline.find('^') != std::string::npos && excerpt.text.size() < 1000);
     }
-    CONFORM_CHECK(finding.at.known());
     CONFORM_CHECK(!finding.message.empty() && finding.message.size() < 1000);
     CONFORM_CHECK(eds::find_rule(finding.rule->code) == finding.rule);
   }
