@@ -79,11 +79,21 @@ TEST_CASE("What an object leaves open comes from the parameter it refers to") {
   CHECK(mode->parameter_value.text == "3");
 }
 
-TEST_CASE("What a parameter leaves open comes from its template") {
-  const std::string xml =
-      R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.1">
+/// The first line of `application_process` is line 3 of the file.
+std::string with_parameters(std::string_view application_process, std::string_view objects) {
+  return R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.1">
 <ISO15745Profile><ProfileBody><ApplicationProcess>
-<templateList>
+)" + std::string(application_process) +
+         R"(</ApplicationProcess></ProfileBody></ISO15745Profile>
+<ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>
+)" + std::string(objects) +
+         R"(</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile>
+</ISO15745ProfileContainer>)";
+}
+
+TEST_CASE("What a parameter leaves open comes from its template") {
+  const auto file = eds::read(
+      with_parameters(R"(<templateList>
 <parameterTemplate uniqueID="PERCENT" access="readWrite"><USINT/><defaultValue value="50"/>
 <allowedValues templateIDRef="UP_TO_100"/></parameterTemplate>
 <allowedValuesTemplate uniqueID="UP_TO_100"><range><minValue value="0"/><maxValue value="100"/></range></allowedValuesTemplate>
@@ -92,13 +102,11 @@ TEST_CASE("What a parameter leaves open comes from its template") {
 <parameter uniqueID="OPENING" templateIDRef="PERCENT"><defaultValue value="25"/></parameter>
 <parameter uniqueID="LOST" templateIDRef="OPENING"><USINT/></parameter>
 </parameterList>
-</ApplicationProcess></ProfileBody></ISO15745Profile>
-<ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>
-<CANopenObject index="2000" name="Opening" objectType="7" uniqueIDRef="OPENING"/>
+)",
+                      R"(<CANopenObject index="2000" name="Opening" objectType="7" uniqueIDRef="OPENING"/>
 <CANopenObject index="2001" name="Lost" objectType="7" uniqueIDRef="LOST"/>
-</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile>
-</ISO15745ProfileContainer>)";
-  const auto file = eds::read(xml, "a.xdd");
+)"),
+      "a.xdd");
   REQUIRE(file);
   const auto* opening = file->find(Multiplexer{Index(0x2000), SubIndex(0)});
   REQUIRE(opening != nullptr);
@@ -115,10 +123,8 @@ TEST_CASE("What a parameter leaves open comes from its template") {
 }
 
 TEST_CASE("What a parameter says itself replaces its template, and a word nobody knows is kept") {
-  const std::string xml =
-      R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.1">
-<ISO15745Profile><ProfileBody><ApplicationProcess>
-<templateList>
+  const auto file =
+      eds::read(with_parameters(R"(<templateList>
 <parameterTemplate uniqueID="T" access="readWrite"><USINT/>
 <allowedValues><range><minValue value="0"/><maxValue value="10"/></range></allowedValues></parameterTemplate>
 </templateList>
@@ -126,13 +132,11 @@ TEST_CASE("What a parameter says itself replaces its template, and a word nobody
 <parameter uniqueID="LIST" templateIDRef="T"><allowedValues><value value="1"/><value value="200"/></allowedValues></parameter>
 <parameter uniqueID="WORD" access="ReadWrite"><USINT/></parameter>
 </parameterList>
-</ApplicationProcess></ProfileBody></ISO15745Profile>
-<ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>
-<CANopenObject index="2000" name="List" objectType="7" uniqueIDRef="LIST"/>
+)",
+                                R"(<CANopenObject index="2000" name="List" objectType="7" uniqueIDRef="LIST"/>
 <CANopenObject index="2001" name="Word" objectType="7" uniqueIDRef="WORD"/>
-</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile>
-</ISO15745ProfileContainer>)";
-  const auto file = eds::read(xml, "a.xdd");
+)"),
+                "a.xdd");
   REQUIRE(file);
   const auto* list = file->find(Multiplexer{Index(0x2000), SubIndex(0)});
   REQUIRE(list != nullptr);

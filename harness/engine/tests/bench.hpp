@@ -120,6 +120,16 @@ inline const scenario::Catalogue& catalogue() {
   return loaded;
 }
 
+/// A case that writes 1017h, to put in front of others.
+inline const std::string change_1017 = R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+)";
+
 /// Scenarios out of YAML text; mistakes fail the test with their diagnostics.
 inline scenario::Suite suite_of(const std::string& text) {
   const auto source = yaml::make_source("test.yaml", "format: 1\ntitle: Test\nscenarios:\n" + text);

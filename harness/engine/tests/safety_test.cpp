@@ -13,15 +13,6 @@ using result::Verdict;
 
 namespace {
 
-const std::string change_1017 = R"(
-  - id: change
-    title: t
-    risk: config
-    steps:
-      - download: {object: 1017h:00, value: 1000}
-        checks: T-MUST
-)";
-
 const std::string three_reads = R"(
   - id: first
     title: t

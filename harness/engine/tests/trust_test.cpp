@@ -115,13 +115,7 @@ TEST_CASE("a run stopped while a reset brings back what a test wrote puts it bac
   auto options = RunOptions{};
   options.stop = &stop;
   can::SimulatedBus bus;
-  const auto out = play(bus, device, R"(
-  - id: change
-    title: t
-    risk: config
-    steps:
-      - download: {object: 1017h:00, value: 1000}
-        checks: T-MUST
+  const auto out = play(bus, device, change_1017 + R"(
   - id: next
     title: t
     risk: config
