@@ -112,8 +112,9 @@ int dispatch(int argc, char** argv) {
       ->type_name("FILE");
   run_sub->add_option("--markdown", run.markdown, "Write a short report in Markdown")->type_name("FILE");
   run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
-  run_sub->add_flag("--strict", run.strict,
-                    "Deviations from recommended and optional rules fail, too, instead of warn");
+  run_sub->add_flag(
+      "--strict", run.strict,
+      "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
   run_sub->add_flag("--all-objects", run.all_objects, "Try every object where a scenario would try a sample");
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
@@ -152,8 +153,9 @@ int dispatch(int argc, char** argv) {
       ->type_name("ID");
   judge_sub->add_option("--junit", judge.junit, "Write JUnit XML")->type_name("FILE");
   judge_sub->add_option("--markdown", judge.markdown, "Write a short report in Markdown")->type_name("FILE");
-  judge_sub->add_flag("--strict", judge.strict,
-                      "Deviations from recommended and optional rules fail, too, instead of warn");
+  judge_sub->add_flag(
+      "--strict", judge.strict,
+      "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
   judge_sub->add_flag("-q,--quiet", judge.quiet, "Print only what did not pass, and the summary");
   judge_sub->add_option("--color", judge.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))

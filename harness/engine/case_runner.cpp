@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/check.hpp"
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
@@ -163,7 +164,7 @@ Result<CaseRunner::Flow> CaseRunner::run_steps(const Steps& list) {
   for (const auto& step : list) {
     if (&list == list_) outermost_ = &step;
     auto flow = run_step(step);
-    if (!flow || *flow == Flow::stop) return flow;
+    if (!flow || *flow != Flow::go_on) return flow;
   }
   return Flow::go_on;
 }
@@ -228,7 +229,12 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
                                               *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2))
                                         : value.text());
     session_.set(walk.name, value);
+    const auto before = out_->judgements;
     auto flow = run_steps(walk.steps);
+    if (flow && *flow == Flow::next_value) {
+      withdraw_passes(walk.steps, before);
+      continue;
+    }
     if (!flow || *flow == Flow::stop) {
       if (outermost) finish_walk();
       return flow;
@@ -250,16 +256,10 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       if (!begins) return cannot_go_on(step, begins.error());
       if (!*begins) continue;
       if (branch.verdict != Verdict::pass) {
-        const Grade grade{branch.verdict, branch.verdict == Verdict::warn
-                                              ? "tolerated, but not what the standard names"
-                                          : branch.verdict == Verdict::fail ? "an outcome that is ruled out"
-                                                                            : "does not concern this device"};
         for (const auto& requirement : checks_of(branch.steps.front()))
-          record(step, requirement, grade, actual);
-        if (branch.verdict == Verdict::not_applicable) {
-          out_->reason = grade.reason;
-          return Flow::stop;
-        }
+          record(step, requirement, grade_of(branch, requirement), actual);
+        if (branch.verdict == Verdict::not_applicable)
+          return not_applicable(step, "does not concern this device");
       }
       return run_steps(branch.steps);
     }
@@ -267,16 +267,10 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       auto hit = outcome.matches(actual, session_);
       if (!hit) return cannot_go_on(step, hit.error());
       if (!*hit) continue;
-      const Grade grade{branch.verdict, branch.verdict == Verdict::warn
-                                            ? "tolerated, but not what the standard names"
-                                        : branch.verdict == Verdict::fail
-                                            ? "an outcome that is ruled out"
-                                            : "does not concern this device: " + actual.words()};
-      for (const auto& requirement : checks_of(step)) record(step, requirement, grade, actual);
-      if (branch.verdict == Verdict::not_applicable) {
-        out_->reason = grade.reason;
-        return Flow::stop;
-      }
+      for (const auto& requirement : checks_of(step))
+        record(step, requirement, grade_of(branch, requirement), actual);
+      if (branch.verdict == Verdict::not_applicable)
+        return not_applicable(step, "does not concern this device: " + actual.words());
       return run_steps(branch.steps);
     }
   }
@@ -303,6 +297,32 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
   return Flow::stop;
 }
 
+CaseRunner::Flow CaseRunner::not_applicable(const Step& step, const std::string& reason) {
+  out_->reason = reason;
+  left_at_line_ = step.position.line;
+  if (!walk_value_.empty()) return Flow::next_value;
+  withdraw_passes(*list_, {});
+  return Flow::stop;
+}
+
+void CaseRunner::withdraw_passes(const Steps& list, const std::vector<result::Judgement>& before) {
+  std::vector<std::string> open;
+  collect_open(list, left_at_line_, open);
+  for (const auto& requirement : open) {
+    const auto found = std::ranges::find(out_->judgements, requirement, &result::Judgement::requirement);
+    if (found == out_->judgements.end() || found->verdict != Verdict::pass) continue;
+    // Other values of an `over` may have decided it.
+    const auto was = std::ranges::find(before, requirement, &result::Judgement::requirement);
+    if (was != before.end()) {
+      *found = *was;
+      continue;
+    }
+    found->verdict = Verdict::not_applicable;
+    found->decided_by.reset();
+    found->reason = out_->reason;
+  }
+}
+
 std::vector<std::string> CaseRunner::checks_of(const Step& step) const {
   std::vector<std::string> out;
   for (const auto& check : step.expectation.checks) {
@@ -325,10 +345,21 @@ CaseRunner::Flow CaseRunner::set_up_failed(const Step& step, const Actual& actua
 }
 
 Verdict CaseRunner::capped(const std::string& requirement) const {
+  return strict_ || steps::is_binding(level_of(requirement)) ? Verdict::fail : Verdict::warn;
+}
+
+std::string_view CaseRunner::level_of(const std::string& requirement) const {
   const auto* known = catalogue_.find(requirement);
-  const bool binding =
-      strict_ || known == nullptr || (known->level != "recommended" && known->level != "optional");
-  return binding ? Verdict::fail : Verdict::warn;
+  return known != nullptr ? std::string_view(known->level) : "mandatory";
+}
+
+Grade CaseRunner::grade_of(const steps::Branch& branch, const std::string& requirement) const {
+  switch (branch.verdict) {
+    case Verdict::warn: return steps::tolerated(level_of(requirement), strict_);
+    case Verdict::fail: return {Verdict::fail, "an outcome that is ruled out"};
+    case Verdict::not_applicable: return {Verdict::not_applicable, "does not concern this device"};
+    default: return {branch.verdict, {}};
+  }
 }
 
 Result<CaseRunner::Flow> CaseRunner::judge(const Step& step, const Actual& actual) {
@@ -340,9 +371,7 @@ Result<CaseRunner::Flow> CaseRunner::judge(const Step& step, const Actual& actua
     return set_up_failed(step, actual);
   }
   for (const auto& requirement : checks) {
-    const auto* known = catalogue_.find(requirement);
-    auto grade = steps::grade(step.expectation, actual, known != nullptr ? known->level : "mandatory",
-                              strict_, session_);
+    auto grade = steps::grade(step.expectation, actual, level_of(requirement), strict_, session_);
     if (!grade) return cannot_go_on(step, grade.error());
     record(step, requirement, *grade, actual);
   }
@@ -374,6 +403,13 @@ void CaseRunner::record(const Step& step, const std::string& requirement, const 
                         const Actual& actual) {
   auto& target = judgement(requirement);
   ++target.expectations;
+  // The first that passed, unless something worse came.
+  if (grade.verdict != Verdict::not_applicable && (!target.decided_by || grade.verdict > target.verdict)) {
+    target.decided_by = result::DecidingStep{{out_->position.file, step.position.line, step.position.column},
+                                             step.action->words(session_),
+                                             actual.words(),
+                                             actual.decisive};
+  }
   target.verdict = worst(target.verdict, grade.verdict);
   const bool in_walk = !walk_value_.empty();
   if (in_walk) ++offenders(step, requirement).judged;
@@ -537,7 +573,10 @@ void CaseRunner::conclude() {
     }
   }
   auto verdict = Verdict::not_applicable;
-  for (const auto& each : out_->judgements) verdict = worst(verdict, each.verdict);
+  for (const auto& each : out_->judgements) {
+    CONFORM_CHECK(each.verdict != Verdict::pass || each.decided_by);
+    verdict = worst(verdict, each.verdict);
+  }
   if (!stopped_because_.empty()) verdict = worst(verdict, Verdict::inconclusive);
   out_->verdict = verdict;
   if (!stopped_because_.empty()) {

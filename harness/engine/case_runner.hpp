@@ -30,7 +30,7 @@ class CaseRunner {
   }
 
  private:
-  enum class Flow : std::uint8_t { go_on, stop };
+  enum class Flow : std::uint8_t { go_on, next_value, stop };  // next_value: of the innermost `over`
   /// Findings of one expectation over the values of an `over`, to be told as one.
   struct Offenders {
     const steps::Step* step = nullptr;
@@ -67,8 +67,16 @@ class CaseRunner {
   [[nodiscard]] Offenders& offenders(const steps::Step& step, const std::string& requirement);
   /// Ids that steps at or behind a place in the file would still have decided.
   void collect_open(const Steps& list, int from_line, std::vector<std::string>& out) const;
+  /// A way that does not concern this device: what passed on it before and was still to be decided by this
+  /// step or a later one has not passed. What failed or warned stays. Inside an `over` only the value ends,
+  /// else the case.
+  [[nodiscard]] Flow not_applicable(const steps::Step& step, const std::string& reason);
+  void withdraw_passes(const Steps& list, const std::vector<result::Judgement>& before);
   /// A failure of a rule that only recommends is a warning, as everywhere.
   [[nodiscard]] result::Verdict capped(const std::string& requirement) const;
+  [[nodiscard]] std::string_view level_of(const std::string& requirement) const;
+  /// The grade of taking one of the ways of an `either`.
+  [[nodiscard]] steps::Grade grade_of(const steps::Branch& branch, const std::string& requirement) const;
   void finish_walk();
   void conclude();
 
@@ -78,6 +86,7 @@ class CaseRunner {
   result::CaseResult* out_ = nullptr;
   std::size_t step_begin_ = 0;
   std::string walk_value_;  ///< not empty: inside an `over`
+  int left_at_line_ = 0;    ///< of the step whose way does not concern this device
   std::vector<Offenders>
       offenders_;  ///< in the order of the first judgement: addresses must not decide any order
   std::optional<Multiplexer> instance_object_;  ///< the object a case of for_each is about

@@ -51,12 +51,26 @@ struct Finding {
       0;  ///< length of the capture when it was judged: what came later shows that the device lived
 };
 
+/// The step that decided a judgement: the one a reader looks at to agree or disagree.
+struct DecidingStep {
+  SourcePosition position;
+  std::string step;    ///< in words: "upload 1003h:00"
+  std::string actual;  ///< what came, in words
+  std::optional<std::size_t>
+      frame{};  ///< capture index of the frame that decided; none: a silence, a condition
+};
+
 /// The unit of judgement: one requirement in one case.
 struct Judgement {
   std::string requirement;
   Verdict verdict = Verdict::pass;
   std::vector<Finding> findings;
   std::size_t expectations = 0;  ///< how many expectations decided it
+  /// Always there where the verdict is `pass`: a pass is earned by a step that was carried out and met.
+  /// Monitors decide by the whole trace and name no step.
+  std::optional<DecidingStep> decided_by{};
+  std::string
+      reason{};  ///< why it is not applicable or inconclusive, where that is not the case's own reason
 };
 
 /// One scenario instance, planned or run.

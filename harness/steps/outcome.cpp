@@ -442,6 +442,16 @@ std::vector<std::string> Expectation::warn_words(Scope& scope, std::optional<can
   return out;
 }
 
+bool is_binding(std::string_view level) { return level != "recommended" && level != "optional"; }
+
+Grade tolerated(std::string_view level, bool strict) {
+  using result::Verdict;
+  if (strict && !is_binding(level))
+    return {Verdict::fail,
+            "not what the rule, whose level is '" + std::string(level) + "', asks for (strict)"};
+  return {Verdict::warn, "tolerated, but not what the standard names"};
+}
+
 Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::string_view level, bool strict,
                     Scope& scope) {
   using result::Verdict;
@@ -468,12 +478,11 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
   }
   hit = in(expectation.warn);
   if (!hit) return std::unexpected(hit.error());
-  if (*hit) return Grade{Verdict::warn, "tolerated, but not what the standard names"};
+  if (*hit) return tolerated(level, strict);
   hit = in(expectation.fail);
   if (!hit) return std::unexpected(hit.error());
   if (*hit) return Grade{Verdict::fail, "an outcome that is ruled out"};
-  const bool binding = level != "recommended" && level != "optional";
-  if (!binding && !strict) {
+  if (!is_binding(level) && !strict) {
     return Grade{Verdict::warn,
                  "not an expected outcome of a rule whose level is '" + std::string(level) + "'"};
   }

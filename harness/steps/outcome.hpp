@@ -101,6 +101,12 @@ struct Grade {
   std::string reason;
 };
 
+/// Whether rules of this level bind a device; `recommended` and `optional` ones do not.
+[[nodiscard]] bool is_binding(std::string_view level);
+/// The grade of an outcome that `warn` lists: a rule that only recommends has tolerances only where nobody
+/// asked for strictness; what a binding rule tolerates is conformant.
+[[nodiscard]] Grade tolerated(std::string_view level, bool strict);
+
 /// Grades by reconciling the set with the requirement's level: listed passes, `warn` warns, `fail` fails at
 /// every level, the rest fails for mandatory and conditional requirements and warns for recommended and
 /// optional ones unless `strict`.
