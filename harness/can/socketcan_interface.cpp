@@ -2,6 +2,7 @@
 #include "can/socketcan_interface.hpp"
 
 #include <linux/can.h>
+#include <linux/can/gw.h>
 #include <linux/can/netlink.h>
 #include <linux/netlink.h>
 #include <linux/rtnetlink.h>
@@ -13,7 +14,9 @@
 #include <cerrno>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "base/bytes.hpp"
 #include "base/text.hpp"
@@ -120,6 +123,79 @@ Result<Link> query(int index, const std::string& name) {
   return link;
 }
 
+/// A job of the kernel's CAN gateway (cangw): frames of one interface are sent on the other.
+using Route = std::pair<int, int>;
+
+std::vector<Route> parse_routes(ByteView answer, bool& done) {
+  std::vector<Route> routes;
+  while (const auto header = value_of<nlmsghdr>(answer)) {
+    const std::size_t length = header->nlmsg_len;
+    if (length < sizeof(nlmsghdr) || length > answer.size()) break;
+    if (header->nlmsg_type == NLMSG_DONE || header->nlmsg_type == NLMSG_ERROR) {
+      done = true;
+      break;
+    }
+    const auto payload = answer.subspan(sizeof(nlmsghdr), length - sizeof(nlmsghdr));
+    answer = answer.subspan(std::min<std::size_t>((length + 3U) & ~std::size_t{3}, answer.size()));
+    // A kernel without gateway answers with the routes of other families.
+    const auto job = value_of<rtcanmsg>(payload);
+    if (!job || job->can_family != AF_CAN || job->gwtype != CGW_TYPE_CAN_CAN) continue;
+    Route route{};
+    attributes(payload.subspan(sizeof(rtcanmsg)), [&route](std::uint16_t type, ByteView data) {
+      if (type == CGW_SRC_IF) route.first = static_cast<int>(value_of<std::uint32_t>(data).value_or(0));
+      if (type == CGW_DST_IF) route.second = static_cast<int>(value_of<std::uint32_t>(data).value_or(0));
+    });
+    if (route.first != 0 && route.second != 0) routes.push_back(route);
+  }
+  return routes;
+}
+
+/// None where the kernel has no gateway, or does not say.
+std::vector<Route> gateway_routes() {
+  std::vector<Route> routes;
+  const Descriptor socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
+  struct {
+    nlmsghdr header;
+    rtcanmsg job;
+  } request{};
+  request.header.nlmsg_len = sizeof request;
+  request.header.nlmsg_type = RTM_GETROUTE;
+  request.header.nlmsg_flags = NLM_F_REQUEST | NLM_F_DUMP;
+  request.header.nlmsg_seq = 1;
+  request.job.can_family = AF_CAN;
+  request.job.gwtype = CGW_TYPE_CAN_CAN;
+  if (!socket.valid() || ::send(socket.get(), &request, sizeof request, 0) < 0) return routes;
+  for (bool done = false; !done;) {
+    alignas(nlmsghdr) std::array<std::uint8_t, 32768> buffer;
+    const ssize_t count = ::recv(socket.get(), buffer.data(), buffer.size(), 0);
+    if (count <= 0) break;
+    const auto some = parse_routes(ByteView(buffer).first(static_cast<std::size_t>(count)), done);
+    routes.insert(routes.end(), some.begin(), some.end());
+  }
+  return routes;
+}
+
+/// The first interface that is no vcan and gets what is sent on `index`, directly or over other vcans. Empty:
+/// none.
+std::string routed_to(int index) {
+  const auto routes = gateway_routes();
+  std::set<int> reached{index};
+  std::vector<int> next{index};
+  while (!next.empty()) {
+    const int source = next.back();
+    next.pop_back();
+    for (const auto& [from, to] : routes) {
+      if (from != source || !reached.insert(to).second) continue;
+      std::array<char, IFNAMSIZ> name{};
+      if (::if_indextoname(static_cast<unsigned>(to), name.data()) == nullptr) continue;
+      const auto link = query(to, name.data());
+      if (!link || link->kind != "vcan") return name.data();
+      next.push_back(to);
+    }
+  }
+  return {};
+}
+
 std::string hardware_driver(const std::string& name) {
   std::array<char, 512> target;
   const std::string path = "/sys/class/net/" + name + "/device/driver";
@@ -143,8 +219,9 @@ std::unexpected<Error> missing(const std::string& name) {
 
 }  // namespace
 
-std::string up_command(const std::string& name, bool is_virtual) {
-  return "sudo ip link set " + name + " up" + (is_virtual ? "" : " type can bitrate 500000");
+std::string up_command(const std::string& name, const std::string& kind) {
+  const bool has_bit_rate = kind != "vcan" && kind != "vxcan";
+  return "sudo ip link set " + name + " up" + (has_bit_rate ? " type can bitrate 500000" : "");
 }
 
 std::vector<std::string> can_interfaces() {
@@ -180,7 +257,8 @@ Result<InterfaceFacts> interface_facts(const std::string& name) {
   facts.name = name;
   facts.index = static_cast<int>(index);
   facts.kind = link->kind;
-  facts.is_virtual = link->kind == "vcan" || link->kind == "vxcan";
+  if (facts.kind == "vcan") facts.routed_to = routed_to(facts.index);
+  facts.is_virtual = facts.kind == "vcan" && facts.routed_to.empty();
   facts.driver = hardware_driver(name);
   if (facts.driver.empty()) facts.driver = link->kind;
   facts.up = (link->flags & static_cast<unsigned>(IFF_UP)) != 0;
@@ -203,7 +281,7 @@ Result<InterfaceFacts> preflight(const std::string& interface_name) {
   auto facts = interface_facts(interface_name);
   if (!facts) return facts;
   if (!facts->up) {
-    return fail("the interface is down", interface_name, up_command(interface_name, facts->is_virtual));
+    return fail("the interface is down", interface_name, up_command(interface_name, facts->kind));
   }
   if (facts->bus_off) {
     return fail("the controller is bus-off", interface_name,

@@ -13,11 +13,14 @@ namespace conform::can {
 struct InterfaceFacts {
   std::string name;
   int index = 0;
-  std::string kind;         ///< rtnetlink kind: "vcan", "vxcan", "can" (hardware, slcan)
-  std::string driver;       ///< kernel driver of the hardware, else the kind
-  bool up = false;          ///< administratively up
-  bool echo = false;        ///< IFF_ECHO: the driver returns own frames after the wire has seen them
-  bool is_virtual = false;  ///< vcan or vxcan: no wire at all
+  std::string kind;    ///< rtnetlink kind: "vcan", "vxcan", "can" (hardware, slcan)
+  std::string driver;  ///< kernel driver of the hardware, else the kind
+  bool up = false;     ///< administratively up
+  bool echo = false;   ///< IFF_ECHO: the driver returns own frames after the wire has seen them
+  /// No wire can be at the other end: a vcan whose frames no gateway job (cangw) sends on. The other end of a
+  /// vxcan is in a namespace that we do not see.
+  bool is_virtual = false;
+  std::string routed_to;  ///< of a vcan: the interface that a gateway job passes its frames to
   bool bus_off = false;
   std::uint32_t bit_rate = 0;  ///< bit/s, 0 for virtual interfaces
 };
@@ -33,6 +36,6 @@ struct InterfaceFacts {
 [[nodiscard]] std::vector<std::string> can_interfaces();
 
 /// The command that brings this interface up: "sudo ip link set can0 up type can bitrate 500000".
-[[nodiscard]] std::string up_command(const std::string& name, bool is_virtual);
+[[nodiscard]] std::string up_command(const std::string& name, const std::string& kind);
 
 }  // namespace conform::can

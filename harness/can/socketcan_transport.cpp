@@ -186,7 +186,7 @@ Error SocketCanTransport::fault(int error) {
   switch (error) {
     case ENETDOWN:
       link_down_ = true;
-      return {"the interface went down", facts_.name, up_command(facts_.name, facts_.is_virtual)};
+      return {"the interface went down", facts_.name, up_command(facts_.name, facts_.kind)};
     case ENODEV:
     case ENXIO:
       // The kernel has dropped this socket's filters: even if the interface comes back, it would stay deaf.
@@ -210,8 +210,9 @@ std::optional<Error> SocketCanTransport::not_usable() {
   }
   if (bus_off_now_) {
     const auto facts = is_can_ ? interface_facts(facts_.name) : Result<InterfaceFacts>(facts_);
-    // Virtual interfaces have no controller state: an error frame somebody injected is all there is.
-    if (facts && (is_can_ && !facts->is_virtual) && !facts->bus_off) {
+    // Interfaces without a controller have no state: an error frame somebody injected is all there is.
+    const bool has_controller = is_can_ && facts && facts->kind != "vcan" && facts->kind != "vxcan";
+    if (has_controller && !facts->bus_off) {
       bus_off_now_ = false;
     } else {
       return Error{"the controller is bus-off", facts_.name,

@@ -55,7 +55,7 @@ inline constexpr Duration host_is_late = std::chrono::milliseconds(100);
 struct TransportInfo {
   std::string name;                   ///< interface name, or "simulated"
   std::string driver;                 ///< "vcan", "kvaser_pci", ..., "simulated"
-  bool is_virtual = true;             ///< no real machine can be at the other end (vcan, vxcan, simulated)
+  bool is_virtual = true;             ///< no real machine can be at the other end (vcan, simulated)
   bool confirms_transmission = true;  ///< own frames come back after the wire, not before (IFF_ECHO)
   std::uint32_t bit_rate = 0;         ///< bit/s, 0 when unknown
   std::uint64_t receive_buffer = 0;   ///< bytes the kernel granted, 0 when unlimited

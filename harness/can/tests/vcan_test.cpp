@@ -149,6 +149,33 @@ TEST_CASE("the transport reports the facts of its interface") {
   }
 }
 
+TEST_CASE("only a vcan that no gateway routes to another kind of interface counts as virtual") {
+  interface_under_test();
+  const OwnInterface own;
+  if (!own.usable()) return;
+  CHECK(interface_facts(own.name())->is_virtual);
+  const std::string pair = own.name() + "x", between = own.name() + "v";
+  if (!run("ip link add dev " + pair + " type vxcan peer name " + own.name() + "y")) return;
+  run("ip link set " + pair + " up");
+  CHECK_FALSE(interface_facts(pair)->is_virtual);
+  const bool routes = run("ip link add dev " + between + " type vcan") &&
+                      run("ip link set " + between + " up") &&
+                      run("cangw -A -s " + own.name() + " -d " + between);
+  if (routes) {
+    CHECK(interface_facts(own.name())->is_virtual);
+    REQUIRE(run("cangw -A -s " + between + " -d " + pair));
+    CHECK_FALSE(interface_facts(own.name())->is_virtual);
+    CHECK(interface_facts(own.name())->routed_to == pair);
+    CHECK_FALSE(interface_facts(between)->is_virtual);
+    REQUIRE(run("cangw -D -s " + between + " -d " + pair));
+    CHECK(interface_facts(own.name())->is_virtual);
+  } else {
+    std::printf("not tried: cangw cannot make a route\n");
+  }
+  run("ip link del " + between);
+  run("ip link del " + pair);
+}
+
 TEST_CASE("frames of other programs carry kernel stamps, whenever they are read") {
   const auto transport = must_open(interface_under_test());
   const RawSocket other(transport->info().name);
