@@ -2,6 +2,7 @@
 #include "monitor/follower.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "canopen/cob_id.hpp"
 
@@ -28,6 +29,7 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   now_.index = index;
   now_.subject = Subject::other;
   now_.heard_before = heard_;
+  now_.guard_answer = false;
   const auto& frame = captured.frame;
   if (frame.error) return now_;
   const bool from_device = captured.direction == can::Direction::received;
@@ -59,9 +61,11 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   } else if (frame.id == 0x700U + node) {
     if (frame.remote) {
       guard_request_ = captured.time;
+      guard_open_ = !nmt_.booting();
     } else if (from_device) {
       now_.subject = Subject::error_control;
       now_.guarded = guard_request_ && captured.time <= *guard_request_ + explained_for;
+      now_.guard_answer = std::exchange(guard_open_, false) && now_.guarded;
     }
   } else if (frame.id == 0x080U + node && from_device && !frame.remote) {
     now_.subject = Subject::emcy;
@@ -79,10 +83,15 @@ void Follower::settle() {
         default_.channel.transfer_unclear();
         for (auto& server : more_) server.channel.transfer_unclear();
       }
-      if (nmt_.booting()) forget_channels();
+      if (nmt_.booting()) {
+        guard_open_ = false;
+        forget_channels();
+      }
       break;
     }
     case Subject::error_control:
+      // A restart at that very moment cannot be told from a wrong answer.
+      if (now_.guard_answer && now_.frame().size() > 0 && now_.frame().data[0] == 0) nmt_.lose_track();
       if (now_.boot_up()) {
         nmt_.boot_up(now_.time());
         // A fresh server knows of no transfer, but requests may wait in the receive buffer.
@@ -107,6 +116,8 @@ void Follower::lose_track() {
 void Follower::request(Server& server) {
   now_.subject = Subject::sdo_request;
   server.channel.request(now_.frame(), now_.time());
+  // What comes next may answer the abort, as some servers do, and then nothing else.
+  if (&server == &default_ && !now_.frame().remote && now_.frame().data[0] == 0x80) bait_ = {};
 }
 
 void Follower::response(Server& server, bool default_channel) {

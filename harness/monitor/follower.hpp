@@ -34,12 +34,15 @@ struct Observation {
   SdoAnswer answer;  ///< of an sdo_response
   /// The frame may answer a guarding request, so that bit 7 is a toggle bit.
   bool guarded = false;
+  /// It is the answer to a guarding request, whatever it says: its state may be wrong, but it is no boot-up
+  /// message.
+  bool guard_answer = false;
   /// The device sent something before this frame; when that was.
   std::optional<BusTime> heard_before;
 
   /// State 0 on 700h + node-ID, well formed or not.
   [[nodiscard]] bool boot_up() const {
-    if (subject != Subject::error_control || frame().size() == 0) return false;
+    if (subject != Subject::error_control || frame().size() == 0 || guard_answer) return false;
     // Also between guarding requests, where bit 7 may be set and no answer is state 0.
     return (frame().data[0] & (guarded ? 0xFFU : 0x7FU)) == 0;
   }
@@ -90,6 +93,7 @@ class Follower {
   Server default_;
   std::vector<Server> more_;  ///< configured by downloads seen on the wire, by number from 1201h on
   std::optional<BusTime> guard_request_, heard_;
+  bool guard_open_ = false;  ///< the last guarding request has had no answer, and no reset came since
   Bait bait_;
 };
 

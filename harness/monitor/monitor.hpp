@@ -51,10 +51,18 @@ class Monitor {
   virtual void on_frame(const Observation& seen, const Follower& follower) = 0;
   /// Frames were lost before the next one.
   virtual void on_loss() {}
+  /// The device sent a frame: it was there when it was silent before.
+  void alive() {
+    for (auto& tally : tallies_) {
+      tally.judged += tally.quiet;
+      tally.quiet = 0;
+    }
+  }
 
   struct Tally {
     std::size_t judged = 0;
     std::size_t violated = 0;
+    std::size_t quiet = 0;  ///< silences that wait for a sign of life
   };
   [[nodiscard]] const Rule& rule() const { return rule_; }
   [[nodiscard]] const std::vector<Tally>& tallies() const { return tallies_; }
@@ -63,6 +71,8 @@ class Monitor {
  protected:
   /// Something was judged and is right.
   void good(std::size_t requirement) { ++tallies_[requirement].judged; }
+  /// Silence is due, and is right once the device is heard again: who is not there is silent, too.
+  void quiet(std::size_t requirement) { ++tallies_[requirement].quiet; }
   /// True: tell() the violation. False: it is counted only.
   [[nodiscard]] bool bad(std::size_t requirement) {
     ++tallies_[requirement].judged;

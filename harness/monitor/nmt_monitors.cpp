@@ -39,7 +39,7 @@ class SdoStates final : public Monitor {
       early_.reset();
     } else if (seen.subject == Subject::sdo_request && in_stopped) {
       asked_in_stopped_ = true;
-      good(stopped);
+      quiet(stopped);
     } else if (seen.subject == Subject::sdo_response) {
       // The answer to a request from before may be on its way already.
       const bool older = !asked_in_stopped_ && seen.answer.to != SdoAnswer::To::stream;
@@ -80,7 +80,7 @@ class NmtBootUp final : public Monitor {
       const auto& frame = seen.frame();
       const bool for_it = frame.size() == 2 && !frame.extended &&
                           (frame.data[1] == 0 || frame.data[1] == follower.facts().node.value());
-      if (for_it && (frame.data[0] == 0x01 || frame.data[0] == 0x02 || frame.data[0] == 0x80)) good(order);
+      if (for_it && (frame.data[0] == 0x01 || frame.data[0] == 0x02 || frame.data[0] == 0x80)) quiet(order);
       asked_since_ = false;
       return;
     }

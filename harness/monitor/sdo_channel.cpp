@@ -46,6 +46,8 @@ void SdoChannel::lose_track(int exchanges) {
   odd_request_ = false;
   count_ = 0;
   complete_ = crossed_ = 0;
+  aborted_.reset();
+  spare_.reset();
   transfer_ = {};
 }
 
@@ -110,6 +112,10 @@ void SdoChannel::request(const can::Frame& frame, BusTime time) {
   const bool after_silence = last_frame_ && time >= *last_frame_ + silence_to_trust;
   last_frame_ = time;
   idle_abort_ = client_abort_ = server_abort_ = false;
+  if (after_silence) {
+    aborted_.reset();
+    spare_.reset();
+  }
   confirmed_.reset();
   // By its bytes a sub-block that comes again is hardly told from the next one, where the data repeat: it is
   // looked for only where the client was slow enough for a server to lose patience.
@@ -119,7 +125,7 @@ void SdoChannel::request(const can::Frame& frame, BusTime time) {
   const bool block_segments = transfer_.kind == Kind::block_download && transfer_.stage == Stage::segments;
   const bool streaming = transfer_.kind == Kind::block_upload && transfer_.stage == Stage::segments;
   if (plain && block_segments && frame.data[0] != abort_command) return client_segment(frame);
-  if (plain && specifier(frame) == 4) return client_abort();
+  if (plain && specifier(frame) == 4) return client_abort(frame);
   if (block_segments || (streaming && count_ == 0)) return lose_track();
   // The server may send the sub-block again before it sees that the client wants something else.
   const bool complete = transfer_.kind == Kind::block_upload && transfer_.stage == Stage::complete;
@@ -167,11 +173,13 @@ bool SdoChannel::request_without_track(const can::Frame& frame, bool plain, bool
   return false;
 }
 
-void SdoChannel::client_abort() {
+void SdoChannel::client_abort(const can::Frame& frame) {
   const bool flowing = (transfer_.kind == Kind::block_upload && transfer_.stage == Stage::segments) ||
                        (transfer_.kind == Kind::block_download && transfer_.stage == Stage::segments);
   client_abort_ = true;
   idle_abort_ = transfer_.kind == Kind::none && count_ == 0;
+  aborted_ = multiplexer_of(frame);
+  aborted_idle_ = idle_abort_;
   transfer_ = {};
   transfer_.kind = Kind::none;
   // Segments or an acknowledge may be in the server's queue already.

@@ -83,7 +83,7 @@ class SdoChannel {
   [[nodiscard]] bool request_without_track(const can::Frame& frame, bool plain, bool after_silence);
   void push(const can::Frame& frame, Asked asked);
   void remove(std::size_t position);
-  void client_abort();
+  void client_abort(const can::Frame& frame);
   void client_segment(const can::Frame& frame);
   void block_upload_request(const can::Frame& frame);
   void acknowledge(const can::Frame& frame);
@@ -93,6 +93,7 @@ class SdoChannel {
   void answer_without_track(const can::Frame& frame);
   [[nodiscard]] bool sub_block_again(const can::Frame& frame);
   void stream_segment(const can::Frame& frame, SdoAnswer& out);
+  [[nodiscard]] bool answers_abort(const can::Frame& frame, SdoAnswer& out);
   [[nodiscard]] bool time_out_crosses(const can::Frame& frame, SdoAnswer& out);
   void expect_refusal();
   void answer_without_request(const can::Frame& frame, SdoAnswer& out);
@@ -124,7 +125,10 @@ class SdoChannel {
   std::optional<Written> written_;
   std::optional<Multiplexer> confirmed_;  ///< object of the block upload that the client's last frame ended
   bool client_abort_ = false, idle_abort_ = false;  ///< the last frame of the client; nothing was open
-  bool server_abort_ = false;                       ///< the last frame of the server, and no request since
+  std::optional<Multiplexer> aborted_;  ///< named by the client's latest abort, which nothing has answered
+  bool aborted_idle_ = false;           ///< ... and nothing was open
+  std::optional<Multiplexer> spare_;    ///< about this object one answer more may come
+  bool server_abort_ = false;           ///< the last frame of the server, and no request since
 };
 
 /// Index and sub-index of bytes 1-3.

@@ -28,7 +28,9 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
     lose_track();
     return out;
   }
-  if (time_out_crosses(frame, out)) {
+  if (answers_abort(frame, out)) {
+    // The requests stay open.
+  } else if (time_out_crosses(frame, out)) {
     // The request it did not know of stays open.
   } else if (transfer_.kind == Kind::block_upload && count_ == 0 &&
              (transfer_.stage == Stage::segments || transfer_.stage == Stage::complete)) {
@@ -83,6 +85,35 @@ void SdoChannel::answer_without_track(const can::Frame& frame) {
   }
   if (unanswered_ > 0) --unanswered_;
   lose_track();
+}
+
+/// A server that wrongly answers the client's abort may do so behind the client's next request. By the object
+/// it names one answer is told from the other; where it cannot be told, one answer more may come.
+bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
+  const auto got = multiplexer_of(frame);
+  const auto names = [&](const Pending& each) {
+    return !each.has_multiplexer() || object_of(each.data) == got;
+  };
+  const auto begin = pending_.begin();
+  const bool asked = std::any_of(begin, begin + static_cast<std::ptrdiff_t>(count_), names);
+  if (spare_ == got && !asked && specifier(frame) >= 2 && specifier(frame) <= 4) {
+    spare_.reset();
+    out.to = SdoAnswer::To::unclear;
+    return true;
+  }
+  if (!aborted_ || !is_abort(frame) || count_ == 0) return false;
+  const auto aborted = *std::exchange(aborted_, std::nullopt);
+  if (asked || aborted != got) {
+    // Whoever was asked last; an abort of an unknown command may name anything.
+    spare_ = pending_[count_ - 1].has_multiplexer() ? object_of(pending_[count_ - 1].data) : got;
+    return false;
+  }
+  const bool both_gave_up = !aborted_idle_ && code_of(frame) == canopen::abort::timed_out;
+  out.to = both_gave_up ? SdoAnswer::To::itself : SdoAnswer::To::nothing;
+  out.cause = both_gave_up    ? SdoAnswer::Cause::none
+              : aborted_idle_ ? SdoAnswer::Cause::idle_abort
+                              : SdoAnswer::Cause::client_abort;
+  return true;
 }
 
 /// The server lost patience while the client's last frame was on its way. It answers that one next: an
@@ -141,16 +172,25 @@ void SdoChannel::answer_without_request(const can::Frame& frame, SdoAnswer& out)
   if (client_abort_ && !idle_abort_ && is_abort(frame) && code_of(frame) == canopen::abort::timed_out) return;
   out.to = SdoAnswer::To::nothing;
   using Cause = SdoAnswer::Cause;
-  out.cause = idle_abort_                        ? Cause::idle_abort
-              : client_abort_                    ? Cause::client_abort
-              : server_abort_ && is_abort(frame) ? Cause::repeated_abort
-                                                 : Cause::none;
+  // What answers an abort is an abort.
+  out.cause = !is_abort(frame) ? Cause::none
+              : idle_abort_    ? Cause::idle_abort
+              : client_abort_  ? Cause::client_abort
+              : server_abort_  ? Cause::repeated_abort
+                               : Cause::none;
+  if (is_abort(frame)) aborted_.reset();
 }
 
 void SdoChannel::answer_to(const Pending& pending, const can::Frame& frame, SdoAnswer& out) {
   out.to = SdoAnswer::To::request;
   out.asked = pending.asked;
   if (is_abort(frame)) return abort_of_server(pending, frame, out);
+  // To start or to acknowledge a block upload that is not open may make a server send segments.
+  if (pending.asked == Asked::other && pending.data[0] >> 5U == 5 && may_be_block_segment(frame)) {
+    out.to = SdoAnswer::To::unclear;
+    out.block = true;
+    return lose_track();
+  }
   const auto wanted = object_of(pending.data);
   const auto scs = specifier(frame);
   switch (pending.asked) {

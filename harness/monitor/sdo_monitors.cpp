@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "monitor/factories.hpp"
+#include "monitor/sdo_server_frame.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -20,7 +21,7 @@ bool is_response(const Observation& seen) { return seen.subject == Observation::
 /// An abort, also with reserved bits set. Segments of a block upload begin with their number.
 bool is_abort(const Observation& seen) {
   if (!seen.answer.well_formed) return false;
-  return seen.frame().data[0] == 0x80 || (!seen.answer.block && seen.frame().data[0] >> 5U == 4);
+  return seen.frame().data[0] == 0x80 || (!seen.answer.block && server::is_abort(seen.frame()));
 }
 std::string command(const Observation& seen) { return hex(seen.frame().data[0], 2); }
 
@@ -79,7 +80,10 @@ class SdoForeignRequests final : public Monitor {
     if (seen.subject == Observation::Subject::foreign_request) {
       const auto& frame = seen.frame();
       const auto own = 0x580U + follower.facts().node.value();
-      good(frame.extended ? extended : frame.id == 0x600 ? node_zero : frame.id == own ? own_id : other_node);
+      quiet(frame.extended      ? extended
+            : frame.id == 0x600 ? node_zero
+            : frame.id == own   ? own_id
+                                : other_node);
       return;
     }
     if (!is_response(seen) || seen.answer.to != To::nothing) return;

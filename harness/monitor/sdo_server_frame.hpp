@@ -5,15 +5,24 @@
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
 #include "can/frame.hpp"
+#include "canopen/abort_code.hpp"
 #include "monitor/sdo_channel.hpp"
 
 namespace conform::monitor::server {
 
 /// Bits 7-5 of the command: scs.
 inline unsigned specifier(const can::Frame& frame) { return frame.data[0] >> 5U; }
-inline bool is_abort(const can::Frame& frame) { return specifier(frame) == 4; }
 inline AbortCode code_of(const can::Frame& frame) {
   return AbortCode(static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4, 4))));
+}
+/// 80h; with reserved bits set only where a code of the standard follows: 81h to 9Fh also begin the last
+/// segment of a block upload.
+inline bool is_abort(const can::Frame& frame) {
+  return frame.data[0] == 0x80 || (specifier(frame) == 4 && !canopen::meaning(code_of(frame)).empty());
+}
+/// A segment of a block upload, as far as its first byte tells: a frame that is nothing else.
+inline bool may_be_block_segment(const can::Frame& frame) {
+  return frame.data[0] != 0 && frame.data[0] != 0x80 && !is_abort(frame);
 }
 inline std::uint32_t long_of(const can::Frame& frame) { return code_of(frame).value(); }
 

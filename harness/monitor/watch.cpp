@@ -117,7 +117,10 @@ Watch::Watch(const Facts& facts, std::span<const Rule* const> chosen) : follower
 void Watch::on_frame(const can::CapturedFrame& captured, std::size_t index) {
   const auto& seen = follower_.follow(captured, index);
   if (seen.subject == Observation::Subject::other) return;
-  for (const auto& monitor : monitors_) monitor->on_frame(seen, follower_);
+  for (const auto& monitor : monitors_) {
+    monitor->on_frame(seen, follower_);
+    if (seen.from_device()) monitor->alive();
+  }
   follower_.settle();
 }
 

@@ -59,7 +59,8 @@ TEST_CASE("In Stopped the server is silent") {
   CHECK(told({"> 000: 02 02", "wait 200 ms", request, answer}).empty());
   // Perhaps still booting when the command came.
   CHECK(told({reset_node, stop, boot_up, "wait 200 ms", request, answer}).empty());
-  const auto cases = judged(trace({stop, "wait 200 ms", request}));
+  const auto cases =
+      judged(trace({stop, "wait 200 ms", request, pre_operational, "wait 200 ms", request, answer}));
   CHECK(verdict_of(cases, "monitor/sdo-states") == Verdict::pass);
 }
 
@@ -82,4 +83,23 @@ TEST_CASE("Heartbeats that the host sends for the device are not judged") {
 
 TEST_CASE("A boot-up message behind a guarding request is one") {
   CHECK(told({"> 701: remote", "> 000: 81 01", "wait 20 ms", "< 701: 00", "wait 6 s", "< 701: 7F"}).empty());
+}
+
+TEST_CASE("The silence of a device that is not heard afterwards is no pass") {
+  CHECK(verdict_of(judged(trace({stop, "wait 200 ms", request})), "monitor/sdo-states") ==
+        Verdict::not_applicable);
+  const auto nobody = judged(trace(
+      {start, stop, pre_operational, "> 602: 40 00 10 00 00 00 00 00", "> 600: 40 00 10 00 00 00 00 00"}));
+  for (const auto& each : nobody) CHECK(each.verdict == Verdict::not_applicable);
+  const auto heard = judged(trace({start, pre_operational, "< 701: 7F"}));
+  CHECK(verdict_of(heard, "monitor/nmt-boot-up") == Verdict::pass);
+}
+
+TEST_CASE("A guard answer in state 00h is wrong, but no boot-up message") {
+  CHECK(
+      told({boot_up, "wait 3 s", start, "> 701: remote", "< 701: 00", "> 701: remote", "< 701: 80"}).empty());
+  CHECK(told({boot_up, "wait 3 s", start, "> 701: remote", "< 701: 05", "< 701: 00"}) ==
+        Told{"fail NMT-BOOT-06 in frame 5"});
+  CHECK(told({boot_up, "wait 3 s", "> 701: remote", reset_node, "wait 20 ms", boot_up, boot_up}) ==
+        Told{"fail NMT-BOOT-02 in frame 5"});
 }

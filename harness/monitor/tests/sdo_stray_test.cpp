@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Devices that answer aborts, or what is no request: the blame falls on that, and not on what comes next.
+#include "trace.hpp"
+
+using namespace conform;
+using namespace conform::monitor::testing;
+
+namespace {
+const std::string upload = "> 40 00 10 00 00 00 00 00", answer = "< 43 00 10 00 91 01 00 00";
+const std::string other = "> 40 01 10 00 00 00 00 00", other_answer = "< 4F 01 10 00 00 00 00 00";
+}  // namespace
+
+TEST_CASE("Segments that answer the start of a block upload that is not open are no aborts") {
+  CHECK(told(after_exchanges({"> A3 00 00 00 00 00 00 00", "< 81 00 00 00 00 00 00 00", upload, answer}))
+            .empty());
+  CHECK(told(after_exchanges({"> A3 00 00 00 00 00 00 00", "< 01 41 42 43 44 45 46 47",
+                              "< 82 00 00 00 00 00 00 00", upload, answer}))
+            .empty());
+  CHECK(told(after_exchanges({"> A2 00 7F 00 00 00 00 00", "< 81 00 00 00 00 00 00 00", upload, answer}))
+            .empty());
+  CHECK(told(after_exchanges({"> A0 08 10 00 7F 00 00 00", "< 81 41 42 43 44 45 46 47", upload, answer}))
+            .empty());
+  // An abort with reserved bits set remains one.
+  CHECK(told(after_exchanges({"> 40 FF FF 00 00 00 00 00", "< 81 FF FF 00 00 00 02 06"})) ==
+        Told{"fail SDO-GEN-06 in frame 6"});
+}
+
+TEST_CASE(
+    "An answer to the client's abort that comes behind the next request is not taken for the answer to that") {
+  CHECK(told(after_exchanges({"> 80 17 10 00 00 00 00 08", upload, "< 80 17 10 00 00 00 00 08", answer, other,
+                              other_answer})) == Told{"fail SDO-ERR-03 in frame 7"});
+  CHECK(told(after_exchanges({"> 21 17 10 00 02 00 00 00", "< 60 17 10 00 00 00 00 00",
+                              "> 80 17 10 00 00 00 00 08", upload, "< 80 17 10 00 00 00 00 08", answer})) ==
+        Told{"fail SDO-GEN-04 in frame 9"});
+}
+
+TEST_CASE("Where an abort may answer the client's abort or its next request, one answer more may come") {
+  CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", upload, "< 80 00 10 00 01 00 04 05", answer, other,
+                              other_answer}))
+            .empty());
+  CHECK(told(after_exchanges({"> 80 17 10 00 00 00 00 08", upload, "< 80 00 00 00 01 00 04 05", answer, other,
+                              other_answer}))
+            .empty());
+  // The client took the abort for the answer and gave up in its turn.
+  CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", upload, "< 80 00 10 00 01 00 04 05",
+                              "> 80 00 10 00 00 00 00 08", answer, other, other_answer}))
+            .empty());
+  CHECK(told(after_exchanges({upload, "wait 1 s", "> 80 00 10 00 00 00 04 05", "< 80 00 10 00 01 00 04 05",
+                              answer, other, other_answer}))
+            .empty());
+  // ... but two are one too many.
+  CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", upload, "< 80 00 10 00 01 00 04 05", answer,
+                              answer})) == Told{"fail SDO-GEN-04 in frame 9"});
+}
+
+TEST_CASE("What answers an abort is an abort") {
+  CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", answer})) == Told{"fail SDO-GEN-04 in frame 6"});
+}
+
+TEST_CASE("An answer to our own abort is not taken for one to a request to another node") {
+  CHECK(told(after_exchanges({"> 602: 40 00 10 00 00 00 00 00", "> 80 00 10 00 00 00 00 08",
+                              "< 80 00 10 00 00 00 00 08"})) == Told{"fail SDO-ERR-03 in frame 7"});
+  CHECK(told(after_exchanges({"> 602: 40 00 10 00 00 00 00 00", "> 80 00 10 00 00 00 00 08", upload,
+                              "< 80 00 10 00 00 00 00 08", answer}))
+            .empty());
+}
