@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "base/text.hpp"
@@ -11,6 +12,7 @@
 #include "can/pcapng.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
+#include "canopen/nmt.hpp"
 #include "engine/monitor_cases.hpp"
 #include "reports/text_tools.hpp"
 
@@ -35,6 +37,28 @@ std::size_t frames_of(NodeId node, std::span<const can::CapturedFrame> frames) {
     return each.direction == Direction::received &&
            (each.frame.is_data(set.sdo_response) || each.frame.is_data(set.error_control));
   }));
+}
+
+/// Where a file does not tell who sent what, the host may have sent in the name of the node, as tests of
+/// heartbeat consumers do. What answers can only be the node: an SDO or guarding request, or a reset.
+bool answers_in(std::span<const can::CapturedFrame> frames, const device::Profile& profile) {
+  const auto set = canopen::connection_set(profile.node);
+  std::optional<BusTime> asked, guarded, reset;
+  const auto soon = [](std::optional<BusTime> since, BusTime now, Duration limit) {
+    return since && now <= *since + limit;
+  };
+  return std::ranges::any_of(frames, [&](const can::CapturedFrame& each) {
+    const auto& frame = each.frame;
+    if (frame.error || frame.extended) return false;
+    if (frame.is_data(set.sdo_request)) asked = each.time;
+    if (frame.remote && frame.id == set.error_control.value()) guarded = each.time;
+    if (frame.id == 0 && frame.size() == 2 && frame.data[0] >= 0x81 && frame.data[1] == profile.node.value())
+      reset = each.time;
+    if (frame.is_data(set.sdo_response)) return soon(asked, each.time, profile.server_timeout);
+    if (!frame.is_data(set.error_control)) return false;
+    return soon(guarded, each.time, profile.sdo_timeout) ||
+           (canopen::is_boot_up(frame, profile.node) && soon(reset, each.time, profile.boot_time));
+  });
 }
 
 /// "; heard were the nodes 1, 3"
@@ -117,6 +141,13 @@ result::RunResult judge(const Recording& recording, const device::Profile& profi
     return out;
   }
   engine::judge_trace(frames, chosen, profile, catalogue, options.strict, {}, out);
+  if (recording.directions_inferred && !answers_in(frames, profile)) {
+    const auto why = fmt::format(
+        "nothing shows that node {} itself was there: no frame answers a request, and the capture does not tell who sent",
+        profile.node.value());
+    engine::withdraw_all(out.cases, why);
+    out.notes.push_back(why + "; candump -x and pcapng files tell it");
+  }
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "base/text.hpp"
 #include "canopen/nmt.hpp"
@@ -239,6 +240,11 @@ class Run {
     note_losses();
     judge_trace(recorder_.capture().frames(), monitors_, profile_, catalogue_, options_.strict, losses_,
                 out_);
+    // The preparation is no test of anything, unless only monitors were asked for.
+    const auto scenarios = std::span(out_.cases).first(plan_.size());
+    const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };
+    if (out_.aborted && !plan_.empty() && std::ranges::none_of(scenarios, was_run))
+      withdraw_passes(std::span(out_.cases).last(monitors_.size()), "the run stopped before any scenario");
     for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i) {
       comment_findings(out_.cases[i]);
       if (options_.on_case_end) options_.on_case_end(out_, i);

@@ -60,6 +60,32 @@ void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& mon
   for (auto& each : own) accept_known_deviations(profile, catalogue, each);
 }
 
+void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why) {
+  for (auto& each : monitors) {
+    bool open = false;
+    for (auto& judgement : each.judgements) {
+      if (judgement.verdict != Verdict::pass) continue;
+      judgement.verdict = Verdict::inconclusive;
+      open = true;
+    }
+    if (!open) continue;
+    each.verdict = worst(each.verdict, Verdict::inconclusive);
+    each.reason = why;
+  }
+}
+
+void withdraw_all(std::span<result::CaseResult> monitors, const std::string& why) {
+  for (auto& each : monitors) {
+    if (each.verdict == Verdict::not_applicable) continue;
+    each.verdict = Verdict::inconclusive;
+    each.reason = why;
+    for (auto& judgement : each.judgements) {
+      if (judgement.verdict != Verdict::not_applicable) judgement.verdict = Verdict::inconclusive;
+      for (auto& finding : judgement.findings) finding.verdict = Verdict::inconclusive;
+    }
+  }
+}
+
 void accept_known_deviations(const device::Profile& profile, const scenario::Catalogue& catalogue,
                              result::CaseResult& out) {
   auto verdict = Verdict::not_applicable;

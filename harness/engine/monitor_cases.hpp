@@ -35,6 +35,11 @@ void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& mon
                  const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
                  std::span<const monitor::Loss> losses, result::RunResult& out);
 
+/// What the monitors passed is open, for the given reason; what they found stays.
+void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why);
+/// Nor does it count what they found.
+void withdraw_all(std::span<result::CaseResult> monitors, const std::string& why);
+
 /// Turns failures that the profile lists as known deviations into warnings.
 void accept_known_deviations(const device::Profile& profile, const scenario::Catalogue& catalogue,
                              result::CaseResult& out);

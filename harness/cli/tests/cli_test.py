@@ -185,8 +185,11 @@ class CommandLine(unittest.TestCase):
 
     def test_what_cannot_be_judged_exits_2_with_a_reason(self):
         good, bad = self.path("good.log"), self.path("bad.log")
-        with open(good, "w", encoding="ascii") as file:
+        lone = self.path("lone.log")
+        with open(lone, "w", encoding="ascii") as file:
             file.write("(0000000001.000000) can0 701#00\n")
+        with open(good, "w", encoding="ascii") as file:
+            file.write("(0000000001.000000) can0 000#8101\n(0000000001.100000) can0 701#00\n")
         with open(bad, "w", encoding="ascii") as file:
             file.write("this is no capture\n")
         for arguments, said in [
@@ -203,6 +206,11 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
                 self.assertIn(said, done.stderr + done.stdout)
         self.assertEqual(run("judge", good, "--node", "1").returncode, 0)
+        # Perhaps the host sent it, in the name of a node that is not there.
+        done = run("judge", lone, "--node", "1")
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn("nothing shows that node 1 itself was there", done.stdout)
+        self.assertNotIn("\npass  ", done.stdout)
 
     def test_monitors_are_listed_explained_and_chosen(self):
         self.assertIn("monitor/sdo-toggle", run("list", "monitor").stdout)

@@ -4,6 +4,7 @@
 #include "cli/judge.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 
 #include "can/candump_log.hpp"
@@ -171,6 +172,34 @@ TEST_CASE("A pattern about scenarios leaves the monitors on; a pattern about mon
   CHECK(monitors_of({}, {"monitor"}).empty());
   CHECK(monitors_of({}, {}, {"SDO-GEN-02"}) == std::vector<std::string>{"sdo-frame-form"});
   CHECK(monitors_of({}, {}, {"OD-1014-06"}).empty());
+}
+
+TEST_CASE("Nothing passes for a node of which only the host may have sent frames") {
+  // The run plays the node 7Eh, whose heartbeat the device watches.
+  const auto run = live({}, {"cia301/heartbeat/consumer", "cia301/sdo/channel"});
+  auto profile = world().profile;
+  for (const auto node : {NodeId(0x7E), NodeId(0x7D), NodeId(0x40), NodeId(0x02)}) {
+    profile.node = node;
+    const auto recording = cli::read_recording(can::write_candump_log(run.capture, {}), "test", {});
+    REQUIRE(recording.has_value());
+    const auto out = cli::judge(*recording, profile, world().suites.catalogue, {});
+    INFO(node.value());
+    CHECK(out.counts().pass == 0);
+    CHECK(result::exit_code(out) == 3);
+  }
+}
+
+TEST_CASE("A run that stopped before any scenario passes nothing") {
+  std::atomic<int> stop{0};
+  engine::RunOptions options;
+  options.stop = &stop;
+  options.on_planned = [&stop](const result::RunResult&) { stop = 2; };
+  const auto run =
+      cli::simulate({}, world().profile, world().suites.suite, world().suites.catalogue, options, 1);
+  REQUIRE(run.has_value());
+  CHECK(run->result.aborted.has_value());
+  CHECK(run->result.counts().pass == 0);
+  CHECK(run->capture.size() > 100);
 }
 
 TEST_CASE("Files that are no captures are refused with a hint") {
