@@ -37,20 +37,27 @@ bool NmtSlave::obeys_reset() const {
 
 void NmtSlave::on_command(const Frame& frame) {
   if (!addressed(frame)) return;
-  const Behaviour& behaviour = device_->behaviour;
   const NmtState state = device_->state;
   switch (frame.data[0]) {
     case command_reset_node:
       if (obeys_reset()) start_reset(Reset::node);
       return;
     case command_reset_communication:
-      if (!behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped)
+      if (!device_->behaviour.nmt_reset_ignored_in_stopped || state != NmtState::stopped)
         start_reset(Reset::communication);
       return;
     default: break;
   }
   if (state == NmtState::initialising) return;
-  switch (frame.data[0]) {
+  const auto delay = std::chrono::milliseconds(device_->choices.nmt_latency_ms);
+  if (delay.count() == 0) return obey(frame.data[0]);
+  commands_.emplace_back(device_->now + delay, frame.data[0]);
+}
+
+void NmtSlave::obey(std::uint8_t command) {
+  const Behaviour& behaviour = device_->behaviour;
+  const NmtState state = device_->state;
+  switch (command) {
     case command_start:
       if (behaviour.nmt_start_ignored_in_stopped && state == NmtState::stopped) return;
       return enter(behaviour.nmt_start_ignored ? state : NmtState::operational);
@@ -77,6 +84,7 @@ void NmtSlave::start_reset(Reset reset) {
     return;
   }
   device_->state = NmtState::initialising;
+  commands_.clear();
   if (on_reset) on_reset(reset);
   const Choices& choices = device_->choices;
   const int start_up = reset == Reset::node ? choices.node_start_up_ms : choices.communication_start_up_ms;
@@ -94,7 +102,17 @@ void NmtSlave::enter(NmtState state) {
   if (on_change) on_change(from);
 }
 
+std::optional<BusTime> NmtSlave::next_wakeup() const {
+  if (commands_.empty()) return boot_due_;
+  return earliest({boot_due_, commands_.front().first});
+}
+
 void NmtSlave::on_time() {
+  while (!commands_.empty() && commands_.front().first <= device_->now) {
+    const std::uint8_t command = commands_.front().second;
+    commands_.pop_front();
+    obey(command);
+  }
   if (!boot_due_ || device_->now < *boot_due_) return;
   boot_due_.reset();
   device_->send(Service::boot_up,

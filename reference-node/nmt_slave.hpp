@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "device.hpp"
 
@@ -25,14 +27,17 @@ class NmtSlave {
   void start_reset(Reset reset);
   void enter(NmtState state);
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return boot_due_; }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
 
  private:
   [[nodiscard]] bool addressed(const Frame& frame) const;
   [[nodiscard]] bool obeys_reset() const;
+  /// Start, stop and enter pre-operational.
+  void obey(std::uint8_t command);
 
   Device* device_;
   std::optional<BusTime> boot_due_;
+  std::deque<std::pair<BusTime, std::uint8_t>> commands_;  ///< taken, and when each takes effect
 };
 
 }  // namespace refnode

@@ -125,8 +125,9 @@ Result<void> CaseRunner::run_cleanup(const Steps& list) {
       return !holds || *holds == wanted;
     };
     if (!says(step.when, true) || !says(step.unless, false)) continue;
-    session_.begin_step(step.action->acts(), step.action->object());
+    session_.begin_step(step);
     auto actual = step.action->run(session_);
+    session_.end_step();
     if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
   }
   return {};
@@ -178,8 +179,9 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   }
   if (step.walk) return run_walk(step);
   step_begin_ = session_.capture().size();
-  session_.begin_step(step.action->acts(), step.action->object());
+  session_.begin_step(step);
   auto actual = step.action->run(session_);
+  session_.end_step();
   if (!actual) return cannot_go_on(step, actual.error());
   if (!step.label.empty() && actual->decisive) session_.label(step.label, *actual->decisive);
   if (!step.branches.empty()) return run_branches(step, *actual);

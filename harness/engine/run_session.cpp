@@ -77,6 +77,7 @@ Result<steps::Value> RunSession::current() {
 }
 
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
+  if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
   auto answer = channel_.upload(object, std::nullopt);
   // A transfer that was given up is no reason to end the run.
   if (!answer && answer.error().where == "scenario") {
@@ -321,6 +322,7 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
       return std::unexpected(allowed.error());
     if (auto noted = will_change(job.request.object); !noted) return std::unexpected(noted.error());
   }
+  if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
   auto answers = channel_.run(jobs);
   if (!answers) return answers;
   note_sent(channel_.first_request());
@@ -362,11 +364,61 @@ Result<void> RunSession::command(canopen::NmtCommand command) {
   auto sent = recorder_.send(canopen::encode(command, node()));
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
-  state_changed_ = true;
-  if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication) {
+  note_command(*sent);
+  if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication)
     device_was_reset(command == canopen::NmtCommand::reset_node);
-    reset_ = *sent;
+  return {};
+}
+
+void RunSession::note_command(std::size_t index) {
+  using canopen::NmtCommand;
+  using canopen::NmtState;
+  state_changed_ = true;
+  const auto& [frame, time, direction, comment] = recorder_.capture().frames()[index];
+  const bool to_device =
+      frame.is_data(CanId(0)) && frame.size() == 2 && (frame.data[1] == 0 || frame.data[1] == node().value());
+  const auto command = to_device ? canopen::nmt_command_at(frame.data[0]) : std::nullopt;
+  if (!command) return;
+  if (*command == NmtCommand::reset_node || *command == NmtCommand::reset_communication) {
+    reset_ = index;
+    ordered_.reset();
+    return;
   }
+  const auto state = *command == NmtCommand::start  ? NmtState::operational
+                     : *command == NmtCommand::stop ? NmtState::stopped
+                                                    : NmtState::pre_operational;
+  ordered_ = Ordered{index, time, state, !ordered_ || time >= ordered_->sent + profile_.nmt_time};
+}
+
+Duration RunSession::time_to_follow() const {
+  const bool is_due = ordered_ && !at_once_ && window_.anchor < ordered_->sent + profile_.nmt_time;
+  return is_due ? profile_.nmt_time : Duration(0);
+}
+
+Result<void> RunSession::await_state() {
+  if (!ordered_ || at_once_) return {};
+  const auto [index, sent, state, alone] = *std::exchange(ordered_, std::nullopt);
+  // Of several commands in a row a heartbeat may show the state of an earlier one.
+  const auto shows_it = [state, alone, node = node()](const can::CapturedFrame& captured) {
+    if (!alone || captured.direction != can::Direction::received) return false;
+    const auto shown = canopen::decode_error_control(captured.frame, node);
+    return shown && shown->state == state;
+  };
+  const auto until = sent + profile_.nmt_time;
+  const auto shown = recorder_.find(index + 1, shows_it, until);
+  if (!shown) return std::unexpected(shown.error());
+  const auto reached = *shown ? recorder_.capture().frames()[**shown].time : until;
+  if (window_.anchor >= reached) return {};
+  const auto& frames = recorder_.capture().frames();
+  auto first = *shown ? **shown + 1 : std::max(window_.first, index + 1);
+  while (first < frames.size() && frames[first].time <= reached) ++first;
+  window_ = {std::max(window_.first, first), reached};
+  return {};
+}
+
+Result<void> RunSession::produce(steps::Production production) {
+  if (auto reached = await_state(); !reached) return reached;
+  recorder_.produce(std::move(production));
   return {};
 }
 
@@ -383,14 +435,14 @@ Result<void> RunSession::send(const can::Frame& frame) {
     if (auto idle = channel_.make_idle(); !idle) return idle;
     channel_.dirty(false);
   }
+  const bool commands = !frame.extended && frame.id == 0;
+  if (!commands) {
+    if (auto reached = await_state(); !reached) return reached;
+  }
   auto sent = recorder_.send(frame);
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
-  if (!frame.extended && frame.id == 0) {
-    state_changed_ = true;
-    const bool resets = frame.size() == 2 && (frame.data[0] == 0x81 || frame.data[0] == 0x82);
-    if (resets && (frame.data[1] == 0 || frame.data[1] == node().value())) reset_ = *sent;
-  }
+  if (commands) note_command(*sent);
   return {};
 }
 
@@ -431,9 +483,10 @@ void RunSession::begin_case(scenario::Risk risk) {
   write_refused_ = false;
 }
 
-void RunSession::begin_step(bool acts, const steps::ObjectReference* object) {
-  stimulus_open_ = acts;
-  object_ = object;
+void RunSession::begin_step(const steps::Step& step) {
+  stimulus_open_ = step.action->acts();
+  object_ = step.action->object();
+  at_once_ = step.at_once;
 }
 
 std::vector<Change> RunSession::take_journal() { return std::exchange(journal_, {}); }

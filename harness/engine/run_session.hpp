@@ -16,6 +16,7 @@
 #include "engine/sdo_channel.hpp"
 #include "scenario/scenario.hpp"
 #include "steps/session.hpp"
+#include "steps/step.hpp"
 
 namespace conform::engine {
 
@@ -76,18 +77,21 @@ class RunSession final : public steps::Session {
   }
   [[nodiscard]] Result<void> wait_until(BusTime until) override { return recorder_.wait_until(until); }
   [[nodiscard]] steps::Window window() const override { return window_; }
+  [[nodiscard]] Result<void> await_state() override;
+  [[nodiscard]] Duration time_to_follow() const override;
   [[nodiscard]] Result<steps::Window> window_after(std::string_view label) const override;
   void consume(std::size_t index) override;
   [[nodiscard]] CanId emcy_can_id() const override { return emcy_can_id_; }
   void label(std::string_view name, std::size_t capture_index) override;
   void set(std::string name, steps::Value value) override { names_[std::move(name)] = std::move(value); }
-  void produce(steps::Production production) override { recorder_.produce(std::move(production)); }
+  [[nodiscard]] Result<void> produce(steps::Production production) override;
   void stop_producing(std::string_view label) override { recorder_.stop_producing(label); }
   void device_was_reset(bool application_too) override;
 
   // For the engine
   void begin_case(scenario::Risk risk);  ///< forgets names, labels, windows; the journal is empty
-  void begin_step(bool acts, const steps::ObjectReference* object);
+  void begin_step(const steps::Step& step);
+  void end_step() { at_once_ = false; }
   /// NMT commands of the engine itself: baseline, restore, liveness.
   [[nodiscard]] Result<void> command(canopen::NmtCommand command);
   [[nodiscard]] std::optional<steps::Value> take_name(const std::string& name);
@@ -113,7 +117,16 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<steps::SdoAnswer> peek(Multiplexer object);
 
  private:
+  /// A start, stop or enter pre-operational that the device may not have followed yet.
+  struct Ordered {
+    std::size_t index = 0;  ///< of the command in the capture
+    BusTime sent;
+    canopen::NmtState state{};
+    bool alone = true;  ///< no other command was still to be followed when it was sent
+  };
   void note_sent(std::size_t index);
+  /// A frame with the CAN-ID 0 was sent.
+  void note_command(std::size_t index);
   [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }
   /// An error where the risk of the running scenario does not cover what it is about to do.
   [[nodiscard]] Result<void> needs(scenario::Risk risk, std::string_view what) const;
@@ -139,6 +152,8 @@ class RunSession final : public steps::Session {
   bool all_objects_ = false;
   bool write_refused_ = false;
   bool state_changed_ = true;
+  std::optional<Ordered> ordered_;
+  bool at_once_ = false;              ///< the running step does not wait for the state that was commanded
   std::optional<std::size_t> reset_;  ///< capture index of a reset command that was not looked after yet
   bool silence_seen_ = false;
   scenario::Risk risk_ = scenario::Risk::read_only;

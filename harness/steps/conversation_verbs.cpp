@@ -69,6 +69,7 @@ class Talk final : public Action {
     auto announced = announce_downloads(session, *object);
     if (!announced) return std::unexpected(announced.error());
     session.sdo_channel_dirty();
+    if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
     Actual out;
     out.detail = "as written";
     for (const auto& line : lines_) {

@@ -247,6 +247,7 @@ class AwaitEmcy final : public Action {
     auto within = within_.resolve(session.profile());
     if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)
       within += *delay->duration;
+    if (after_.empty()) within += session.time_to_follow();
     const auto id = session.emcy_can_id();
     auto found = session.find_frame(
         window->first,

@@ -121,6 +121,14 @@ Result<Window> window_of(Session& session, const std::string& after) {
   return after.empty() ? Result<Window>(session.window()) : session.window_after(after);
 }
 
+/// For steps that count frames or insist on none: what the device sends before it has followed an NMT command
+/// is of the old state.
+Result<Window> settled_window_of(Session& session, const std::string& after) {
+  if (!after.empty()) return session.window_after(after);
+  if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
+  return session.window();
+}
+
 void parse_label(const yaml::Field& field, const ParseContext& context, std::string& label) {
   auto name = field.text().value_or("");
   if (name.starts_with('$')) name.erase(0, 1);
@@ -230,6 +238,7 @@ class AwaitFrame final : public Action {
     auto match = source_.match(session);
     if (!match) return std::unexpected(match.error());
     auto most = within_.most.resolve(session.profile());
+    if (after_.empty()) most += session.time_to_follow();
     // What an error brings on another CAN-ID is due as late as the EMCY itself.
     if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)
       most += *delay->duration;
@@ -290,7 +299,7 @@ class Silence final : public Action {
     return "silence of " + join(parts, ", ") + (until_.empty() ? " for " + time_.text() : " until " + until_);
   }
   Result<Actual> run(Session& session) const override {
-    const auto window = window_of(session, after_);
+    const auto window = settled_window_of(session, after_);
     if (!window) return std::unexpected(window.error());
     std::vector<Session::Match> matches;
     for (const auto& source : sources_) {
@@ -352,7 +361,7 @@ class Collect final : public Action {
   std::string words(Session&) const override { return "collect " + source_.words() + " for " + time_.text(); }
 
   Result<Actual> run(Session& session) const override {
-    const auto window = window_of(session, after_);
+    const auto window = settled_window_of(session, after_);
     if (!window) return std::unexpected(window.error());
     auto match = source_.match(session);
     if (!match) return std::unexpected(match.error());

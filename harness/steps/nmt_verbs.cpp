@@ -164,7 +164,8 @@ class Produce final : public Action {
     }
     const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
     if (cyclic_) {
-      session.produce({"heartbeat", frame, every_.resolve(session.profile()), count_});
+      auto begun = session.produce({"heartbeat", frame, every_.resolve(session.profile()), count_});
+      if (!begun) return std::unexpected(begun.error());
       return Actual{};
     }
     const auto index = session.capture().size();

@@ -395,8 +395,10 @@ class SendSync final : public Action {
     if (known && known->number) id = canopen::can_id_of(CobId(static_cast<std::uint32_t>(*known->number)));
     const auto frame = can::data_frame(id, Bytes());
     if (count_) {
+      if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
       session.consume(session.capture().size());
-      session.produce({"sync", frame, every_.resolve(session.profile()), count_});
+      auto begun = session.produce({"sync", frame, every_.resolve(session.profile()), count_});
+      if (!begun) return std::unexpected(begun.error());
       return Actual{};
     }
     auto sent = session.send(frame);

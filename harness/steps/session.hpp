@@ -108,6 +108,12 @@ class Session : public Facts {
 
   /// Window of the step that runs, or counted from a labelled frame.
   [[nodiscard]] virtual Window window() const = 0;
+  /// The device has T_NMT to follow a start, stop or enter pre-operational. Waits until that time is over or
+  /// the device shows the new state; a window that began before then begins there. Nothing to do without such
+  /// a command, and for steps that say `at_once`.
+  [[nodiscard]] virtual Result<void> await_state() = 0;
+  /// How much longer than usual may be waited for what the device sends in the state that was commanded last.
+  [[nodiscard]] virtual Duration time_to_follow() const = 0;
   [[nodiscard]] virtual Result<Window> window_after(std::string_view label) const = 0;
   /// The step has used the trace up to and including `index`: later steps look behind it. An index behind the
   /// last frame means all that was recorded; windows then count from now.
@@ -119,7 +125,7 @@ class Session : public Facts {
 
   virtual void set(std::string name, Value value) = 0;
   /// Names that end with the step (the placeholders of a conversation) go through the scope as well.
-  virtual void produce(Production production) = 0;
+  [[nodiscard]] virtual Result<void> produce(Production production) = 0;
   virtual void stop_producing(std::string_view label) = 0;
 
   /// Forgets what a reset of the device undoes (labels of moved COB-IDs for the decoder, probed access).

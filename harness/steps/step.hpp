@@ -74,6 +74,7 @@ struct Step {
   std::optional<Condition> when, unless;
   std::vector<Branch> branches;  ///< `either`
   std::string label;             ///< `as`
+  bool at_once = false;          ///< does not wait for the NMT state that was commanded
   yaml::Position position;       ///< of the verb's key
   int length = 1;
 };

@@ -9,8 +9,8 @@
 namespace conform::steps {
 namespace {
 
-constexpr std::string_view common_keys[] = {"checks", "expect", "warn",   "fail",  "as",
-                                            "when",   "unless", "either", "steps", "note"};
+constexpr std::string_view common_keys[] = {"checks", "expect", "warn",  "fail",    "as",  "when",
+                                            "unless", "either", "steps", "at_once", "note"};
 
 std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) {
   Walk walk;
@@ -165,6 +165,7 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
     step.action = find_verb(step.verb)->parse(value, context);
     if (step.action == nullptr) return std::nullopt;
   }
+  step.at_once = fields.optional("at_once").boolean().value_or(false);
   if (const auto as = fields.optional("as")) {
     if (const auto name = as.text()) {
       step.label = *name;

@@ -123,7 +123,9 @@ class FakeSession final : public Session {
   void set(std::string name, Value value) override {
     names.insert_or_assign(std::move(name), std::move(value));
   }
-  void produce(Production) override {}
+  [[nodiscard]] Result<void> await_state() override { return {}; }
+  [[nodiscard]] Duration time_to_follow() const override { return {}; }
+  [[nodiscard]] Result<void> produce(Production) override { return {}; }
   void stop_producing(std::string_view) override {}
   void device_was_reset(bool) override {}
 
