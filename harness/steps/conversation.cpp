@@ -230,6 +230,7 @@ class LineParser {
           parse_number(trim(inside.substr(at + 1, colon == std::string_view::npos ? colon : colon - at - 1)));
       if (!from) return problem("a number is missing behind '@'", "{data@7:7}", begin, length);
       pattern.from = *from;
+      pattern.slice = true;
     }
     if (colon != std::string_view::npos) {
       const auto size = parse_number(trim(inside.substr(colon + 1)));
@@ -393,7 +394,9 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope,
       case Kind::name: {
         if (scope.find(pattern.name) != nullptr) {
           const auto known = named_bytes(pattern, scope);
-          if (!known || !std::ranges::equal(part, *known))
+          // A slice that reaches beyond the data: of the last segment only so many bytes are used.
+          const bool ends_early = known && pattern.slice && !known->empty() && known->size() < part.size();
+          if (!known || !std::ranges::equal(ends_early ? part.first(known->size()) : part, *known))
             return wrong(at, "{" + pattern.name + "} differs from before");
           break;  // a part of known data must not become the whole of it
         }

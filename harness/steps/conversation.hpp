@@ -8,8 +8,9 @@
 //   silence 580+N for T_QUIET
 //
 // Bytes: HH exact, x as a digit any, xx any, zz 00 expected (other values warn), N the node-ID, {m} the
-// multiplexer of the conversation's object, {name:n} n bytes, {name@from:n} a slice, .. the rest. IDs are
-// hexadecimal. Behind the bytes: `within 200 ms`, `RTR`, `EXT`, `DLC3`.
+// multiplexer of the conversation's object, {name:n} n bytes, {name@from:n} a slice (where the data end
+// before it does, its last bytes are unused ones: any), .. the rest. IDs are hexadecimal. Behind the bytes:
+// `within 200 ms`, `RTR`, `EXT`, `DLC3`.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +34,7 @@ struct BytePattern {
   std::uint8_t value = 0, mask = 0xFF;  ///< exact; a digit x clears four bits of the mask
   std::string name;
   std::size_t from = 0, size = 0;        ///< name: bytes from..from+size; size 0: all that remain
+  bool slice = false;                    ///< name: written with '@'
   std::vector<AbortCode> passes, warns;  ///< abort
   int column = 0, length = 1;            ///< code points in the line, for messages
 

@@ -140,6 +140,19 @@ TEST_CASE("Names remember what came, and must come again the same") {
   CHECK(compared("< 580+N: 41 {size:4}", {0x41, 8, 0, 0, 0}, session).reason == "{size} differs from before");
 }
 
+TEST_CASE("Of a slice that reaches beyond the data the last bytes are unused") {
+  FakeSession session;
+  session.names["whole"] = Value::of_bytes({1, 2, 3, 4, 5, 6, 7, 8, 9});
+  CHECK(compared("< 580+N: 1x {whole@7:7}", {0x1B, 8, 9, 0, 0, 0, 0, 0}, session).equal);
+  CHECK(compared("< 580+N: 1x {whole@7:7}", {0x1B, 8, 9, 0xAA, 0, 0, 0, 0}, session).equal);
+  CHECK_FALSE(compared("< 580+N: 1x {whole@7:7}", {0x1B, 8, 8, 0, 0, 0, 0, 0}, session).equal);
+  CHECK_FALSE(compared("< 580+N: 1x {whole@7:7}", {0x1B, 8, 9}, session).equal);
+  // Nothing is left to compare with, or no slice was asked for.
+  CHECK_FALSE(compared("< 580+N: 1x {whole@9:7}", {0x1B, 0, 0, 0, 0, 0, 0, 0}, session).equal);
+  session.names["short"] = Value::of_bytes({1, 2});
+  CHECK_FALSE(compared("< 580+N: 1x {short:7}", {0x1B, 1, 2, 0, 0, 0, 0, 0}, session).equal);
+}
+
 TEST_CASE("Every mistake of a conversation has its line, column and length") {
   CHECK(problem("> 600+N: 40 1O") == "0:12+2 '1O' is not a byte");
   CHECK(problem("\n  > 600+M: 40") == "1:4+5 '600+M' is not a CAN-ID");
