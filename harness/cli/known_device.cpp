@@ -66,6 +66,11 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     out.description = std::make_shared<const eds::EdsFile>(std::move(*file));
     device::add_description(out.profile, std::move(*description));
   }
+  if (auto done = device::complete_writes(out.profile); !done) {
+    auto error = done.error();
+    error.where = words.profile + ":" + error.where;
+    return std::unexpected(std::move(error));
+  }
   if (words.node) {
     out.profile.node = NodeId(static_cast<std::uint8_t>(*words.node));
   } else if (!node_known) {

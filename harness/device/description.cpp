@@ -247,7 +247,37 @@ void add_description(Profile& profile, Description description) {
   }
   profile.described_in = description.file;
   profile.described_places = std::move(description.places);
-  if (!profile.claims_given) profile.claims.merge(description.claims);
+  for (const auto& feature : description.claims) {
+    if (!profile.not_claimed.contains(feature)) profile.claims.insert(feature);
+  }
+}
+
+Result<void> complete_writes(Profile& profile) {
+  std::vector<TriggerWrite*> open;
+  const auto look = [&open](TriggerWrite& write) {
+    if (!write.open.empty()) open.push_back(&write);
+  };
+  for (auto& trigger : profile.errors) {
+    if (trigger.raise) look(*trigger.raise);
+    if (trigger.clear) look(*trigger.clear);
+  }
+  if (profile.store_fault) {
+    look(profile.store_fault->arm);
+    look(profile.store_fault->disarm);
+  }
+  for (auto* write : open) {
+    const auto entry = std::ranges::find(profile.objects, write->object, &Entry::mux);
+    if (entry == profile.objects.end()) {
+      return fail(fmt::format("{} is neither under 'objects' nor in the device description",
+                              to_string(write->object)),
+                  write->open);
+    }
+    auto bytes = canopen::encode(entry->type, write->value);
+    if (!bytes) return fail(bytes.error().what, write->open, bytes.error().hint);
+    write->bytes = *std::move(bytes);
+    write->open.clear();
+  }
+  return {};
 }
 
 }  // namespace conform::device

@@ -46,7 +46,11 @@ struct Description {
 [[nodiscard]] Result<Description> describe(const eds::EdsFile& file);
 
 /// Lays the description under the profile: what the profile lists itself is closer to the device. The claims
-/// are added unless the profile gives its own list.
+/// of both add up, without those that the profile takes back.
 void add_description(Profile& profile, Description description);
+
+/// Encodes the writes of error triggers and of the store fault whose types only the description tells. Error:
+/// an object that it does not describe, or a value that is none of its type.
+[[nodiscard]] Result<void> complete_writes(Profile& profile);
 
 }  // namespace conform::device

@@ -36,6 +36,7 @@ struct TriggerWrite {
   Multiplexer object;
   std::string value;  ///< literal as written in the file
   Bytes bytes;        ///< the literal as wire bytes of the object's type
+  std::string open;   ///< place in the profile, as long as only the device description can tell the type
 };
 
 /// A way to raise and clear one error of the device.
@@ -88,8 +89,8 @@ struct Profile {
   Duration block_timeout = std::chrono::seconds{3};        ///< T_BLK
   Duration lss_timeout = std::chrono::milliseconds{500};   ///< T_LSS
 
-  std::set<std::string, std::less<>> claims;  ///< words of features()
-  bool claims_given = false;                  ///< the profile has a list of claims, even an empty one
+  std::set<std::string, std::less<>> claims;       ///< words of features()
+  std::set<std::string, std::less<>> not_claimed;  ///< taken back, whatever the device description shows
   std::vector<Entry>
       objects;  ///< claimed entries in file order, all with `claimed` set; defaults without the node-ID
   std::vector<ErrorTrigger> errors;
@@ -104,6 +105,7 @@ struct Profile {
   Identity identity;
   std::vector<KnownDeviation> deviations;
 
+  /// What the profile says of its own and what its device description shows add up.
   [[nodiscard]] bool claimed(std::string_view feature) const { return claims.contains(feature); }
   [[nodiscard]] bool is_safe(Multiplexer mux) const;
   [[nodiscard]] bool is_untouchable(Multiplexer mux) const;

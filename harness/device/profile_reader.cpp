@@ -161,13 +161,19 @@ class Reader {
 
   void read_claims() {
     const Field claims = fields_.optional("claims");
-    profile_.claims_given = claims.present();
     std::vector<std::string_view> words;
     for (const Feature& feature : features()) words.push_back(feature.word);
     for (const Field& item : claims.items()) {
       const auto word = one_feature(item, words);
       if (word && !profile_.claims.insert(*word).second)
         item.error(fmt::format("'{}' is claimed twice", *word));
+    }
+    for (const Field& item : fields_.optional("not_claimed").items()) {
+      const auto word = one_feature(item, words);
+      if (word && profile_.claims.contains(*word))
+        item.error(fmt::format("'{}' is claimed, too", *word), "'not_claimed' is for what the EDS shows");
+      if (word && !profile_.not_claimed.insert(*word).second)
+        item.error(fmt::format("'{}' is listed twice", *word));
     }
   }
 
@@ -332,13 +338,18 @@ class Reader {
     const Entry* own = listed(*mux);
     const auto standard = standard_entry(*mux);
     if (own == nullptr && !standard) {
+      if (!profile_.eds.empty()) {
+        // The description is not read yet: complete_writes() does the rest.
+        const auto at = object.node()->position();
+        return TriggerWrite{*mux, value.node()->text(), {}, fmt::format("{}:{}", at.line, at.column)};
+      }
       object.error(fmt::format("the type of {} is not known", to_string(*mux)),
-                   "list the object under 'objects'");
+                   "list the object under 'objects', or name the device description under 'eds'");
       return std::nullopt;
     }
     auto bytes = read_value(value, own != nullptr ? own->type : standard->type);
     if (!bytes) return std::nullopt;
-    return TriggerWrite{*mux, value.node()->text(), *std::move(bytes)};
+    return TriggerWrite{*mux, value.node()->text(), *std::move(bytes), {}};
   }
 
   std::vector<Multiplexer> read_entries(const char* key) {

@@ -217,6 +217,34 @@ TEST_CASE("The profile's own list goes above the description") {
   CHECK(profile.is_untouchable({Index(0x2001), SubIndex(0)}));
 }
 
+TEST_CASE("Claims of the profile and of the description add up, without those that are taken back") {
+  Profile profile = default_profile(NodeId(5));
+  profile.claims = {"block sdo"};
+  profile.not_claimed = {"variable mapping"};
+  add_description(profile, described(variable("1014", "7", "rw") + variable("1600", "5", "rw")));
+  CHECK(profile.claimed("block sdo"));
+  CHECK(profile.claimed("emcy"));
+  CHECK_FALSE(profile.claimed("variable mapping"));
+}
+
+TEST_CASE("An error trigger may write what only the description describes") {
+  Profile profile = default_profile(NodeId(5));
+  ErrorTrigger trigger;
+  trigger.name = "hot";
+  trigger.raise = TriggerWrite{{Index(0x2F00), SubIndex(0)}, "2", {}, "8:40"};
+  profile.errors = {trigger};
+  CHECK(complete_writes(profile).error().what ==
+        "2F00h:00 is neither under 'objects' nor in the device description");
+  CHECK(complete_writes(profile).error().where == "8:40");
+  add_description(profile, described(variable("2F00", "6", "rw")));
+  REQUIRE(complete_writes(profile));
+  CHECK(profile.errors[0].raise->bytes == Bytes{2, 0});
+  CHECK(complete_writes(profile));
+
+  profile.errors[0].raise = TriggerWrite{{Index(0x2F00), SubIndex(0)}, "70000", {}, "8:40"};
+  CHECK_FALSE(complete_writes(profile));
+}
+
 TEST_CASE("A DCF names the node-ID") {
   CHECK(described("[DeviceComissioning]\nNodeID=0x10\n" + variable("1000", "7", "ro"), "a.dcf").node ==
         NodeId(16));

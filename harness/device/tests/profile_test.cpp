@@ -60,7 +60,6 @@ TEST_CASE("A minimal profile has the default times and the heartbeat trigger") {
   CHECK(profile.store_timeout == 10s);
   CHECK(profile.nmt_time == 100ms);
   CHECK(profile.quiet_time == 300ms);
-  CHECK_FALSE(profile.claims_given);
   CHECK_FALSE(profile.factory_defaults);
   CHECK_FALSE(profile.store_fault.has_value());
   REQUIRE(profile.errors.size() == 1);
@@ -75,6 +74,7 @@ eds: pump.eds
 boot_time: 2 s
 sdo_timeout: 250 ms
 claims: [emcy, heartbeat producer, block sdo]
+not_claimed: [tpdo]
 objects:
   - 1017h:00
   - 1003h:00..03
@@ -101,7 +101,7 @@ known_deviations:
   CHECK_FALSE(profile.duration("T_NONE").has_value());
   CHECK(profile.claimed("block sdo"));
   CHECK_FALSE(profile.claimed("tpdo"));
-  CHECK(profile.claims_given);
+  CHECK(profile.not_claimed.contains("tpdo"));
   REQUIRE(profile.objects.size() == 10);
   CHECK(std::ranges::all_of(profile.objects, &Entry::claimed));
   const Entry& speed = profile.objects[6];
@@ -225,6 +225,23 @@ TEST_CASE("The heartbeat of an error trigger is never that of the device") {
   CHECK(contains(loaded.messages, "cannot be that of the device itself"));
 }
 
+TEST_CASE("What is claimed cannot be taken back in the same profile") {
+  const Loaded loaded = load(head + "claims: [emcy, tpdo]\nnot_claimed: [emcy, rpdo, rpdo, pdo]\n");
+  CHECK(contains(loaded.messages, "device.yaml:5:15: error: 'emcy' is claimed, too"));
+  CHECK(contains(loaded.messages, "device.yaml:5:27: error: 'rpdo' is listed twice"));
+  CHECK(contains(loaded.messages, "device.yaml:5:33: error: unknown feature 'pdo'"));
+}
+
+TEST_CASE("The type of what an error trigger writes may stand in the device description") {
+  const std::string errors = "errors:\n  - {name: x, code: 1000h, raise: {object: 2F00h:01, value: 1}}\n";
+  CHECK(contains(load(head + errors).messages, "the type of 2F00h:01 is not known"));
+  const Profile profile = good(head + "eds: pump.eds\n" + errors);
+  REQUIRE(profile.errors.size() == 1);
+  REQUIRE(profile.errors[0].raise);
+  CHECK(profile.errors[0].raise->open == "6:44");
+  CHECK(profile.errors[0].raise->bytes.empty());
+}
+
 TEST_CASE("A store fault is armed and disarmed by writes to known objects") {
   const Loaded half = load(head + "store_fault: {arm: {object: 1017h:00, value: 1}}\n");
   CHECK_FALSE(half.usable);
@@ -252,8 +269,8 @@ TEST_CASE("The schema for editors knows every feature and key") {
   }
   for (const char* key :
        {"boot_time", "sdo_timeout", "store_timeout", "nmt_time", "quiet_time", "server_timeout",
-        "block_timeout", "lss_timeout", "claims", "objects", "errors", "safe_objects", "untouchable",
-        "factory_defaults", "identity", "known_deviations", "store_fault"}) {
+        "block_timeout", "lss_timeout", "claims", "not_claimed", "objects", "errors", "safe_objects",
+        "untouchable", "factory_defaults", "identity", "known_deviations", "store_fault"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }
