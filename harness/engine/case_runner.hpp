@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/given.hpp"
 #include "engine/plan.hpp"
 #include "engine/run_session.hpp"
 #include "result/run_result.hpp"
@@ -17,7 +18,7 @@ namespace conform::engine {
 class CaseRunner {
  public:
   CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, bool strict)
-      : session_(session), catalogue_(catalogue), strict_(strict) {}
+      : session_(session), catalogue_(catalogue), givens_(session), strict_(strict) {}
 
   /// Steps and cleanup; fills judgements, verdict and reason of `out`. Error: the environment failed; what
   /// was judged stays.
@@ -43,8 +44,6 @@ class CaseRunner {
 
   [[nodiscard]] Result<void> run_cleanup(const Steps& list);
 
-  /// The first entry of a `given` that the device has; nullopt when there is none.
-  [[nodiscard]] Result<std::optional<Multiplexer>> look_for(const std::string& text);
   [[nodiscard]] Result<Flow> run_steps(const Steps& list);
   [[nodiscard]] Result<Flow> run_step(const steps::Step& step);
   [[nodiscard]] Result<Flow> run_walk(const steps::Step& step);
@@ -82,6 +81,7 @@ class CaseRunner {
 
   RunSession& session_;
   const scenario::Catalogue& catalogue_;
+  Givens givens_;
   bool strict_;
   result::CaseResult* out_ = nullptr;
   std::size_t step_begin_ = 0;
@@ -94,8 +94,6 @@ class CaseRunner {
   bool entered_steps_ = false;
   const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs
   const Steps* list_ = nullptr;             ///< that list
-  std::map<Multiplexer, std::optional<std::uint64_t>>
-      held_;  ///< bytes of entries without a fixed length, as asked
 };
 
 }  // namespace conform::engine

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
@@ -52,6 +53,7 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
       profile_(profile),
       dictionary_(std::move(dictionary)),
       channel_(recorder, profile.node, profile.sdo_timeout, profile.quiet_time),
+      others_(profile.node),
       emcy_can_id_(canopen::connection_set(profile.node).emcy),
       home_emcy_can_id_(emcy_can_id_) {
   channel_.set_known_size([this](Multiplexer object) -> std::optional<std::size_t> {
@@ -234,6 +236,18 @@ Result<bool> RunSession::try_block_download() {
     return !refuses_block_transfer(data);
   }
   return false;
+}
+
+/// A node that is there shows within some seconds: by its heartbeat, its PDOs, or because somebody talks to
+/// it.
+Result<std::string> RunSession::others_heard() {
+  constexpr auto listened = std::chrono::seconds(5);
+  const auto& frames = capture().frames();
+  if (!frames.empty() && now() - frames.front().time < listened) {
+    if (auto waited = wait_until(frames.front().time + listened); !waited)
+      return std::unexpected(waited.error());
+  }
+  return others_.heard(capture()).value_or("");
 }
 
 std::string RunSession::access_of(Multiplexer object) const {

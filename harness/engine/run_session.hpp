@@ -12,6 +12,7 @@
 
 #include "device/dictionary.hpp"
 #include "device/profile.hpp"
+#include "engine/others.hpp"
 #include "engine/recorder.hpp"
 #include "engine/sdo_channel.hpp"
 #include "scenario/scenario.hpp"
@@ -52,6 +53,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool write_was_refused() const override { return write_refused_; }
   [[nodiscard]] Result<bool> offers_block_transfer(bool upload) override;
   [[nodiscard]] bool tries_all_objects() const override { return all_objects_; }
+  [[nodiscard]] Result<std::string> others_heard() override;
   void try_all_objects(bool all) { all_objects_ = all; }
 
   // Session
@@ -137,6 +139,7 @@ class RunSession final : public steps::Session {
   const device::Profile& profile_;
   device::Dictionary dictionary_;
   SdoChannel channel_;
+  Others others_;
   std::map<std::string, steps::Value, std::less<>> names_;
   mutable std::map<std::string, steps::Value, std::less<>> profile_names_;
   std::map<std::string, std::size_t, std::less<>> labels_;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "steps/condition.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "base/text.hpp"
 #include "device/profile.hpp"
@@ -29,6 +31,7 @@ struct Condition::Tree {
     described,
     refused,
     sweep,
+    alone,
     store_fault,
     block_upload,
     block_download,  // about device and bench
@@ -190,8 +193,9 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     node->kind = Kind::factory;
     return node;
   }
+  constexpr std::size_t longest = 7;
   struct Phrase {
-    std::string_view words[4];
+    std::string_view words[longest];
     Kind kind;
   };
   static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
@@ -199,12 +203,15 @@ Result<TreePtr> parse_atom(TokenReader& in) {
                                        {{"store", "fault", "is", "known"}, Kind::store_fault},
                                        {{"block", "upload", "is", "offered"}, Kind::block_upload},
                                        {{"block", "download", "is", "offered"}, Kind::block_download},
-                                       {{"all", "objects", "are", "tried"}, Kind::sweep}};
+                                       {{"all", "objects", "are", "tried"}, Kind::sweep},
+                                       {{"nobody", "else", "is", "heard", "on", "the", "bus"}, Kind::alone}};
   for (const auto& phrase : phrases) {
+    const auto words = static_cast<std::size_t>(std::ranges::find(phrase.words, std::string_view()) -
+                                                std::begin(phrase.words));
     std::size_t same = 0;
-    while (same < 4 && in.peek(same) == phrase.words[same]) ++same;
-    if (same != 4) continue;
-    for (const auto word : phrase.words) (void)in.accept(word);
+    while (same < words && in.peek(same) == phrase.words[same]) ++same;
+    if (same != words) continue;
+    for (std::size_t i = 0; i < words; ++i) in.take();
     node->kind = phrase.kind;
     return node;
   }
@@ -324,6 +331,11 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
   if (node.kind == Kind::block_upload) return facts.offers_block_transfer(true);
   if (node.kind == Kind::block_download) return facts.offers_block_transfer(false);
   if (node.kind == Kind::sweep) return facts.tries_all_objects();
+  if (node.kind == Kind::alone) {
+    const auto heard = facts.others_heard();
+    if (!heard) return std::unexpected(heard.error());
+    return heard->empty();
+  }
   if (node.kind == Kind::factory) return facts.factory_defaults();
   if (node.kind >= Kind::equal) return evaluate_comparison(node, facts);
   const auto object = node.object.resolve(facts);
@@ -421,6 +433,7 @@ std::vector<std::string_view> condition_forms() {
           "the write was refused",
           "block upload is offered",
           "block download is offered",
+          "nobody else is heard on the bus",
           "all objects are tried",
           "A and B, A or B, not A, (A)"};
 }

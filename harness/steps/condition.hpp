@@ -42,6 +42,9 @@ class Facts : public Scope {
   /// Whether the device carries out SDO block uploads (or downloads) at all: both are optional. Tries it
   /// once.
   [[nodiscard]] virtual Result<bool> offers_block_transfer(bool /*upload*/) { return false; }
+  /// What was heard since the beginning of the run that neither we nor the device sent, in words; empty:
+  /// nothing. Waits until there was some time to hear it.
+  [[nodiscard]] virtual Result<std::string> others_heard() { return std::string(); }
   /// The user wants full sweeps instead of samples.
   [[nodiscard]] virtual bool tries_all_objects() const { return false; }
 };

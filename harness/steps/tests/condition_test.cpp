@@ -73,7 +73,8 @@ TEST_CASE("Conditions about device and bench are phrases") {
        {"device claims sync producer", "error trigger is known", "an error trigger is known",
         "2 error triggers are known", "not device claims emcy", "not interface can send RTR",
         "not factory defaults are active", "not device description is given", "not all objects are tried",
-        "not store fault is known", "not block upload is offered", "not block download is offered"}) {
+        "not store fault is known", "not block upload is offered", "not block download is offered",
+        "nobody else is heard on the bus"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -81,6 +82,8 @@ TEST_CASE("Conditions about device and bench are phrases") {
   session.remote = session.factory = session.described = session.sweeps = true;
   CHECK(answer("interface can send RTR and factory defaults are active", session) == "yes");
   CHECK(answer("device description is given and all objects are tried", session) == "yes");
+  session.others = "707h";
+  CHECK(answer("nobody else is heard on the bus", session) == "no");
   session.device_profile.store_fault.emplace();
   CHECK(answer("store fault is known", session) == "yes");
 }

@@ -21,6 +21,7 @@ class FakeSession final : public Session {
   std::set<std::string, std::less<>> features;
   std::map<Multiplexer, Bytes> defaults;
   std::size_t triggers = 0;
+  std::string others;  ///< what somebody else sent
   bool described = false, sweeps = false, factory = false, remote = false;
   Result<Value> current_value = fail("no entry");
   device::Profile device_profile = device::default_profile(NodeId(5));
@@ -77,6 +78,7 @@ class FakeSession final : public Session {
   [[nodiscard]] bool can_send_remote_frames() const override { return remote; }
   [[nodiscard]] bool is_described() const override { return described; }
   [[nodiscard]] bool tries_all_objects() const override { return sweeps; }
+  [[nodiscard]] Result<std::string> others_heard() override { return others; }
 
   // Session
   [[nodiscard]] const device::Profile& profile() const override { return device_profile; }
