@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
+#include "can/frame.hpp"
 #include "object_faults.hpp"
 #include "sdo_block_faults.hpp"
 #include "sdo_faults.hpp"
@@ -13,6 +15,7 @@ namespace refnode {
 
 /// How the rules of one COB-ID parameter are broken.
 struct CobIdFaults {
+  bool takes_any_frame = false;      ///< SYNC: frames with the CAN-ID of another service, too
   bool lock_missing = false;         ///< the CAN-ID can be changed while the object exists
   bool frame_bit_accepted = false;   ///< bit 29
   bool bit30_accepted = false;       ///< SYNC and TIME: produce; EMCY: reserved
@@ -117,6 +120,9 @@ struct Behaviour {
   bool nmt_unknown_command_stops = false;
   bool reset_during_start_up_hangs = false;
   bool boot_up_on_pre_operational = false;
+  int restarts_after_ms = 0;  ///< of running; 0: the node goes on
+  std::function<bool(const conform::can::Frame&, std::uint8_t node_id)>
+      restarts_on;  ///< frames it falls over
   bool starts_in_operational = false;
 
   // Heartbeat producer

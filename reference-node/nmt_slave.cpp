@@ -84,6 +84,7 @@ void NmtSlave::start_reset(Reset reset) {
     return;
   }
   device_->state = NmtState::initialising;
+  restart_due_.reset();
   commands_.clear();
   if (on_reset) on_reset(reset);
   const Choices& choices = device_->choices;
@@ -103,8 +104,8 @@ void NmtSlave::enter(NmtState state) {
 }
 
 std::optional<BusTime> NmtSlave::next_wakeup() const {
-  if (commands_.empty()) return boot_due_;
-  return earliest({boot_due_, commands_.front().first});
+  if (commands_.empty()) return earliest({boot_due_, restart_due_});
+  return earliest({boot_due_, restart_due_, commands_.front().first});
 }
 
 void NmtSlave::on_time() {
@@ -113,8 +114,11 @@ void NmtSlave::on_time() {
     commands_.pop_front();
     obey(command);
   }
+  if (restart_due_ && device_->now >= *restart_due_) start_reset(Reset::node);
   if (!boot_due_ || device_->now < *boot_due_) return;
   boot_due_.reset();
+  if (device_->behaviour.restarts_after_ms > 0)
+    restart_due_ = device_->now + std::chrono::milliseconds(device_->behaviour.restarts_after_ms);
   device_->send(Service::boot_up,
                 conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
   device_->state =

@@ -36,7 +36,7 @@ class NmtSlave {
   void obey(std::uint8_t command);
 
   Device* device_;
-  std::optional<BusTime> boot_due_;
+  std::optional<BusTime> boot_due_, restart_due_;
   std::deque<std::pair<BusTime, std::uint8_t>> commands_;  ///< taken, and when each takes effect
 };
 

@@ -188,6 +188,8 @@ void Node::Impl::run_timers() {
 void Node::Impl::dispatch(const Frame& received) {
   Frame frame = received;
   if (frame.error) return;
+  if (device.behaviour.restarts_on && device.behaviour.restarts_on(frame, device.node_id))
+    return nmt.start_reset(Reset::node);
   if (device.behaviour.accepts_extended_frames) frame.extended = false;
   if (device.behaviour.accepts_remote_frames) frame.remote = false;
   if (frame.extended) return;
@@ -198,6 +200,7 @@ void Node::Impl::dispatch(const Frame& received) {
 
   if (device.behaviour.sdo.misread) device.behaviour.sdo.misread(frame, device.node_id);
   if (frame.id == 0x000) return nmt.on_command(frame);
+  if (device.behaviour.sync_cob_id.takes_any_frame && sync.on_frame(frame)) return;
   if (sdo.on_frame(frame)) return;
   if (device.state == NmtState::initialising) return;
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {

@@ -46,7 +46,7 @@ Result<std::string> draft(can::Transport& transport, const ScanCommand& options,
   auto profile = device::default_profile(info.node);
   engine::Recorder recorder(transport, &stop_signal);
   engine::RunSession session(recorder, profile, device::dictionary_of(profile));
-  const auto liveness = engine::probe(session, false);
+  const auto liveness = engine::probe(session, {});
   if (!liveness) return std::unexpected(liveness.error());
   if (!liveness->answers)
     return fail("node " + std::to_string(info.node.value()) + " does not answer", options.interface,

@@ -62,6 +62,7 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   out_ = &out;
   offenders_.clear();
   walk_value_.clear();
+  walk_end_.clear();
   stopped_because_.clear();
   entered_steps_ = false;
   outermost_ = nullptr;
@@ -197,6 +198,7 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     }
   }
   const bool outermost = walk_value_.empty();
+  std::size_t tried = 0;
   const auto outer = walk_value_.empty() ? std::string() : walk_value_ + ", ";
   for (const auto& value : values) {
     walk_value_ = outer + (value.number ? hex(*value.number,
@@ -204,7 +206,20 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
                                         : value.text());
     session_.set(walk.name, value);
     const auto before = out_->judgements;
+    const auto offences_before = offences();
     auto flow = run_steps(walk.steps);
+    ++tried;
+    // A value that kills the device would make every further one a failure, and cost a time-out each.
+    if (flow && *flow != Flow::stop && offences() > offences_before && !session_.is_stopped()) {
+      const auto alive = session_.peek({Index(0x1000), SubIndex(0)});
+      if (!alive) return std::unexpected(alive.error());
+      if (alive->kind == steps::SdoAnswer::Kind::silence) {
+        walk_end_ = "behind " + walk_value_ + " the device does not answer any more; " +
+                    std::to_string(values.size() - tried) + " further values were not tried";
+        stopped_because_ = walk_end_;
+        flow = Flow::stop;
+      }
+    }
     if (flow && *flow == Flow::next_value) {
       withdraw_passes(walk.steps, before);
       continue;
@@ -377,6 +392,7 @@ void CaseRunner::record(const Step& step, const std::string& requirement, const 
                         const Actual& actual) {
   auto& target = judgement(requirement);
   ++target.expectations;
+  target.frames_seen = session_.capture().size();
   // The first that passed, unless something worse came.
   if (grade.verdict != Verdict::not_applicable && (!target.decided_by || grade.verdict > target.verdict)) {
     target.decided_by = result::DecidingStep{{out_->position.file, step.position.line, step.position.column},
@@ -436,10 +452,17 @@ void CaseRunner::finish_walk() {
       text += (i == 0 ? "" : "; ") + offenders.values[i];
     }
     if (offenders.values.size() > offenders_named) text += "; ...";
+    if (!walk_end_.empty()) text += "; " + walk_end_;
     finding.actual = text;
   }
   offenders_.clear();
   walk_value_.clear();
+}
+
+std::size_t CaseRunner::offences() const {
+  std::size_t out = out_->setup_findings.size();
+  for (const auto& each : offenders_) out += each.values.size();
+  return out;
 }
 
 std::string CaseRunner::declared_at(const Step& step, const Actual& actual) const {
@@ -527,6 +550,52 @@ std::vector<result::EvidenceFrame> CaseRunner::evidence(std::size_t begin,
     out.push_back(std::move(frame));
   }
   return out;
+}
+
+void CaseRunner::judge_restart(result::CaseResult& out, std::size_t restart,
+                               const std::optional<monitor::Stimulus>& stimulus, bool again, bool doubtful) {
+  const auto frame = "boot-up message in frame " + std::to_string(restart + 1);
+  // It may have gone long before it said that it was back.
+  const auto since = stimulus ? stimulus->first : restart;
+  const auto why = std::string("the device restarted although nobody told it to (") + frame + ")";
+  for (auto& judgement : out.judgements) {
+    if (judgement.verdict == Verdict::not_applicable || judgement.verdict == Verdict::error) continue;
+    if (judgement.frames_seen <= since) continue;
+    const auto* requirement = catalogue_.find(judgement.requirement);
+    const bool named = requirement != nullptr && requirement->forbids_restart();
+    if (named && stimulus && judgement.verdict == Verdict::fail && (again || !doubtful)) continue;
+    if (named && again) {
+      result::Finding finding;
+      finding.verdict = judgement.verdict = Verdict::fail;
+      finding.requirement = judgement.requirement;
+      finding.position = out.position;
+      finding.step = "the frames from " + std::to_string(stimulus->first + 1) + " to " +
+                     std::to_string(stimulus->last + 1);
+      finding.accepts = {"the device goes on"};
+      finding.actual = "the device restarted: " + frame;
+      finding.reason = "it restarted again when it got the same frames once more";
+      out_ = &out;
+      finding.evidence = evidence(stimulus->first, restart);
+      finding.frames_seen = session_.capture().size();
+      judgement.findings.push_back(std::move(finding));
+      continue;
+    }
+    judgement.verdict = Verdict::inconclusive;
+    judgement.reason = why;
+    for (auto& finding : judgement.findings) {
+      if (finding.frames_seen <= since) {
+        judgement.verdict = worst(judgement.verdict, finding.verdict);
+      } else {
+        finding.verdict = Verdict::inconclusive;
+        finding.reason += "; but " + why;
+      }
+    }
+  }
+  auto verdict = Verdict::not_applicable;
+  for (const auto& each : out.judgements) verdict = worst(verdict, each.verdict);
+  if (!out.setup_findings.empty()) verdict = worst(verdict, Verdict::inconclusive);
+  out.verdict = verdict;
+  if (verdict == Verdict::inconclusive) out.reason = why;
 }
 
 void CaseRunner::conclude() {

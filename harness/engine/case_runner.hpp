@@ -10,6 +10,7 @@
 #include "engine/given.hpp"
 #include "engine/plan.hpp"
 #include "engine/run_session.hpp"
+#include "monitor/restarts.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
 
@@ -25,6 +26,11 @@ class CaseRunner {
   [[nodiscard]] Result<void> run(const PlannedCase& planned, result::CaseResult& out);
   /// Whether the last case came as far as its steps, so that there is something to clean up.
   [[nodiscard]] bool entered_steps() const { return entered_steps_; }
+  /// The device started in the middle of the case, and nobody had told it to. What was judged afterwards is
+  /// open, except where the rule names crashes: `again` it restarted when it got the frames of `stimulus`
+  /// once more.
+  void judge_restart(result::CaseResult& out, std::size_t restart,
+                     const std::optional<monitor::Stimulus>& stimulus, bool again, bool doubtful);
   /// The cleanup of a case that was stopped; a fault of the environment ends it.
   [[nodiscard]] Result<void> clean_up(const scenario::Scenario& scenario) {
     return run_cleanup(scenario.cleanup);
@@ -77,6 +83,8 @@ class CaseRunner {
   /// The grade of taking one of the ways of an `either`.
   [[nodiscard]] steps::Grade grade_of(const steps::Branch& branch, const std::string& requirement) const;
   void finish_walk();
+  /// How much was found wrong with the values of an `over` so far.
+  [[nodiscard]] std::size_t offences() const;
   void conclude();
 
   RunSession& session_;
@@ -86,6 +94,7 @@ class CaseRunner {
   result::CaseResult* out_ = nullptr;
   std::size_t step_begin_ = 0;
   std::string walk_value_;  ///< not empty: inside an `over`
+  std::string walk_end_;    ///< why not all values of the `over` were tried
   int left_at_line_ = 0;    ///< of the step whose way does not concern this device
   std::vector<Offenders>
       offenders_;  ///< in the order of the first judgement: addresses must not decide any order

@@ -33,79 +33,27 @@ void extend_array(device::Dictionary& out, Index index, std::uint8_t highest) {
 
 }  // namespace
 
-bool is_from_node(const RunSession& session, const can::CapturedFrame& captured) {
-  if (captured.direction != can::Direction::received || captured.frame.error || captured.frame.extended)
-    return false;
-  const auto set = canopen::connection_set(session.node());
-  const CanId id(captured.frame.id);
-  return id == set.sdo_response || id == set.error_control || id == set.emcy;
-}
-
-Result<Liveness> probe(RunSession& session, bool may_command) {
-  Liveness out;
-  const auto error_control = canopen::connection_set(session.node()).error_control;
-  const auto from_node = [&session](const can::CapturedFrame& captured) {
-    return is_from_node(session, captured);
-  };
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    auto answer = session.peek({Index(0x1000), SubIndex(0)});
-    if (!answer) return std::unexpected(answer.error());
-    if (answer->kind != Kind::silence) {
-      out.alive = out.answers = true;
-      out.heard = "SDO answer";
-      return out;
-    }
-    auto heard = session.recorder().find(0, from_node, session.now());
-    if (!heard) return std::unexpected(heard.error());
-    if (!*heard) continue;
-    const auto& frame = session.capture().frames()[**heard].frame;
-    if (frame.is_data(error_control) && frame.size() == 1 && frame.data[0] == 0x04 && may_command) {
-      // Stopped: no SDO there, and legally so.
-      if (auto sent = session.command(canopen::NmtCommand::pre_operational); !sent)
-        return std::unexpected(sent.error());
-      if (auto waited = session.wait_until(session.now() + session.profile().nmt_time); !waited) {
-        return std::unexpected(waited.error());
-      }
-      continue;
-    }
-    out.alive = true;
-    out.heard = "frames of the node, but no SDO answer";
-  }
-  if (!out.alive && may_command) {
-    const auto from = session.capture().size();
-    if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent)
-      return std::unexpected(sent.error());
-    // A node in Stopped or still booting is as silent as none: only T_BOOT tells them apart.
-    auto heard = session.recorder().find(from, from_node, session.now() + session.profile().boot_time);
-    if (!heard) return std::unexpected(heard.error());
-    if (*heard) {
-      out.alive = true;
-      out.heard = "a boot-up message, but no SDO answer";
-      auto answer = session.peek({Index(0x1000), SubIndex(0)});
-      if (!answer) return std::unexpected(answer.error());
-      if (answer->kind != Kind::silence) {
-        out.answers = true;
-        out.heard = "SDO answer after a reset";
-      }
-    }
-  }
-  if (out.heard.empty()) out.heard = "nothing";
-  return out;
-}
-
 /// Looks at an entry. A device that answers nothing any more would cost a time-out for each of the entries
-/// that follow.
-Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object) {
+/// that follow; one that is only starting has its time, and is asked again.
+Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object, const Means& means) {
   auto answer = session.peek(object);
   if (!answer || answer->kind != Kind::silence) return answer;
-  auto alive = session.peek({Index(0x1000), SubIndex(0)});
-  if (!alive) return alive;
-  if (alive->kind == Kind::silence)
-    return fail("the device fell silent when " + to_string(object) + " was looked for", {}, {});
+  auto life = look_for_life(session, means);
+  if (!life) return std::unexpected(life.error());
+  if (life->life != Life::answers)
+    return fail("the device fell silent when " + to_string(object) + " was looked for", {}, life->tried);
+  if (life->at_once) return answer;
+  answer = session.peek(object);
+  if (!answer || answer->kind != Kind::silence) return answer;
+  life = look_for_life(session, means);
+  if (!life) return std::unexpected(life.error());
+  if (life->life != Life::answers)
+    return fail("the device falls silent when " + to_string(object) + " is looked for", {}, life->tried);
   return answer;
 }
 
-Result<void> discover(RunSession& session) {
+Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& means) {
+  std::vector<Multiplexer> silent;
   auto& known = session.known();
   session.forget_presence();
   // ObjFlags of the description keep a look off some entries: they count as there, and are left alone.
@@ -116,8 +64,9 @@ Result<void> discover(RunSession& session) {
   for (const auto index : known.objects()) {
     const Multiplexer first{index, SubIndex(0)};
     if (const auto* entry = known.find(first); entry != nullptr && entry->not_to_be_read) continue;
-    auto answer = look(session, first);
+    auto answer = look(session, first, means);
     if (!answer) return std::unexpected(answer.error());
+    if (answer->kind == Kind::silence) silent.push_back(first);
     const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
     session.note_present(first, !says_absent(*answer));
     if (absent) {
@@ -135,8 +84,9 @@ Result<void> discover(RunSession& session) {
          std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
       if (entry.mux == first && known.has(first)) continue;
       if (entry.not_to_be_read) continue;
-      auto each = look(session, entry.mux);
+      auto each = look(session, entry.mux, means);
       if (!each) return std::unexpected(each.error());
+      if (each->kind == Kind::silence) silent.push_back(entry.mux);
       const bool gone = says_absent(*each);
       session.note_present(entry.mux, !gone);
       if (gone && entry.presence() != device::Presence::claimed) known.remove(entry.mux);
@@ -147,7 +97,7 @@ Result<void> discover(RunSession& session) {
   if (emcy->kind == Kind::confirmed && emcy->data.size() == 4) {
     session.set_home_emcy_can_id(canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(emcy->data)))));
   }
-  return {};
+  return silent;
 }
 
 Result<std::vector<result::Property>> device_properties(RunSession& session) {

@@ -10,10 +10,10 @@
 #include "canopen/nmt.hpp"
 #include "engine/case_runner.hpp"
 #include "engine/discovery.hpp"
+#include "engine/liveness.hpp"
 #include "engine/monitor_cases.hpp"
 #include "engine/restore.hpp"
 #include "engine/run_session.hpp"
-#include "result/annotate.hpp"
 
 namespace conform::engine {
 namespace {
@@ -47,9 +47,9 @@ class Run {
         options_(options),
         recorder_(transport, options.stop),
         session_(recorder_, profile_, device::dictionary_of(profile_)),
-        runner_(session_, catalogue_, options.strict) {
+        runner_(session_, catalogue_, options.strict),
+        restarts_(facts_of(profile)) {
     session_.try_all_objects(options.plan.all_objects);
-    if (options.observer != nullptr) recorder_.set_observer(*options.observer);
   }
 
   result::RunResult execute() {
@@ -57,7 +57,7 @@ class Run {
     const auto begin = recorder_.now();
     auto ready = prepare();
     make_plan();
-    recorder_.observer().planned(out_);
+    if (options_.on_planned) options_.on_planned(out_);
     if (!ready) {
       abort_run(ready.error());
     } else if (!alive_) {
@@ -67,6 +67,7 @@ class Run {
     } else {
       run_cases();
     }
+    tell_restarts();
     judge_monitors();
     out_.elapsed = recorder_.now() - begin;
     if (options_.stop != nullptr) out_.signal = options_.stop->load();
@@ -78,8 +79,47 @@ class Run {
  private:
   [[nodiscard]] bool may(scenario::Risk risk) const { return risk <= options_.plan.allowed; }
 
+  /// What may be done to a device that does not answer.
+  [[nodiscard]] Means means() {
+    Means out{.may_command = may(scenario::Risk::config)};
+    if (out.may_command && options_.power_cycle) {
+      out.power_cycle = [this]() -> Result<void> {
+        (void)restarts_.follow(recorder_.capture().frames());
+        auto done = options_.power_cycle();
+        if (!done) return done;
+        out_.notes.push_back("the power of the device was switched, because it did not come back by a reset");
+        // The start that comes now is the harness's doing.
+        restarts_.lose_track();
+        losses_.push_back({recorder_.capture().size(), recorder_.capture().size()});
+        return {};
+      };
+    }
+    return out;
+  }
+
+  /// Two devices with one node-ID would be blamed for each other.
+  Result<void> make_sure_it_is_alone(Duration listen) {
+    if (says_all_twice_) return {};
+    auto twice = answers_twice(session_, listen);
+    if (!twice) return std::unexpected(twice.error());
+    if (!*twice) return {};
+    auto second = second_device(session_, means());
+    if (!second) return std::unexpected(second.error());
+    // One that violates a rule is for the scenarios.
+    says_all_twice_ = !second->has_value();
+    if (says_all_twice_) return {};
+    return fail(**second, {}, "give one of them another node-ID, or take it off the bus");
+  }
+
+  /// A start that nobody asked for leaves the device in its power-on state; or a second device has joined.
+  Result<void> note_restarts() {
+    if (!restarts_.follow(recorder_.capture().frames())) return {};
+    session_.device_restarted();
+    return make_sure_it_is_alone(std::chrono::milliseconds(100));
+  }
+
   Result<void> prepare() {
-    auto liveness = probe(session_, may(scenario::Risk::config));
+    auto liveness = probe(session_, means());
     if (!liveness) return std::unexpected(liveness.error());
     alive_ = liveness->alive;
     mute_ = alive_ && !liveness->answers;
@@ -88,10 +128,18 @@ class Run {
       out_.notes.push_back("heard " + liveness->heard);
       return {};
     }
+    if (auto alone = make_sure_it_is_alone(std::chrono::milliseconds(100)); !alone) return alone;
     if (may(scenario::Risk::config)) {
       if (auto done = enter_pre_operational(); !done) return done;
     }
-    if (auto found = discover(session_); !found) return found;
+    auto silent = discover(session_, means());
+    if (!silent) return std::unexpected(silent.error());
+    if (!silent->empty()) {
+      std::vector<std::string> names;
+      for (const auto object : *silent) names.push_back(to_string(object));
+      out_.notes.push_back("requests for " + join(names, ", ") + " are not answered");
+    }
+    if (auto alone = note_restarts(); !alone) return alone;
     auto properties = device_properties(session_);
     if (!properties) return std::unexpected(properties.error());
     out_.properties = std::move(*properties);
@@ -150,13 +198,13 @@ class Run {
         result.reason = plan_[i].held_back.empty() ? plan_[i].not_applicable : plan_[i].held_back;
         result.finished = true;
         result.begin = result.end = recorder_.now();
-        recorder_.observer().case_ended(out_, i);
+        if (options_.on_case_end) options_.on_case_end(out_, i);
         continue;
       }
       if (mute_ && !plan_[i].scenario->basic) continue;
-      recorder_.observer().case_begun(out_, i);
+      if (options_.on_case_begin) options_.on_case_begin(out_, i);
       auto done = run_case(plan_[i], result);
-      recorder_.observer().case_ended(out_, i);
+      if (options_.on_case_end) options_.on_case_end(out_, i);
       if (!done) {
         abort_run(done.error());
         break;
@@ -182,6 +230,11 @@ class Run {
       return ready;
     }
     note_losses();
+    if (auto alone = note_restarts(); !alone) {
+      out.reason = "not run: " + alone.error().text();
+      restore_after_fault(nullptr);
+      return alone;
+    }
     out.begin = recorder_.now();
     out.first_frame = recorder_.capture().size();
     const auto health = recorder_.transport().health();
@@ -193,7 +246,7 @@ class Run {
     note_losses();
     out.end = recorder_.now();
     const auto lateness = recorder_.take_lateness();
-    if (ran) ran = after_case(out, planned.scenario->risk >= scenario::Risk::config);
+    if (ran) ran = after_case(out);
     if (!ran) {
       // The environment failed in the middle: nothing of this case counts as passed or failed.
       withdraw(out, vanished_ ? last_heard() : 0);
@@ -205,6 +258,8 @@ class Run {
     out.finished = true;
     distrust_if_unhealthy(out, health, lateness);
     accept_known_deviations(profile_, catalogue_, out);
+    if (out.first_frame < out.end_frame) recorder_.capture().comment(out.first_frame, out.name());
+    comment_findings(out);
     return {};
   }
 
@@ -213,10 +268,27 @@ class Run {
     const auto now = recorder_.transport().health();
     const auto frames = recorder_.capture().size();
     if (now.frames_dropped > health_.frames_dropped || now.bus_offs > health_.bus_offs ||
-        now.clock_steps > health_.clock_steps)
+        now.clock_steps > health_.clock_steps) {
       losses_.push_back({trusted_frames_, frames});
+      (void)restarts_.follow(recorder_.capture().frames());
+      restarts_.lose_track();
+    }
     health_ = now;
     trusted_frames_ = frames;
+  }
+
+  /// The frames that decided a verdict say so in the capture.
+  void comment_findings(const CaseResult& out) {
+    for (const auto& judgement : out.judgements) {
+      for (const auto& finding : judgement.findings) {
+        for (const auto& frame : finding.evidence) {
+          if (frame.decisive && frame.capture_index < recorder_.capture().size()) {
+            recorder_.capture().comment(frame.capture_index, std::string(to_string(finding.verdict)) + " " +
+                                                                 finding.requirement + ": " + finding.actual);
+          }
+        }
+      }
+    }
   }
 
   /// The monitors see the whole trace, also of a run that stopped early. A device that was never heard leaves
@@ -224,15 +296,43 @@ class Run {
   void judge_monitors() {
     if (monitors_.empty() || !alive_) return;
     note_losses();
-    judge_trace(recorder_.capture().frames(), monitors_, profile_, catalogue_, options_.strict, losses_,
-                out_);
+    judge_trace(recorder_.capture().frames(), monitors_, profile_, catalogue_, options_.strict, losses_, out_,
+                true);
     // The preparation is no test of anything, unless only monitors were asked for.
     const auto scenarios = std::span(out_.cases).first(plan_.size());
     const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };
     if (out_.aborted && !plan_.empty() && std::ranges::none_of(scenarios, was_run))
       withdraw_passes(std::span(out_.cases).last(monitors_.size()), "the run stopped before any scenario");
-    for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i)
-      recorder_.observer().case_ended(out_, i);
+    for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i) {
+      comment_findings(out_.cases[i]);
+      if (options_.on_case_end) options_.on_case_end(out_, i);
+    }
+  }
+
+  /// In the summary; a boot-up message behind a case may come from what happened in it.
+  void tell_restarts() {
+    const auto& frames = recorder_.capture().frames();
+    (void)restarts_.follow(frames);
+    constexpr std::size_t most_named = 3;
+    std::vector<std::string> where;
+    for (const auto index : restarts_.found()) {
+      const auto stimulus = monitor::stimulus_of(frames, index, profile_.node, profile_.boot_time);
+      const auto case_at = [this](std::size_t at) {
+        return std::ranges::find_if(out_.cases, [at](const CaseResult& each) {
+          return at >= each.first_frame && at < each.end_frame;
+        });
+      };
+      auto found = case_at(index);
+      if (found == out_.cases.end() && stimulus) found = case_at(stimulus->last);
+      where.push_back("frame " + std::to_string(index + 1) +
+                      (found == out_.cases.end() ? ", between cases" : ", in " + found->name()));
+    }
+    if (where.empty()) return;
+    const auto count = where.size();
+    if (count > most_named) where.resize(most_named);
+    out_.notes.push_back("the device restarted " + (count == 1 ? "once" : std::to_string(count) + " times") +
+                         " although nobody told it to: " + join(where, "; ") +
+                         (count > most_named ? "; ..." : ""));
   }
 
   /// Pre-operational, SDO channel idle, and freshly reset where the scenario asks for it.
@@ -260,8 +360,8 @@ class Run {
     if (!session_.take_state_changed()) return {};
     // A device that is still booting would not hear the command, nor answer what comes next.
     if (const auto reset = session_.take_reset()) {
-      auto booted =
-          recorder_.find(*reset + 1, boots(), recorder_.capture().frames()[*reset].time + profile_.boot_time);
+      auto booted = recorder_.find(*reset + 1, is_boot_up_of(profile_.node),
+                                   recorder_.capture().frames()[*reset].time + profile_.boot_time);
       if (!booted) return std::unexpected(booted.error());
     }
     auto sent = session_.command(canopen::NmtCommand::pre_operational);
@@ -270,46 +370,40 @@ class Run {
     return session_.wait_until(session_.now() + profile_.nmt_time);
   }
 
-  [[nodiscard]] steps::Session::Match boots() const {
-    return [node = profile_.node](const can::CapturedFrame& captured) {
-      return captured.direction == can::Direction::received && canopen::is_boot_up(captured.frame, node);
-    };
-  }
-
   /// False: no boot-up message came.
   Result<bool> reset(canopen::NmtCommand command) {
     const auto from = recorder_.capture().size();
     auto sent = session_.command(command);
     if (!sent) return std::unexpected(sent.error());
-    auto booted = recorder_.find(from, boots(), recorder_.now() + profile_.boot_time);
+    auto booted = recorder_.find(from, is_boot_up_of(profile_.node), recorder_.now() + profile_.boot_time);
     if (!booted) return std::unexpected(booted.error());
     return booted->has_value();
   }
 
   /// Puts everything back and makes sure that the device is still there.
-  Result<void> after_case(CaseResult& out, bool may_command) {
+  Result<void> after_case(CaseResult& out) {
     recorder_.stop_producing("");
     if (session_.silence_seen() || out.verdict == Verdict::fail || out.verdict == Verdict::inconclusive) {
-      auto there = mute_ ? Result<Life>(Life::boots) : still_alive(may_command);
-      if (!there) return std::unexpected(there.error());
-      if (*there == Life::boots) {
+      auto revival = mute_ ? Result<Revival>(Revival{.life = Life::there}) : look_for_life(session_, means());
+      if (!revival) return std::unexpected(revival.error());
+      if (revival->was_reset)
+        out_.notes.push_back("the device had to be reset because it did not answer any more");
+      if (revival->life == Life::there) {
         // It is there and violates the rule under test by its silence; what would come next has nothing to
         // ask.
         if (!mute_) {
-          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer" +
-                                   (may_command ? ", not even after a reset" : ""),
-                               {},
-                               {}};
+          fell_silent_ = Error{"since " + out.name() + " the SDO server does not answer", {}, revival->tried};
         }
         note_not_put_back("the SDO server does not answer");
         return {};
       }
-      if (*there == Life::gone) {
+      if (revival->life == Life::gone) {
         vanished_ = true;
-        return fail("the device vanished during " + out.name(), {},
-                    "no SDO answer, and no boot-up message after a reset");
+        return fail("the device vanished during " + out.name(), {}, revival->tried);
       }
+      if (auto alone = make_sure_it_is_alone(std::chrono::milliseconds(20)); !alone) return alone;
     }
+    if (auto judged = judge_restarts(out); !judged) return judged;
     auto changes = take_changes();
     if (changes.empty()) return let_emcy_end(out.first_frame);
     // A stop request waits until everything is back: half a restore is the worst of all.
@@ -317,7 +411,7 @@ class Run {
     if (auto ready = enter_pre_operational(); !ready) return ready;
     auto report = restore(session_, changes);
     if (!report) return std::unexpected(report.error());
-    if (!report->left.empty() && may_command) {
+    if (!report->left.empty() && may(scenario::Risk::config)) {
       // What cannot be written back is lost with a reset, unless it was stored.
       auto booted = reset(canopen::NmtCommand::reset_node);
       if (!booted) return std::unexpected(booted.error());
@@ -351,32 +445,54 @@ class Run {
     return {};
   }
 
-  enum class Life : std::uint8_t { answers, boots, gone };
+  /// A start that nobody asked for, while the case ran: what was judged afterwards was judged of another
+  /// device.
+  Result<void> judge_restarts(CaseResult& out) {
+    const auto known = restarts_.found().size();
+    if (auto alone = note_restarts(); !alone) return alone;
+    if (restarts_.found().size() == known) return {};
+    const auto restart = restarts_.found()[known];
+    const auto stimulus =
+        monitor::stimulus_of(recorder_.capture().frames(), restart, profile_.node, profile_.boot_time);
+    auto again =
+        stimulus && concerns_restart(out, restart) ? restarts_upon(*stimulus, restart) : Result<bool>(false);
+    if (!again) return std::unexpected(again.error());
+    runner_.judge_restart(out, restart, stimulus, *again, unexplained_ > 0);
+    if (!*again) ++unexplained_;
+    return {};
+  }
 
-  Result<Life> still_alive(bool may_command) {
-    session_.clear_silence_seen();
-    bool boots = false;
-    const auto from = recorder_.capture().size();
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      auto answer = session_.peek({Index(0x1000), SubIndex(0)});
-      if (!answer) return std::unexpected(answer.error());
-      if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
-      if (!may_command || attempt > 0) continue;
-      // Perhaps it was left in Stopped, or the SDO server hangs: Pre-operational first, then a reset.
-      if (auto sent = session_.command(canopen::NmtCommand::pre_operational); !sent)
-        return std::unexpected(sent.error());
-      if (auto waited = session_.wait_until(session_.now() + profile_.nmt_time); !waited)
-        return std::unexpected(waited.error());
-      answer = session_.peek({Index(0x1000), SubIndex(0)});
-      if (!answer) return std::unexpected(answer.error());
-      if (answer->kind != steps::SdoAnswer::Kind::silence) return Life::answers;
-      auto booted = reset(canopen::NmtCommand::reset_node);
-      if (!booted) return std::unexpected(booted.error());
-      boots = *booted;
-      out_.notes.push_back("the device had to be reset because it did not answer any more");
+  /// A judgement from behind the restart is about a rule that names crashes.
+  bool concerns_restart(const CaseResult& out, std::size_t since) const {
+    return std::ranges::any_of(out.judgements, [&](const result::Judgement& each) {
+      const auto* requirement = catalogue_.find(each.requirement);
+      return each.frames_seen > since && requirement != nullptr && requirement->forbids_restart();
+    });
+  }
+
+  /// Whether the device restarts again when it gets the same frames. A restart by itself comes at any time,
+  /// and what was on the bus at that moment is not to blame.
+  Result<bool> restarts_upon(const monitor::Stimulus& stimulus, std::size_t restart) {
+    constexpr std::size_t most_frames = 32;
+    std::vector<can::CapturedFrame> sent;
+    for (auto i = stimulus.first; i <= stimulus.last; ++i) {
+      const auto& captured = recorder_.capture().frames()[i];
+      if (captured.direction == can::Direction::transmitted) sent.push_back(captured);
     }
-    // A heartbeat or any other frame meanwhile shows that only its SDO server is gone.
-    return boots || last_heard() > from ? Life::boots : Life::gone;
+    if (sent.size() > most_frames) return false;
+    const auto before = restarts_.found().size();
+    const auto took = recorder_.capture().frames()[restart].time - sent.back().time;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      const auto from = recorder_.capture().size();
+      if (auto done = recorder_.send(sent[i].frame); !done) return std::unexpected(done.error());
+      const auto pause = i + 1 < sent.size() ? sent[i + 1].time - sent[i].time : 2 * took + profile_.nmt_time;
+      auto booted = recorder_.find(from, is_boot_up_of(profile_.node), recorder_.now() + pause);
+      if (!booted) return std::unexpected(booted.error());
+      if (*booted) break;
+    }
+    session_.sdo_answer_may_be_late();
+    if (auto alone = note_restarts(); !alone) return std::unexpected(alone.error());
+    return restarts_.found().size() > before;
   }
 
   /// Index behind the last frame of the device, 0 when none came.
@@ -549,6 +665,9 @@ class Run {
   Recorder recorder_;
   RunSession session_;
   CaseRunner runner_;
+  RestartWatch restarts_;
+  std::size_t unexplained_ = 0;  ///< restarts without a known cause
+  bool says_all_twice_ = false;  ///< one device, and the scenarios judge it
   bool alive_ = false;
   bool vanished_ = false;
   bool mute_ = false;                 ///< alive, but without a single SDO answer
@@ -575,7 +694,6 @@ result::RunResult run(can::Transport& transport, const device::Profile& profile,
   Run run(transport, profile, suite, catalogue, options);
   auto out = run.execute();
   capture = run.take_capture();
-  result::annotate(capture, out);
   return out;
 }
 

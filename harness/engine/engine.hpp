@@ -3,12 +3,12 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 
 #include "can/capture.hpp"
 #include "can/transport.hpp"
 #include "device/profile.hpp"
-#include "engine/observer.hpp"
 #include "engine/plan.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
@@ -18,9 +18,15 @@ namespace conform::engine {
 
 struct RunOptions {
   PlanOptions plan;
-  bool strict = false;                     ///< recommended and optional rules fail as well
+  bool strict = false;  ///< recommended and optional rules fail as well
+  /// Takes the power of the device away and gives it back, when it does not come back by a reset. Empty: by
+  /// hand only.
+  std::function<Result<void>()> power_cycle;
   const std::atomic<int>* stop = nullptr;  ///< a signal number ends the run in good order
-  Observer* observer = nullptr;            ///< who is told what happens; lives longer than the run
+  // For live consoles and reports that survive a crash. The result shows every planned case from the start.
+  std::function<void(const result::RunResult&)> on_planned;
+  std::function<void(const result::RunResult&, std::size_t)> on_case_begin;  ///< index into cases
+  std::function<void(const result::RunResult&, std::size_t)> on_case_end;
 };
 
 /// Runs the plan on an open transport. Never throws a verdict away: whatever happens, the result says what

@@ -52,11 +52,13 @@ void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogu
 
 void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
                  const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
-                 std::span<const monitor::Loss> losses, result::RunResult& out) {
+                 std::span<const monitor::Loss> losses, result::RunResult& out, bool power_is_known) {
   const auto all = std::span(out.cases);
   const auto scenarios = all.first(all.size() - monitors.size());
   const auto own = all.last(monitors.size());
-  monitor::judge(frames, facts_of(profile), monitors, cap_of(catalogue, strict), losses, scenarios, own);
+  auto facts = facts_of(profile);
+  facts.power_is_known = power_is_known;
+  monitor::judge(frames, facts, monitors, cap_of(catalogue, strict), losses, scenarios, own);
   for (auto& each : own) accept_known_deviations(profile, catalogue, each);
 }
 

@@ -291,7 +291,6 @@ Result<void> RunSession::will_change(Multiplexer object) {
     return fail(to_string(object) + " must not be written: untouchable in the device profile", "scenario");
   }
   const auto* found = entry(object);
-  if (found != nullptr && found->command) recorder_.observer().commanding(object);
   if (found != nullptr && !found->readable()) return {};
   // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is
   // all commands.
@@ -310,10 +309,8 @@ Result<void> RunSession::will_change(Multiplexer object) {
   if (found != nullptr && found->command) return {};
   // Nor can a value be put back that only the device itself sets, like an error field.
   if (found != nullptr && found->may_change && !found->writable()) return {};
-  if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) {
-    recorder_.observer().changing(object, before->data);
+  if (std::ranges::find(journal_, object, &Change::object) == journal_.end())
     journal_.push_back({object, before->data});
-  }
   return {};
 }
 
@@ -399,11 +396,13 @@ void RunSession::note_command(std::size_t index) {
   if (*command == NmtCommand::reset_node || *command == NmtCommand::reset_communication) {
     reset_ = index;
     ordered_.reset();
+    stopped_ = false;
     return;
   }
   const auto state = *command == NmtCommand::start  ? NmtState::operational
                      : *command == NmtCommand::stop ? NmtState::stopped
                                                     : NmtState::pre_operational;
+  stopped_ = state == NmtState::stopped;
   ordered_ = Ordered{index, time, state, !ordered_ || time >= ordered_->sent + profile_.nmt_time};
 }
 

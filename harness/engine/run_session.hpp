@@ -107,6 +107,14 @@ class RunSession final : public steps::Session {
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
   void note_present(Multiplexer object, bool present) { present_[object] = present; }
   void forget_presence() { present_.clear(); }
+  /// Its last NMT command was stop: it answers no SDO request, and legally so.
+  [[nodiscard]] bool is_stopped() const { return stopped_; }
+  /// The device started by itself, or with its power.
+  void device_restarted() {
+    device_was_reset(true);
+    state_changed_ = true;
+    stopped_ = false;
+  }
   /// Whether the device may have left Pre-operational since the last call.
   [[nodiscard]] bool take_state_changed();
   /// Capture index of the latest reset command to the device since the last call.
@@ -159,6 +167,7 @@ class RunSession final : public steps::Session {
   bool at_once_ = false;              ///< the running step does not wait for the state that was commanded
   std::optional<std::size_t> reset_;  ///< capture index of a reset command that was not looked after yet
   bool silence_seen_ = false;
+  bool stopped_ = false;
   scenario::Risk risk_ = scenario::Risk::read_only;
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;

@@ -35,6 +35,8 @@ namespace conform::monitor {
 [[nodiscard]] std::unique_ptr<Monitor> make_sdo_states(const Rule& rule);
 /// NMT-BOOT-01 to -06
 [[nodiscard]] std::unique_ptr<Monitor> make_nmt_boot_up(const Rule& rule);
+/// NMT-BOOT-10
+[[nodiscard]] std::unique_ptr<Monitor> make_restarts(const Rule& rule);
 /// EC-HBP-08, EC-HBP-07, EC-HBP-06
 [[nodiscard]] std::unique_ptr<Monitor> make_heartbeat(const Rule& rule);
 

@@ -14,6 +14,8 @@ struct Facts {
   NodeId node{1};
   Duration boot_time = std::chrono::seconds{5};        ///< T_BOOT
   Duration nmt_time = std::chrono::milliseconds{100};  ///< T_NMT
+  /// Nobody switches the power of the device unseen. A recorded trace does not tell.
+  bool power_is_known = false;
 };
 
 }  // namespace conform::monitor

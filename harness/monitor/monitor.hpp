@@ -83,6 +83,10 @@ class Monitor {
     violations_.push_back({requirement, verdict, seen.index, seen.frame(), std::move(actual),
                            std::move(expected), std::move(reason)});
   }
+  /// What was told so far has another verdict after all.
+  void grade_all(result::Verdict verdict) {
+    for (auto& violation : violations_) violation.verdict = verdict;
+  }
   void tell(Violation violation) { violations_.push_back(std::move(violation)); }
 
  private:

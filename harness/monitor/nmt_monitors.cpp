@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "monitor/factories.hpp"
+#include "monitor/restarts.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 using canopen::NmtCommand;
 using Subject = Observation::Subject;
 using result::Verdict;
-
-// Two boot-up messages so close together, and nothing between them, are one start told twice.
-constexpr Duration one_start = std::chrono::milliseconds(100);
-// A boot-up message so soon after start, stop or pre-operational is taken for its effect.
-constexpr Duration effect_of_order = std::chrono::milliseconds(500);
 
 class SdoStates final : public Monitor {
  public:
@@ -76,18 +72,16 @@ class NmtBootUp final : public Monitor {
 
   void on_frame(const Observation& seen, const Follower& follower) override {
     const auto& nmt = follower.nmt();
+    const auto start = starts_.on_frame(seen, follower);
     if (seen.subject == Subject::nmt) {
       const auto& frame = seen.frame();
       const bool for_it = frame.size() == 2 && !frame.extended &&
                           (frame.data[1] == 0 || frame.data[1] == follower.facts().node.value());
       if (for_it && (frame.data[0] == 0x01 || frame.data[0] == 0x02 || frame.data[0] == 0x80)) quiet(order);
-      asked_since_ = false;
       return;
     }
-    if (seen.subject == Subject::sdo_request) asked_since_ = true;
     if (!seen.from_device()) return;
-    if (seen.boot_up()) return boot_up(seen, follower);
-    booted_.reset();
+    if (seen.boot_up()) return boot_up(seen, follower, start);
     if (!nmt.booting()) return;
     if (nmt.overdue(seen.time())) {
       const auto requirement = of_reset(nmt);
@@ -114,7 +108,7 @@ class NmtBootUp final : public Monitor {
   }
   void on_loss() override {
     early_.reset();
-    lost_ = true;
+    starts_.on_loss();
   }
 
  private:
@@ -123,7 +117,7 @@ class NmtBootUp final : public Monitor {
     return *nmt.last_reset() == NmtCommand::reset_node ? reset_node : reset_communication;
   }
 
-  void boot_up(const Observation& seen, const Follower& follower) {
+  void boot_up(const Observation& seen, const Follower& follower, Start start) {
     const auto& nmt = follower.nmt();
     const auto& frame = seen.frame();
     if (frame.dlc == 1 && frame.data[0] == 0) {
@@ -139,42 +133,53 @@ class NmtBootUp final : public Monitor {
       } else {
         good(silent);
       }
-    } else if (nmt.resets() == 0 || seen.time() > nmt.reset_at() + follower.facts().boot_time) {
-      unexpected(seen, follower);
+    } else if (!seen.heard_before) {
+      good(power_on);
     }
     early_.reset();
-    lost_ = false;
-    booted_ = seen.time();
-  }
-
-  void unexpected(const Observation& seen, const Follower& follower) {
-    if (lost_) return;
-    if (!seen.heard_before) return good(power_on);
-    const auto& nmt = follower.nmt();
-    // A download may have made it restart (1011h, 1F51h).
-    if (!asked_since_ && nmt.ordered_at() && seen.time() <= *nmt.ordered_at() + effect_of_order) {
-      if (bad(order)) {
-        tell(order, seen, "a boot-up message", "none",
-             "the last command for the device was no reset, but start, stop or pre-operational");
-      }
-      return;
+    if (start == Start::ordered && bad(order)) {
+      tell(order, seen, "a boot-up message", "none",
+           "the last command for the device was no reset, but start, stop or pre-operational");
     }
-    const auto requirement = of_reset(nmt);
-    if (!bad(requirement)) return;
-    // Neither a power switch nor a reset of the device by itself can be seen in a trace.
-    const bool told_twice = booted_ && seen.time() <= *booted_ + one_start;
-    tell(requirement, seen, told_twice ? "a second boot-up message" : "a boot-up message without a reset",
-         "one boot-up message per reset",
-         told_twice ? "the device started once"
-                    : "no reset was commanded: the device restarted by itself, or its power was switched",
-         told_twice ? Verdict::fail : Verdict::warn);
+    if (start == Start::repeated && bad(of_reset(nmt))) {
+      tell(of_reset(nmt), seen, "a second boot-up message", "one boot-up message per reset",
+           "the device started once");
+    }
   }
 
+  Starts starts_;
   std::optional<Violation> early_;
   std::size_t early_reset_ = 0;
-  bool lost_ = false;
-  bool asked_since_ = false;       ///< an SDO request came after the last NMT command
-  std::optional<BusTime> booted_;  ///< when the last frame of the device was a boot-up message
+};
+
+/// One start may be the plug that somebody pulled. Where the host knows that nobody did, or when it happens
+/// again, it is the device.
+class Restarts final : public Monitor {
+ public:
+  using Monitor::Monitor;
+
+  void on_frame(const Observation& seen, const Follower& follower) override {
+    const auto start = starts_.on_frame(seen, follower);
+    if (start != Start::restart) {
+      if (seen.from_device() && seen.heard_before) good(0);
+      return;
+    }
+    ++restarts_;
+    const bool certain = restarts_ > 1 && follower.facts().power_is_known;
+    if (bad(0)) {
+      tell(0, seen, "a boot-up message without a reset", "none: the device goes on",
+           follower.facts().power_is_known
+               ? "no reset was commanded: the device restarted by itself"
+               : "no reset was commanded: the device restarted by itself, or its power was switched",
+           Verdict::inconclusive);
+    }
+    if (certain) grade_all(Verdict::fail);
+  }
+  void on_loss() override { starts_.on_loss(); }
+
+ private:
+  Starts starts_;
+  std::size_t restarts_ = 0;
 };
 
 class Heartbeat final : public Monitor {
@@ -226,6 +231,7 @@ class Heartbeat final : public Monitor {
 
 std::unique_ptr<Monitor> make_sdo_states(const Rule& rule) { return std::make_unique<SdoStates>(rule); }
 std::unique_ptr<Monitor> make_nmt_boot_up(const Rule& rule) { return std::make_unique<NmtBootUp>(rule); }
+std::unique_ptr<Monitor> make_restarts(const Rule& rule) { return std::make_unique<Restarts>(rule); }
 std::unique_ptr<Monitor> make_heartbeat(const Rule& rule) { return std::make_unique<Heartbeat>(rule); }
 
 }  // namespace conform::monitor

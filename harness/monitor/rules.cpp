@@ -7,7 +7,7 @@
 namespace conform::monitor {
 
 std::span<const Rule> rules() {
-  static const std::array<Rule, 14> table{{
+  static const std::array<Rule, 15> table{{
       {"sdo-responses",
        "The SDO server sends one frame per request and nothing else",
        "no SDO response was seen",
@@ -73,6 +73,11 @@ std::span<const Rule> rules() {
        "no NMT command and no boot-up message was seen",
        {"NMT-BOOT-01", "NMT-BOOT-02", "NMT-BOOT-03", "NMT-BOOT-04", "NMT-BOOT-05", "NMT-BOOT-06"},
        make_nmt_boot_up},
+      {"restarts",
+       "The device starts only when it is told to",
+       "the device was not heard twice",
+       {"NMT-BOOT-10"},
+       make_restarts},
       {"heartbeat",
        "Heartbeats have the right form and tell the commanded state",
        "no heartbeat was seen",

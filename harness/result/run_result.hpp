@@ -66,6 +66,7 @@ struct Judgement {
   Verdict verdict = Verdict::pass;
   std::vector<Finding> findings;
   std::size_t expectations = 0;  ///< how many expectations decided it
+  std::size_t frames_seen = 0;   ///< length of the capture when it was last judged
   /// Always there where the verdict is `pass`: a pass is earned by a step that was carried out and met.
   /// Monitors decide by the whole trace and name no step.
   std::optional<DecidingStep> decided_by{};
@@ -116,7 +117,6 @@ struct Counts {
   [[nodiscard]] std::size_t total() const {
     return pass + warn + fail + inconclusive + not_applicable + error;
   }
-  void add(Verdict verdict);  ///< one more of it
 };
 
 struct RunResult {
@@ -131,7 +131,6 @@ struct RunResult {
   std::vector<std::string> notes;             ///< remarks about the run as a whole
   std::optional<std::string> aborted;         ///< why the run stopped early
   int signal = 0;                             ///< SIGINT or SIGTERM that ended it, else 0
-  std::vector<std::string> unwritten{};       ///< reports that could not be written, with the reason
 
   [[nodiscard]] Counts counts() const;
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;

@@ -48,6 +48,15 @@ Requirement read_requirement(const yaml::Field& item) {
 
 }  // namespace
 
+bool Requirement::forbids_restart() const {
+  for (const std::string_view word :
+       {"crash", "loss of service", "no longer answers", ", reset", "or reset", "boot-up frame"}) {
+    if (fails.find(word) != std::string::npos) return true;
+  }
+  return fails.starts_with("boot-up") || fails.starts_with("reset,") ||
+         passes.find("no boot-up") != std::string::npos;
+}
+
 std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnostics& diagnostics,
                                            const std::string& path) {
   std::vector<Requirement> out;

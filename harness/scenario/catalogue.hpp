@@ -37,6 +37,9 @@ struct Requirement {
   std::string file;  ///< relative to the suites
   int line = 0;
 
+  /// Whether the rule names a crash or restart of the device among its failures: "crash", "loss of service",
+  /// a reset or a boot-up message under `fails`, "no boot-up" under `passes`.
+  [[nodiscard]] bool forbids_restart() const;
   [[nodiscard]] result::RequirementInfo info() const { return {id, clause, level, area, statement}; }
 };
 

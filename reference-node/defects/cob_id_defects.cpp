@@ -44,6 +44,12 @@ DefectTable cob_id_defects() {
        "1005h accepts restricted CAN-IDs",
        {"CAN-RID-01", "OD-CID-03"},
        behave(&B::sync_cob_id, &C::restricted_accepted)},
+      {"1005-id-of-sdo-taken",
+       "1005h accepts restricted CAN-IDs, and with that of its SDO requests the SDO server is dead",
+       {"CAN-RID-01", "OD-CID-03"},
+       BehaviourSwitch([](Behaviour& behaviour) {
+         behaviour.sync_cob_id.restricted_accepted = behaviour.sync_cob_id.takes_any_frame = true;
+       })},
       {"1012-produce-bit-accepted",
        "1012h accepts bit 30 although the node produces no TIME",
        {"OD-1012-03", "TIME-COB-02", "OD-CID-05"},

@@ -6,6 +6,14 @@ namespace refnode {
 
 using namespace defect;
 
+namespace {
+
+BehaviourSwitch restarts_on(std::function<bool(const Frame&, std::uint8_t node_id)> frame) {
+  return [frame = std::move(frame)](Behaviour& behaviour) { behaviour.restarts_on = frame; };
+}
+
+}  // namespace
+
 DefectTable nmt_defects() {
   using B = Behaviour;
   return {
@@ -39,6 +47,29 @@ DefectTable nmt_defects() {
        "A reset command during start-up ends the start-up for good",
        {"NMT-BOOT-09"},
        behave(&B::reset_during_start_up_hangs)},
+      {"restarts-by-itself",
+       "The node restarts every 20 s",
+       {"NMT-BOOT-10"},
+       behave(&B::restarts_after_ms, 20'000)},
+      {"restarts-on-short-request",
+       "An SDO request of five bytes makes the node restart",
+       {"NMT-BOOT-10", "SDO-ERR-06"},
+       restarts_on([](const Frame& frame, std::uint8_t node_id) {
+         return frame.id == 0x600U + node_id && !frame.extended && !frame.remote && frame.dlc == 5;
+       })},
+      {"restarts-on-remote-request",
+       "A remote frame on the CAN-ID of SDO requests makes the node restart",
+       {"NMT-BOOT-10", "SDO-GEN-10"},
+       restarts_on([](const Frame& frame, std::uint8_t node_id) {
+         return frame.id == 0x600U + node_id && !frame.extended && frame.remote;
+       })},
+      {"restarts-on-read",
+       "Reading 1009h makes the node restart",
+       {"NMT-BOOT-10"},
+       restarts_on([](const Frame& frame, std::uint8_t node_id) {
+         return frame.id == 0x600U + node_id && frame.size() == 8 && frame.data[0] == 0x40 &&
+                frame.data[1] == 0x09 && frame.data[2] == 0x10;
+       })},
       {"nmt-start-ignored",
        "Start remote node has no effect",
        {"NMT-FSA-01", "NMT-FSA-05"},

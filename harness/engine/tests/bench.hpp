@@ -41,6 +41,7 @@ class ScriptedDevice final : public can::Participant {
   Intercept before;
   std::function<void(ScriptedDevice&)> on_reset;
   bool dead = false;
+  BusTime silent_until{};  ///< it is starting
 
   void attach(Sender sender, BusTime) override { send_ = std::move(sender); }
   void on_time(BusTime now) override {
@@ -55,7 +56,7 @@ class ScriptedDevice final : public can::Participant {
   void send_at(BusTime time, const can::Frame& frame) { later_.emplace(time, frame); }
 
   void on_frame(const can::Frame& frame, BusTime now) override {
-    if (dead) return;
+    if (dead || now < silent_until) return;
     if (frame.is_data(CanId(0x000)) && frame.size() == 2) {
       nmt.push_back(frame.data[0]);
       if (frame.data[0] >= 0x81 && on_reset) on_reset(*this);

@@ -55,7 +55,7 @@ inline std::vector<can::CapturedFrame> trace(const std::vector<std::string>& lin
 }
 
 inline std::vector<result::CaseResult> judged(const std::vector<can::CapturedFrame>& frames,
-                                              const std::vector<Loss>& losses = {}) {
+                                              const std::vector<Loss>& losses = {}, const Facts& facts = {}) {
   std::vector<const Rule*> all;
   std::vector<result::CaseResult> cases;
   const Cap cap = [](std::string_view) { return result::Verdict::fail; };
@@ -63,7 +63,7 @@ inline std::vector<result::CaseResult> judged(const std::vector<can::CapturedFra
     all.push_back(&rule);
     cases.push_back(planned_case(rule, cap));
   }
-  judge(frames, Facts{}, all, cap, losses, {}, cases);
+  judge(frames, facts, all, cap, losses, {}, cases);
   return cases;
 }
 
