@@ -202,20 +202,28 @@ class LineParser {
       pattern.kind = Kind::abort;
       auto rest = trim(inside.substr(5));
       if (rest.starts_with(':')) rest = trim(rest.substr(1));
-      bool warns = false;
+      auto* codes = &pattern.passes;
       for (auto group : split(rest, ';')) {
         group = trim(group);
         if (group.starts_with("warn ")) {
-          warns = true;
+          codes = &pattern.warns;
+          group = trim(group.substr(5));
+        } else if (group.starts_with("fail ")) {
+          codes = &pattern.fails;
           group = trim(group.substr(5));
         }
         for (const auto part : split(group, ',')) {
+          if (codes == &pattern.warns && trim(part) == "any") {
+            pattern.warns_any = true;
+            continue;
+          }
           const auto code = parse_number(trim(part));
           if (!code || *code > 0xFFFF'FFFFU) {
             return problem("'" + std::string(trim(part)) + "' is not an abort code",
-                           "{abort: 0503 0000h; warn 0504 0001h}", begin, length);
+                           "{abort: 0503 0000h; warn 0504 0001h}, {abort: 0504 0001h; warn any}", begin,
+                           length);
           }
-          (warns ? pattern.warns : pattern.passes).push_back(AbortCode(static_cast<std::uint32_t>(*code)));
+          codes->push_back(AbortCode(static_cast<std::uint32_t>(*code)));
         }
       }
       return pattern;
@@ -385,7 +393,9 @@ Comparison compare(const Line& line, const can::Frame& frame, Scope& scope,
       case Kind::abort: {
         const AbortCode code(static_cast<std::uint32_t>(load_le(part)));
         if (std::ranges::find(pattern.passes, code) != pattern.passes.end()) break;
-        if (std::ranges::find(pattern.warns, code) == pattern.warns.end()) {
+        const bool tolerated =
+            pattern.warns_any || std::ranges::find(pattern.warns, code) != pattern.warns.end();
+        if (!tolerated || std::ranges::find(pattern.fails, code) != pattern.fails.end()) {
           return wrong(at, "the abort code is " + canopen::describe(code));
         }
         out.tolerated.push_back("abort code " + canopen::describe(code) + " is tolerated only");

@@ -33,10 +33,11 @@ struct BytePattern {
   Kind kind = Kind::exact;
   std::uint8_t value = 0, mask = 0xFF;  ///< exact; a digit x clears four bits of the mask
   std::string name;
-  std::size_t from = 0, size = 0;        ///< name: bytes from..from+size; size 0: all that remain
-  bool slice = false;                    ///< name: written with '@'
-  std::vector<AbortCode> passes, warns;  ///< abort
-  int column = 0, length = 1;            ///< code points in the line, for messages
+  std::size_t from = 0, size = 0;               ///< name: bytes from..from+size; size 0: all that remain
+  bool slice = false;                           ///< name: written with '@'
+  std::vector<AbortCode> passes, warns, fails;  ///< abort
+  bool warns_any = false;                       ///< abort: any code that is not named warns
+  int column = 0, length = 1;                   ///< code points in the line, for messages
 
   /// Number of bytes, or nullopt for "the rest".
   [[nodiscard]] std::optional<std::size_t> width() const;

@@ -31,6 +31,14 @@ bool equals(std::uint64_t wanted, const Bytes& data, std::uint64_t mask) {
   return ((load_le(data) ^ wanted) & width & mask) == 0;
 }
 
+/// A DOMAIN may be a window of fixed length: it is as long as before, whatever was written to its beginning.
+bool holds(const Actual& actual, const Bytes& written) {
+  if (actual.data == written) return true;
+  return actual.type == canopen::DataType::domain && actual.unchanged_from &&
+         actual.data.size() == actual.unchanged_from->size() && actual.data.size() > written.size() &&
+         std::ranges::equal(ByteView(actual.data).first(written.size()), written);
+}
+
 Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
   using Kind = Demand::Kind;
   switch (demand.kind) {
@@ -66,10 +74,15 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
           return true;
       }
       return false;
-    case Kind::value: break;
+    case Kind::value:
+    case Kind::holds: break;
   }
   auto wanted = demand.value.evaluate(scope);
   if (!wanted) return std::unexpected(wanted.error());
+  if (demand.kind == Kind::holds) {
+    if (!wanted->bytes) return fail("'" + demand.value.text() + "' is not data");
+    return holds(actual, *wanted->bytes);
+  }
   std::uint64_t mask = ~std::uint64_t{0};
   if (!demand.mask.empty()) {
     auto value = demand.mask.number(scope);
@@ -103,6 +116,8 @@ std::string demand_words(const Demand& demand, Scope& scope, std::optional<canop
       if (!demand.mask.empty()) text += " in the bits " + value_words(demand.mask, scope, type);
       return text;
     }
+    case Kind::holds:
+      return value_words(demand.value, scope, type) + " (a DOMAIN of fixed length: at its beginning)";
     case Kind::one_of: {
       std::vector<std::string> parts;
       for (const auto& expression : demand.values) parts.push_back(value_words(expression, scope, type));
@@ -223,6 +238,12 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
     if (!demand.value.empty()) add(demand, "");
   } else if (mask) {
     mask.error("'mask' needs 'value' beside it");
+  }
+  if (const auto held = fields.optional("holds")) {
+    Demand demand;
+    demand.kind = Demand::Kind::holds;
+    if (auto expression = parse_expression_at(held, names)) demand.value = *expression;
+    if (!demand.value.empty()) add(demand, "");
   }
   if (const auto one_of = fields.optional("one_of")) {
     Demand demand;
@@ -388,8 +409,8 @@ void check_measures(const yaml::Field& field, std::string_view verb, const Measu
 }
 
 std::vector<std::string_view> outcome_keys() {
-  std::vector<std::string_view> out = {"abort", "value", "mask", "one_of", "range",
-                                       "size",  "bytes", "text", "state"};
+  std::vector<std::string_view> out = {"abort", "value", "holds", "mask", "one_of",
+                                       "range", "size",  "bytes", "text", "state"};
   out.insert(out.end(), std::begin(measures), std::end(measures));
   return out;
 }

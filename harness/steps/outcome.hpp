@@ -45,9 +45,19 @@ struct Actual {
 
 /// One demand on data or measurements; an outcome written as a mapping holds several, and all must be met.
 struct Demand {
-  enum class Kind : std::uint8_t { value, range, bytes, size, declared_size, one_of, visible_text, measured };
+  enum class Kind : std::uint8_t {
+    value,
+    holds,
+    range,
+    bytes,
+    size,
+    declared_size,
+    one_of,
+    visible_text,
+    measured
+  };
   Kind kind = Kind::value;
-  Expression value, mask;          ///< value: equal under the mask (no mask: all bits)
+  Expression value, mask;          ///< value: equal under the mask (no mask: all bits); holds
   std::vector<Expression> values;  ///< one_of
   Range range;                     ///< range, and size unless exact
   Bytes bytes;

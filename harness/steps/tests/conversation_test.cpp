@@ -128,6 +128,18 @@ TEST_CASE("Reserved bytes and second-best abort codes are tolerated with a remar
   CHECK(other.first_wrong == 4U);
 }
 
+TEST_CASE("'warn any' tolerates every abort code but those that are ruled out") {
+  const std::string text = "< 580+N: 80 {m} {abort: 0607 0010h; warn any; fail 0607 0013h}";
+  const auto with = [&](std::uint8_t low, std::uint8_t high) {
+    return compared(text, {0x80, 0x08, 0x10, 0, low, 0, high, 0x06});
+  };
+  CHECK(with(0x10, 7).tolerated.empty());
+  CHECK(with(0x12, 7).equal);
+  CHECK(with(0x12, 7).tolerated.size() == 1);
+  CHECK(with(0, 2).tolerated.size() == 1);
+  CHECK_FALSE(with(0x13, 7).equal);
+}
+
 TEST_CASE("Names remember what came, and must come again the same") {
   FakeSession session;
   const auto first = compared("< 580+N: 41 {size:4} {rest}", {0x41, 9, 0, 0, 0, 7, 8}, session);

@@ -109,6 +109,22 @@ TEST_CASE("A value is compared in the width of the data") {
   CHECK_FALSE(fits("{value: 0}", uploaded({})));
 }
 
+TEST_CASE("A DOMAIN of fixed length holds what was written to its beginning, any other entry nothing else") {
+  auto window = uploaded({0xE8, 0x03, 0, 0}, canopen::DataType::domain);
+  CHECK_FALSE(fits("{holds: $before}", window));  // nobody knows how long it was before
+  window.unchanged_from = Bytes{9, 9, 0, 0};
+  CHECK(fits("{holds: $before}", window));
+  window.unchanged_from = Bytes{9, 9, 0};
+  CHECK_FALSE(fits("{holds: $before}", window));
+  window.unchanged_from = Bytes{9, 9, 0, 0};
+  window.data[1] = 4;
+  CHECK_FALSE(fits("{holds: $before}", window));
+  window = uploaded({0xE8, 0x03, 0, 0}, canopen::DataType::visible_string);
+  window.unchanged_from = Bytes{9, 9, 0, 0};
+  CHECK_FALSE(fits("{holds: $before}", window));
+  CHECK(fits("{holds: $before}", uploaded({0xE8, 0x03})));
+}
+
 TEST_CASE("All demands of one mapping must be met") {
   CHECK(fits("{size: 1, range: 1..3}", uploaded({3})));
   CHECK_FALSE(fits("{size: 1, range: 1..3}", uploaded({4})));
