@@ -34,6 +34,7 @@ SdoReply BlockDownload::segment(const SdoData& frame, const Device& device) {
   const bool last = (frame[0] & last_segment_bit) != 0;
   const SdoChoices& choices = device.choices.sdo;
   if (number == 0 || number > block_size_) {
+    spoiled_ = choices.invalid_sequence_spoils;
     if (choices.invalid_sequence_ignored) return std::nullopt;
     return refuse(abort_code::sequence_invalid);
   }
@@ -45,7 +46,7 @@ SdoReply BlockDownload::segment(const SdoData& frame, const Device& device) {
     taken_ = static_cast<std::uint8_t>(number - 1);
   }
   if (fault.duplicate_appended && number == taken_) --taken_;
-  const bool expected = number == taken_ + 1;
+  const bool expected = !spoiled_ && number == taken_ + 1;
   if (expected) {
     data_.insert(data_.end(), frame.begin() + 1, frame.end());
     taken_ = number;
@@ -73,6 +74,7 @@ SdoData BlockDownload::acknowledge(const Device& device) {
   const std::uint8_t received = taken_;
   if (device.choices.sdo.next_block_size != 0) block_size_ = device.choices.sdo.next_block_size;
   taken_ = 0;
+  spoiled_ = false;
   skips_to_first_ = false;
   heard_at_.reset();
   // The last segment may hold padding: how much tells the end frame only.

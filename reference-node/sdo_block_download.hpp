@@ -46,6 +46,7 @@ class BlockDownload {
   Bytes data_;                       ///< whole segments; grows with what comes, whatever was announced
   std::uint8_t taken_ = 0;           ///< segments of this sub-block that came in sequence
   bool last_taken_ = false;          ///< the segment marked as the last one was among them
+  bool spoiled_ = false;             ///< a number that cannot be was among them: nothing is acknowledged
   bool skips_to_first_ = false;      ///< acknowledged early: the rest of the old sub-block is still coming
   std::optional<BusTime> heard_at_;  ///< of the last segment, if this sub-block has had any
   std::uint16_t crc_ = 0;

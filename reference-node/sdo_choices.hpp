@@ -24,6 +24,8 @@ struct SdoChoices {
   std::uint8_t next_block_size = 0;       ///< download: block size in acknowledges; 0: the same
   bool ack_gap_at_once = false;           ///< download: acknowledge at a gap, not at the end of the sub-block
   bool invalid_sequence_ignored = false;  ///< download: wait at sequence number 0 or above the block size
+  bool invalid_sequence_spoils = false;   ///< and acknowledge none of the sub-block, so that it comes again
+  bool sub_block_queued = false;          ///< upload: the driver takes a whole sub-block at once
 
   /// From a request to the response, and to the first segment of a sub-block.
   conform::Duration turnaround{};

@@ -289,7 +289,9 @@ void SdoServer::send(const SdoExchange& exchange, const std::optional<SdoData>& 
 bool SdoServer::send_segment() {
   auto* transfer = std::get_if<BlockUpload>(&transfer_);
   if (transfer == nullptr || !transfer->has_segment()) return false;
-  if (!pacer_.may_send(device_->now, device_->outbox.waiting(device_->now))) return false;
+  if (!pacer_.may_send(device_->now, device_->outbox.waiting(device_->now),
+                       device_->choices.sdo.sub_block_queued))
+    return false;
   SdoExchange exchange;
   exchange.channel = channel_;
   exchange.request = last_request_;

@@ -26,7 +26,9 @@ class SegmentPacer {
     last_.reset();
   }
   /// `waiting`: frames of this node that are handed over and not on the wire yet.
-  [[nodiscard]] bool may_send(BusTime now, std::size_t waiting) {
+  /// `whole`: a sub-block is handed over at once, and no abort takes it back.
+  [[nodiscard]] bool may_send(BusTime now, std::size_t waiting, bool whole) {
+    if (whole) return now >= from_;
     if (in_row_ >= row && waiting == 0) start(now + pause());
     return now >= from_ && in_row_ < row && waiting < depth;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects a device need not have, and access the standard leaves to the device.
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,49 @@ How stores_by_itself(Duration rest) {
     }
     target.choices.rest_before_storing = rest;
   };
+}
+
+/// Writable entries of type DOMAIN.
+template <typename Change>
+void change_domains(VariantTarget& target, Change change) {
+  for (auto& [index, object] : target.dictionary.objects()) {
+    for (auto& [sub, entry] : object.entries) {
+      if (entry.type == DataType::domain && entry.access == Access::rw) change(entry);
+    }
+  }
+}
+
+/// A window on a memory: what is written goes to its beginning, and reading gives all of it.
+How domain_windows(std::size_t bytes) {
+  return [bytes](VariantTarget& target) {
+    change_domains(target, [bytes](Entry& entry) {
+      entry.value.resize(bytes);
+      entry.default_value = entry.value;
+      entry.max_size = bytes;
+      auto held = std::make_shared<Bytes>(entry.value);
+      entry.written = [&entry, held] {
+        std::ranges::copy(entry.value, held->begin());
+        entry.value = *held;
+      };
+    });
+  };
+}
+
+/// A program for another processor is refused when all of it is there.
+void domains_look_at_content(VariantTarget& target) {
+  change_domains(target, [](Entry& entry) {
+    entry.check = [&entry](ByteView bytes) -> Accepted {
+      if (std::ranges::equal(bytes, entry.value)) return {};
+      return refuse(abort_code::invalid_value);
+    };
+  });
+}
+
+void empty_domains(VariantTarget& target) {
+  change_domains(target, [](Entry& entry) {
+    entry.value.clear();
+    entry.default_value.clear();
+  });
 }
 
 /// A complex data type entry with the types of its elements (CiA 301, 7.4.8).
@@ -204,6 +249,14 @@ VariantTable object_variants() {
        [](VariantTarget& target) { remove_range(target, 0x2000, 0x5FFF); }, "manufacturer"},
       {"empty-entries-absent", "no object without content", "7.4.7: lengths are the device's own",
        [](VariantTarget& target) { target.dictionary.remove_sub(0x2005, 1); }},
+      {"domain-1000", "every writable DOMAIN is a window of 1000 bytes",
+       "7.4.7: lengths are the device's own", domain_windows(1000), "domain"},
+      {"domain-1778", "every writable DOMAIN is a window of 1778 bytes: two full sub-blocks",
+       "7.4.7: lengths are the device's own", domain_windows(1778), "domain"},
+      {"domain-content", "a DOMAIN refuses what is no program for it", "7.2.4.3.17: 0609 0030h",
+       domains_look_at_content, "domain"},
+      {"domain-empty", "nothing is in the DOMAINs yet", "7.4.7: lengths are the device's own", empty_domains,
+       "domain"},
       {"types-readable", "lengths of data types 0001h to 0007h can be read", "OD-TYP-01", add_types},
       {"0020-four-elements", "a PDO communication record of four elements", "OD-TYP-14",
        structure(0x0020, {7, 5, 6, 5}), "0020"},

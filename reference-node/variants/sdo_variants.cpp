@@ -45,6 +45,37 @@ How code_at(std::initializer_list<SdoStep> steps, AbortCode usual, AbortCode oth
   });
 }
 
+constexpr std::initializer_list<SdoStep> out_of_place = {SdoStep::other,
+                                                         SdoStep::upload_segment,
+                                                         SdoStep::download_segment,
+                                                         SdoStep::block_upload_segment,
+                                                         SdoStep::block_upload_end,
+                                                         SdoStep::block_download_segment,
+                                                         SdoStep::block_download_end};
+
+/// Frames that are no request where they come: CiA 301 names no code but 0504 0001h, and any refusal is one.
+Variant out_of_place_refused(std::string_view id, std::string_view summary, AbortCode code) {
+  return {.id = id,
+          .summary = summary,
+          .legal = "SDO-SUP-08, SDO-SDN-16, SDO-BUP-21, SDO-BDN-22, tolerated: any other abort",
+          .how = code_at(out_of_place, abort_code::command_unknown, code),
+          .group = "command-code",
+          .warns = {"SDO-ERR-01", "SDO-ERR-02", "SDO-SUP-07", "SDO-SUP-08", "SDO-SUP-09", "SDO-SUP-10",
+                    "SDO-SUP-13", "SDO-SUP-20", "SDO-SDN-16", "SDO-SDN-19", "SDO-SDN-20", "SDO-SDN-26",
+                    "SDO-BUP-18", "SDO-BUP-20", "SDO-BUP-21", "SDO-BDN-20", "SDO-BDN-21", "SDO-BDN-22",
+                    "SDO-ERR-06"}};
+}
+
+/// Reserved bits of a block initiate: refused before anybody looked at the multiplexer.
+void refuse_reserved_bits(const FilterContext& context, std::vector<Outgoing>& frames) {
+  if (context.sdo == nullptr || context.sdo->aborted) return;
+  const unsigned command = context.sdo->request[0];
+  const bool upload = context.sdo->step == SdoStep::block_upload_initiate && (command & 0x1BU) != 0;
+  const bool download = context.sdo->step == SdoStep::block_download_initiate && (command & 0x18U) != 0;
+  if (!upload && !download) return;
+  for (Outgoing& outgoing : frames) outgoing.frame.data = {0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05};
+}
+
 /// 42h: expedited, the size is not told.
 /// A client knows the length by the type; of a string of four characters nobody would.
 void leave_out_size(VariantTarget& target) {
@@ -201,15 +232,74 @@ VariantTable sdo_variants() {
        .legal = "7.5.2.34: optional",
        .how = absent({0x1280}),
        .lacks = {"sdo client"}},
-      {"abort-command-0800-0000", "unknown commands and frames out of place are a general error",
-       "SDO-ERR-01, SDO-SUP-08, SDO-SDN-16, SDO-BUP-21, SDO-BDN-22",
-       code_at({other, upload_segment, download_segment, block_upload_segment, block_upload_end,
-                block_download_segment, block_download_end},
-               abort_code::command_unknown, abort_code::general_error)},
+      {.id = "abort-command-0800-0000",
+       .summary = "unknown commands and frames out of place are a general error",
+       .legal = "SDO-SUP-08, SDO-SDN-16, SDO-BUP-21, SDO-BDN-22; SDO-ERR-01 warns",
+       .how = code_at(out_of_place, abort_code::command_unknown, abort_code::general_error),
+       .group = "command-code",
+       .warns = {"SDO-ERR-01", "SDO-ERR-02"}},
+      out_of_place_refused("abort-command-0602-0000", "frames out of place: no object",
+                           abort_code::no_object),
+      out_of_place_refused("abort-command-0606-0000", "frames out of place: hardware error",
+                           abort_code::hardware_error),
+      out_of_place_refused("abort-command-0800-0020", "frames out of place: cannot be transferred",
+                           abort_code::cannot_store),
+      out_of_place_refused("abort-command-0800-0021", "frames out of place: local control",
+                           AbortCode(0x08000021)),
+      {"sdo-reserved-bits-refused", "reserved bits of a block initiate are refused, without a multiplexer",
+       "SDO-BUP-28, SDO-BDN-27: 0504 0001h; SDO-ERR-04 is about an object", filter(refuse_reserved_bits)},
+      {.id = "abort-block-0504-0001",
+       .summary = "block sizes and sequence numbers that cannot be are unknown commands",
+       .legal = "SDO-BUP-09 to -12, SDO-BDN-10, -11, tolerated",
+       .how = both(code_at({block_upload_initiate, block_upload_segment}, abort_code::block_size_invalid,
+                           abort_code::command_unknown),
+                   code_at({block_upload_segment, block_download_segment}, abort_code::sequence_invalid,
+                           abort_code::command_unknown)),
+       .group = "block-code",
+       .warns = {"SDO-BUP-09", "SDO-BUP-10", "SDO-BUP-11", "SDO-BUP-12", "SDO-BDN-10", "SDO-BDN-11"}},
+      {.id = "abort-block-0800-0000",
+       .summary = "what block transfer refuses is a general error",
+       .legal = "SDO-BUP-09 to -12, SDO-BDN-03, -10, -11, tolerated",
+       .how = both(both(code_at({block_upload_initiate, block_upload_segment}, abort_code::block_size_invalid,
+                                abort_code::general_error),
+                        code_at({block_upload_segment, block_download_segment}, abort_code::sequence_invalid,
+                                abort_code::general_error)),
+                   code_at({block_download_end}, abort_code::crc_wrong, abort_code::general_error)),
+       .group = "block-code",
+       .warns = {"SDO-BUP-09", "SDO-BUP-10", "SDO-BUP-11", "SDO-BUP-12", "SDO-BDN-03", "SDO-BDN-10",
+                 "SDO-BDN-11"}},
+      {.id = "abort-toggle-0800-0021",
+       .summary = "a wrong toggle bit: local control",
+       .legal = "SDO-SUP-05, -06, SDO-SDN-04, -05, tolerated",
+       .how = code_at({upload_segment, download_segment}, abort_code::toggle_not_alternated,
+                      AbortCode(0x08000021)),
+       .warns = {"SDO-SUP-05", "SDO-SUP-06", "SDO-SDN-04", "SDO-SDN-05", "SDO-ERR-08"}},
+      {.id = "abort-segments-length-0609-0030",
+       .summary = "more or fewer segments than announced: an invalid value",
+       .legal = "SDO-SDN-06 to -10, SDO-BDN-12 to -15, tolerated",
+       .how = both(code_at({download_segment, block_download_end, block_download_segment},
+                           abort_code::length_too_high, abort_code::invalid_value),
+                   code_at({download_segment, block_download_end}, abort_code::length_too_low,
+                           abort_code::invalid_value)),
+       .group = "segments-length",
+       .warns = {"SDO-SDN-06", "SDO-SDN-07", "SDO-SDN-08", "SDO-SDN-09", "SDO-SDN-10", "SDO-SDN-14",
+                 "SDO-SDN-27", "SDO-BDN-12", "SDO-BDN-13", "SDO-BDN-14", "SDO-BDN-15", "SDO-SDN-15"}},
+      {.id = "sdo-sub-block-queued",
+       .summary = "the driver takes a whole sub-block of an upload at once",
+       .legal = "SDO-BUP-17, tolerated: what is queued still comes",
+       .how = choose([](Choices& c) { c.sdo.sub_block_queued = true; }),
+       .warns = {"SDO-BUP-17", "SDO-BUP-27"}},
+      {"sdo-sequence-spoils",
+       "after a sequence number that cannot be the sub-block is asked for again",
+       "SDO-BDN-10, SDO-BDN-11: an acknowledge of 0",
+       choose([](Choices& c) { c.sdo.invalid_sequence_ignored = c.sdo.invalid_sequence_spoils = true; }),
+       {},
+       {"sdo-block-size-1", "sdo-sequence-ignored"}},
       {"abort-segments-too-long-0607-0010", "more segments than announced: wrong length",
        "SDO-SDN-06, -09, -10, -27",
        code_at({download_segment, block_download_end, block_download_segment}, abort_code::length_too_high,
-               abort_code::length_mismatch)},
+               abort_code::length_mismatch),
+       "segments-length"},
       {"abort-segments-too-short-0607-0010", "fewer segments than announced: wrong length",
        "SDO-SDN-07, -08, -14",
        code_at({download_segment, block_download_end}, abort_code::length_too_low,
