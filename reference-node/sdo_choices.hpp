@@ -25,7 +25,7 @@ struct SdoChoices {
   bool ack_gap_at_once = false;           ///< download: acknowledge at a gap, not at the end of the sub-block
   bool invalid_sequence_ignored = false;  ///< download: wait at sequence number 0 or above the block size
   bool invalid_sequence_spoils = false;   ///< and acknowledge none of the sub-block, so that it comes again
-  bool sub_block_queued = false;          ///< upload: the driver takes a whole sub-block at once
+  bool sub_block_queued = false;          ///< upload: the driver takes up to 64 segments at once
 
   /// From a request to the response, and to the first segment of a sub-block.
   conform::Duration turnaround{};

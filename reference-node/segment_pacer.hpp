@@ -26,9 +26,9 @@ class SegmentPacer {
     last_.reset();
   }
   /// `waiting`: frames of this node that are handed over and not on the wire yet.
-  /// `whole`: a sub-block is handed over at once, and no abort takes it back.
+  /// `whole`: as much of a sub-block as a deep queue takes is handed over at once, and no abort takes it back.
   [[nodiscard]] bool may_send(BusTime now, std::size_t waiting, bool whole) {
-    if (whole) return now >= from_;
+    if (whole) return now >= from_ && waiting < deep;
     if (in_row_ >= row && waiting == 0) start(now + pause());
     return now >= from_ && in_row_ < row && waiting < depth;
   }
@@ -42,6 +42,7 @@ class SegmentPacer {
 
  private:
   static constexpr std::size_t depth = 2;  ///< one on the wire, one behind it: no gap
+  static constexpr std::size_t deep = 64;
   static constexpr int row = 8;
   static constexpr Duration unknown = Duration::max();
   static constexpr Duration usual = std::chrono::milliseconds(1);  ///< at 125 kbit/s

@@ -285,7 +285,7 @@ VariantTable sdo_variants() {
        .warns = {"SDO-SDN-06", "SDO-SDN-07", "SDO-SDN-08", "SDO-SDN-09", "SDO-SDN-10", "SDO-SDN-14",
                  "SDO-SDN-27", "SDO-BDN-12", "SDO-BDN-13", "SDO-BDN-14", "SDO-BDN-15", "SDO-SDN-15"}},
       {.id = "sdo-sub-block-queued",
-       .summary = "the driver takes a whole sub-block of an upload at once",
+       .summary = "the driver takes up to 64 segments of a sub-block of an upload at once",
        .legal = "SDO-BUP-17, tolerated: what is queued still comes",
        .how = choose([](Choices& c) { c.sdo.sub_block_queued = true; }),
        .warns = {"SDO-BUP-17", "SDO-BUP-27"}},
