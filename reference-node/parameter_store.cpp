@@ -93,13 +93,16 @@ void ParameterStore::bind() {
   device_->dictionary.on_download = [this](Multiplexer mux) { store_soon(mux); };
 }
 
+/// Where the group has a sub-index of its own, that one decides, and "all parameters" says it of the rest.
 std::vector<Group> ParameterStore::stored_autonomously() const {
   std::vector<Group> out;
-  for (std::uint8_t sub = 1; sub <= sub_last; ++sub) {
-    if ((device_->dictionary.number(0x1010, sub) & autonomously) == 0) continue;
-    for (const Group group : groups_of(sub, {})) {
-      if (!restored_.contains(group)) out.push_back(group);
-    }
+  for (const Group group : all_groups) {
+    const std::uint8_t own = group == Group::communication ? sub_communication
+                             : group == Group::application ? sub_application
+                                                           : sub_all;
+    const std::uint8_t sub = device_->dictionary.entry(0x1010, own) != nullptr ? own : sub_all;
+    const bool by_itself = (device_->dictionary.number(0x1010, sub) & autonomously) != 0;
+    if (by_itself && !restored_.contains(group)) out.push_back(group);
   }
   return out;
 }

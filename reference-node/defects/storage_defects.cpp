@@ -63,6 +63,14 @@ DefectTable storage_defects() {
        "1010h:03 confirms without storing",
        {"OD-1010-12", "STO-1010-08"},
        behave(&B::store, &S::sub3_without_effect)},
+      {"1010-sub3-refused",
+       "1010h:03 says that it stores, and refuses \"save\" as absent",
+       {"OD-1010-12", "STO-1010-08"},
+       respond(
+           [](const SdoExchange& e) {
+             return e.index() == 0x1010 && e.sub() == 3 && e.step == SdoStep::download_initiate && !e.aborted;
+           },
+           0x80, 0x06090011)},
       {"1010-groups-mixed",
        "Every sub-index of 1010h stores all parameters",
        {"OD-1010-11", "OD-1010-12", "STO-1010-07", "STO-1010-08"},

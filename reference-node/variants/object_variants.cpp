@@ -105,6 +105,16 @@ void empty_domains(VariantTarget& target) {
   });
 }
 
+/// 1010h, bit 1 of one sub-index only.
+How stores_by_itself_as_said_in(std::uint8_t sub) {
+  return [sub](VariantTarget& target) {
+    Entry* entry = target.dictionary.entry(0x1010, sub);
+    if (entry == nullptr) return;
+    entry->default_value[0] |= 2U;
+    entry->value = entry->default_value;
+  };
+}
+
 /// A complex data type entry with the types of its elements (CiA 301, 7.4.8).
 How structure(std::uint16_t index, std::vector<std::uint16_t> elements) {
   return [index, elements = std::move(elements)](VariantTarget& target) {
@@ -194,6 +204,13 @@ VariantTable object_variants() {
        "OD-1010-04, OD-1010-17: bit 1", stores_by_itself(std::chrono::seconds(4)), "storage"},
       {"1010-autonomous-at-once", "stores by itself with each write", "OD-1010-04, OD-1010-17: bit 1",
        stores_by_itself(Duration::zero()), "storage"},
+      {"1010-autonomous-01-only",
+       "bit 1 of 1010h:01, not of :02 and :03: what belongs to neither is stored by itself",
+       "7.5.2.13: a group's own sub-index says more of it", stores_by_itself_as_said_in(1), "storage"},
+      {"1010-autonomous-02-only", "communication parameters alone are stored by themselves",
+       "7.5.2.13: bit 1 of 1010h:02", stores_by_itself_as_said_in(2), "storage"},
+      {"1010-autonomous-03-only", "application parameters alone are stored by themselves",
+       "7.5.2.13: bit 1 of 1010h:03", stores_by_itself_as_said_in(3), "storage"},
       {.id = "1012-absent",
        .summary = "does not know TIME",
        .legal = "7.5.2.15: for devices that support TIME",
