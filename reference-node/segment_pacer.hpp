@@ -26,7 +26,8 @@ class SegmentPacer {
     last_.reset();
   }
   /// `waiting`: frames of this node that are handed over and not on the wire yet.
-  /// `whole`: as much of a sub-block as a deep queue takes is handed over at once, and no abort takes it back.
+  /// `whole`: as much of a sub-block as a deep queue takes is handed over at once, and no abort takes it
+  /// back.
   [[nodiscard]] bool may_send(BusTime now, std::size_t waiting, bool whole) {
     if (whole) return now >= from_ && waiting < deep;
     if (in_row_ >= row && waiting == 0) start(now + pause());
