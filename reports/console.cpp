@@ -240,6 +240,8 @@ std::string exit_text(const RunResult& run, int code) {
       return run.cases.empty() ? "nothing was selected, so nothing was judged"
                                : "nothing selected applies to this device, so nothing was judged";
     case 3:
+      if (!run.unwritten.empty() && !run.aborted && counts.error + counts.inconclusive == 0)
+        return "a report could not be written; no requirement is known to be violated";
       return run.aborted ? "the run stopped early; no requirement is known to be violated"
                          : "no requirement is known to be violated, but not everything could be judged";
     case 130: return "interrupted (SIGINT)";
@@ -262,6 +264,8 @@ void write_totals(Page& page, const RunResult& run) {
   for (std::size_t i = 0; i < run.notes.size(); ++i)
     page.row(i == 0 ? "notes" : "", prose(run.notes[i]), label);
   if (run.aborted) page.row("stopped", prose(*run.aborted), label);
+  for (std::size_t i = 0; i < run.unwritten.size(); ++i)
+    page.row(i == 0 ? "not written" : "", log_safe(run.unwritten[i]), label);
   const int code = result::exit_code(run);
   const Ink ink = code == 0 ? Ink::good : code == 1 ? Ink::bad : Ink::unsure;
   page.painted_row("exit code", paint(fmt::format("{}: {}", code, exit_text(run, code)), ink, style), label);

@@ -55,17 +55,6 @@ std::vector<RequirementVerdict> requirement_verdicts(const RunResult& run) {
   return all;
 }
 
-void count(Counts& counts, Verdict verdict) {
-  switch (verdict) {
-    case Verdict::not_applicable: ++counts.not_applicable; break;
-    case Verdict::pass: ++counts.pass; break;
-    case Verdict::warn: ++counts.warn; break;
-    case Verdict::inconclusive: ++counts.inconclusive; break;
-    case Verdict::error: ++counts.error; break;
-    case Verdict::fail: ++counts.fail; break;
-  }
-}
-
 std::vector<AreaTally> tally_by_area(const RunResult& run) {
   std::vector<AreaTally> rows;
   for (const RequirementVerdict& one : requirement_verdicts(run)) {
@@ -76,7 +65,7 @@ std::vector<AreaTally> tally_by_area(const RunResult& run) {
     auto row = std::ranges::find(rows, area, &AreaTally::area);
     if (row == rows.end()) row = rows.insert(rows.end(), {area, {}, 0});
     if (one.verdict) {
-      count(row->counts, *one.verdict);
+      row->counts.add(*one.verdict);
     } else {
       ++row->not_judged;
     }

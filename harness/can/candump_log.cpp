@@ -168,26 +168,25 @@ Result<Line> parse_line(std::string_view text) {
 
 }  // namespace
 
+void append_candump_line(std::string& out, const CapturedFrame& captured, const CaptureInfo& info) {
+  const std::int64_t stamp =
+      std::max<std::int64_t>(info.epoch_ns + captured.time.time_since_epoch().count(), 0);
+  out += '(';
+  put_decimal(out, stamp / second_ns, 10);
+  out += '.';
+  put_decimal(out, stamp % second_ns / 1000, 6);
+  out += ") ";
+  const std::string_view name = info.interface_name.empty() ? "can0" : std::string_view(info.interface_name);
+  for (const char c : name) out += c <= ' ' || c == '\x7F' ? '_' : c;
+  out += ' ';
+  put_frame(out, captured.frame);
+  out += '\n';
+}
+
 std::string write_candump_log(const Capture& capture, const CaptureInfo& info) {
-  std::string name = info.interface_name.empty() ? "can0" : info.interface_name;
-  for (char& c : name) {
-    if (c <= ' ' || c == '\x7F') c = '_';
-  }
   std::string out;
-  out.reserve(capture.size() * (44 + name.size()));
-  for (const auto& captured : capture.frames()) {
-    const std::int64_t stamp =
-        std::max<std::int64_t>(info.epoch_ns + captured.time.time_since_epoch().count(), 0);
-    out += '(';
-    put_decimal(out, stamp / second_ns, 10);
-    out += '.';
-    put_decimal(out, stamp % second_ns / 1000, 6);
-    out += ") ";
-    out += name;
-    out += ' ';
-    put_frame(out, captured.frame);
-    out += '\n';
-  }
+  out.reserve(capture.size() * (44 + info.interface_name.size()));
+  for (const auto& captured : capture.frames()) append_candump_line(out, captured, info);
   return out;
 }
 

@@ -16,6 +16,9 @@ namespace conform::can {
 /// written as 0.
 [[nodiscard]] std::string write_candump_log(const Capture& capture, const CaptureInfo& info);
 
+/// One line of it, for a file that grows.
+void append_candump_line(std::string& out, const CapturedFrame& frame, const CaptureInfo& info);
+
 /// Reads what candump and we write: six or nine decimals, optional " T"/" R" for the direction (default:
 /// received),
 /// "_9".."_F" for a raw data length code. Empty lines and lines that start with '#' are skipped. All frames

@@ -16,6 +16,10 @@ namespace conform::can {
 /// everywhere.
 [[nodiscard]] Bytes write_pcapng(const Capture& capture, const CaptureInfo& info);
 
+/// The same in two parts, for a file that grows: what stands before the first frame, and one frame more.
+[[nodiscard]] Bytes pcapng_head(const CaptureInfo& info);
+void append_pcapng(Bytes& out, const CapturedFrame& frame, const CaptureInfo& info);
+
 /// Reads pcapng of either byte order with CAN_SOCKETCAN interfaces; unknown blocks and options are skipped.
 /// All frames must be of one interface: the one named `only` if given (others are then skipped), else the
 /// first that has frames. `where` names the file in errors, which carry the byte offset.

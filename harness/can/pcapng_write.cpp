@@ -111,11 +111,20 @@ void put_frame(Bytes& out, const CapturedFrame& captured, std::int64_t epoch_ns)
 
 }  // namespace
 
-Bytes write_pcapng(const Capture& capture, const CaptureInfo& info) {
+Bytes pcapng_head(const CaptureInfo& info) {
   Bytes out;
-  out.reserve(256 + capture.size() * 60);
   put_section(out, info);
   put_interface(out, info);
+  return out;
+}
+
+void append_pcapng(Bytes& out, const CapturedFrame& frame, const CaptureInfo& info) {
+  put_frame(out, frame, info.epoch_ns);
+}
+
+Bytes write_pcapng(const Capture& capture, const CaptureInfo& info) {
+  Bytes out = pcapng_head(info);
+  out.reserve(256 + capture.size() * 60);
   for (const auto& captured : capture.frames()) put_frame(out, captured, info.epoch_ns);
   return out;
 }

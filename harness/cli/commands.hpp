@@ -34,8 +34,26 @@ struct RunCommand {
   bool quiet = false;
   std::string color = "auto";  ///< auto, always, never
   std::string junit, capture, candump, markdown;
+  std::string journal;  ///< file; empty: the usual place
 };
 [[nodiscard]] int run_command(const RunCommand& options);
+
+struct ReportCommand {
+  std::string journal;
+  std::string junit, markdown, capture;  ///< all empty: those that the run was asked for
+  bool quiet = false;
+  std::string color = "auto";
+};
+/// The exit code of the run that the journal tells of.
+[[nodiscard]] int report_command(const ReportCommand& options);
+
+struct RecoverCommand {
+  std::string journal;    ///< empty: the usual place for interface and node
+  std::string interface;  ///< empty: that of the journal
+  std::optional<std::uint32_t> node;
+  std::string device, eds;  ///< instead of those that the run was given
+};
+[[nodiscard]] int recover_command(const RecoverCommand& options);
 
 struct ScanCommand {
   std::string interface;

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "cli/commands.hpp"
+#include "cli/guardian.hpp"
 
 namespace {
 
@@ -104,11 +105,18 @@ int dispatch(int argc, char** argv) {
           "--allow", run.allow,
           "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")
       ->type_name("RISK");
-  run_sub->add_option("--junit", run.junit, "Write JUnit XML, valid at any time of the run")
+  run_sub->add_option("--junit", run.junit, "Write JUnit XML, also when the run is killed")
       ->type_name("FILE");
-  run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark")
+  run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark, while they come")
       ->type_name("FILE");
-  run_sub->add_option("--candump", run.candump, "Write all frames as candump log, for can-utils")
+  run_sub
+      ->add_option("--candump", run.candump,
+                   "Write all frames as candump log, for can-utils, while they come")
+      ->type_name("FILE");
+  run_sub
+      ->add_option(
+          "--journal", run.journal,
+          "Keep the journal here (default: ~/.local/state/canopen-conform, for each interface and node)")
       ->type_name("FILE");
   run_sub->add_option("--markdown", run.markdown, "Write a short report in Markdown")->type_name("FILE");
   run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
@@ -123,6 +131,42 @@ int dispatch(int argc, char** argv) {
   run_sub->add_option("--color", run.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
+
+  ReportCommand report;
+  auto* report_sub = app.add_subcommand("report", "Make the reports of a run anew, from its journal");
+  report_sub->add_option("journal", report.journal, "Journal of the run")->required()->type_name("JOURNAL");
+  report_sub->add_option("--junit", report.junit, "Write JUnit XML")->type_name("FILE");
+  report_sub->add_option("--markdown", report.markdown, "Write a short report in Markdown")
+      ->type_name("FILE");
+  report_sub
+      ->add_option("--capture", report.capture,
+                   "Comment this capture of the run with what was found (pcapng)")
+      ->type_name("FILE");
+  report_sub->add_flag("-q,--quiet", report.quiet, "Print no summary");
+  report_sub->add_option("--color", report.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+
+  RecoverCommand recover;
+  auto* recover_sub = app.add_subcommand("recover", "Put back what a killed run left changed in the device");
+  recover_sub
+      ->add_option("journal", recover.journal,
+                   "Journal of the run (default: the latest on interface and node)")
+      ->type_name("JOURNAL");
+  recover_sub->add_option("-i,--interface", recover.interface, "CAN interface the device is on now")
+      ->type_name("NAME");
+  recover_sub->add_option("-n,--node", recover.node, "Node-ID of the device, 1 to 127")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  recover_sub->add_option("-d,--device", recover.device, "Device profile, if it is not where it was")
+      ->type_name("FILE");
+  recover_sub->add_option("--eds", recover.eds, "Description of the device, if it is not where it was")
+      ->type_name("FILE");
+
+  std::string guarded;
+  auto* guard_sub = app.add_subcommand("guard", "Watches over a run");
+  guard_sub->group("");
+  guard_sub->add_option("--journal", guarded);
 
   JudgeCommand judge;
   auto* judge_sub = app.add_subcommand("judge", "Judge a recorded trace by the monitors, without a device");
@@ -256,7 +300,10 @@ int dispatch(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
   run.suites = judge.suites = lint.suites = list.suites = explain.suites = selftest.suites = suites;
+  if (guard_sub->parsed()) return guard_command(guarded);
   if (run_sub->parsed()) return run_command(run);
+  if (report_sub->parsed()) return report_command(report);
+  if (recover_sub->parsed()) return recover_command(recover);
   if (judge_sub->parsed()) return judge_command(judge);
   if (lint_sub->parsed()) return lint_command(lint);
   if (eds_sub->parsed()) return eds.run();

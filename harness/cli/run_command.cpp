@@ -4,20 +4,22 @@
 #include <signal.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
 #include <optional>
+#include <system_error>
 
-#include "base/files.hpp"
 #include "base/text.hpp"
-#include "can/candump_log.hpp"
 #include "can/interface_lock.hpp"
-#include "can/pcapng.hpp"
 #include "can/socketcan_interface.hpp"
 #include "can/socketcan_transport.hpp"
 #include "cli/commands.hpp"
+#include "cli/guardian.hpp"
 #include "cli/known_device.hpp"
+#include "cli/run_journal.hpp"
+#include "cli/run_reports.hpp"
+#include "cli/run_watch.hpp"
 #include "cli/selftest.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
@@ -25,8 +27,6 @@
 #include "engine/monitor_cases.hpp"
 #include "node.hpp"
 #include "reports/console.hpp"
-#include "reports/junit.hpp"
-#include "reports/markdown.hpp"
 
 namespace conform::cli {
 namespace {
@@ -67,61 +67,40 @@ Result<KnownDevice> device_of(const RunCommand& options, const std::string& suit
   return known;
 }
 
-/// Reports that are kept up to date while the run goes on, so that even kill -9 leaves a valid file.
-class LiveReports {
- public:
-  LiveReports(const RunCommand& options, std::string tool, std::string host, std::int64_t started)
-      : options_(options), tool_(std::move(tool)), host_(std::move(host)), started_(started) {}
+/// What the command line knows of a run.
+struct Facts {
+  std::string host;
+  std::int64_t started = 0;
+  std::vector<result::Property> properties;
+  std::vector<std::string> notes;
 
   void complete(result::RunResult& run) const {
-    run.tool = tool_;
-    run.host = host_;
-    run.started_utc_ns = started_;
-    run.properties.insert(run.properties.begin(), properties_.begin(), properties_.end());
+    run.tool = tool;
+    run.host = host;
+    run.started_utc_ns = started;
+    run.properties.insert(run.properties.begin(), properties.begin(), properties.end());
+    run.notes.insert(run.notes.begin(), notes.begin(), notes.end());
   }
-  void add_property(std::string name, std::string value) {
-    properties_.push_back({std::move(name), std::move(value)});
-  }
+  void add(std::string name, std::string value) { properties.push_back({std::move(name), std::move(value)}); }
 
-  /// At most four times a second: writing after every case would cost more than the cases.
-  void refresh(const result::RunResult& run, bool force) {
-    if (options_.junit.empty()) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (!force && now - last_ < std::chrono::milliseconds(250)) return;
-    last_ = now;
-    auto copy = run;
-    complete(copy);
-    write_junit(copy);
-  }
-  void write_junit(const result::RunResult& run) {
-    if (options_.junit.empty()) return;
-    auto written = write_file_atomically(
-        options_.junit, reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"}));
-    if (!written && !failed_) {
-      failed_ = true;
-      report_error(written.error(), 0);
-    }
-  }
-  [[nodiscard]] bool failed() const { return failed_; }
-  void write(const std::string& path, ByteView bytes) {
-    if (path.empty()) return;
-    if (auto written = write_file_atomically(path, bytes); !written) {
-      failed_ = true;
-      report_error(written.error(), 0);
-    }
-  }
-  void write(const std::string& path, const std::string& text) {
-    write(path, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-  }
-
- private:
-  const RunCommand& options_;
-  std::string tool_, host_;
-  std::int64_t started_;
-  std::vector<result::Property> properties_;
-  std::chrono::steady_clock::time_point last_{};
-  bool failed_ = false;
+  static constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
 };
+
+/// Says what the run before left in the device, before anything else is done to it.
+void tell_what_was_left(const RunJournal& journal, Facts& facts) {
+  if (journal.left().empty()) return;
+  std::string text =
+      journal.earlier_was_killed()
+          ? "an earlier run on this interface and node was killed and left values of the device changed:"
+          : "an earlier run on this interface and node could not put back all that it changed:";
+  for (const auto& each : journal.left()) {
+    const auto what = to_string(each.object) + " was " + hex_bytes(each.before) +
+                      (each.during.empty() ? "" : " before " + each.during);
+    text += "\n  " + what;
+    facts.notes.push_back("left changed by an earlier run: " + what);
+  }
+  report_error({text, {}, "canopen-conform recover " + journal.path() + " puts them back"}, 0);
+}
 
 void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Monitors& monitors,
                 const scenario::Catalogue& catalogue) {
@@ -144,29 +123,31 @@ void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Moni
   print(out);
 }
 
-}  // namespace
-
-int run_command(const RunCommand& options) {
+int run(const RunCommand& options, RunReports& reports) {
+  const auto refuse = [&reports](const Error& error, int code) {
+    reports.not_begun(Facts::tool, error);
+    return report_error(error, code);
+  };
   if (options.simulate == !options.interface.empty() && (options.simulate || options.device.empty())) {
-    return report_error(
+    return refuse(
         {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
         exit_usage);
   }
   for (const auto& [option, ids] :
        {std::pair{"--defect", &options.defects}, {"--variant", &options.variants}}) {
     if (options.simulate || ids->empty()) continue;
-    return report_error({std::string(option) + " belongs to --simulate",
-                         {},
-                         std::string("on a real interface: canopen-refnode ") + option + " ID"},
-                        exit_usage);
+    return refuse({std::string(option) + " belongs to --simulate",
+                   {},
+                   std::string("on a real interface: canopen-refnode ") + option + " ID"},
+                  exit_usage);
   }
   auto root = find_suites(options.suites);
-  if (!root) return report_error(root.error(), exit_usage);
+  if (!root) return refuse(root.error(), exit_usage);
   const bool colour = use_colour(options.color, 1);
   auto suites = load_suites(*root, use_colour(options.color, 2));
-  if (!suites) return report_error(suites.error(), exit_usage);
+  if (!suites) return refuse(suites.error(), exit_usage);
   auto known = device_of(options, *root);
-  if (!known) return report_error(known.error(), exit_usage);
+  if (!known) return refuse(known.error(), exit_usage);
   auto* const profile = &known->profile;
 
   engine::RunOptions run_options;
@@ -179,10 +160,10 @@ int run_command(const RunCommand& options) {
   for (const auto& id : options.requirements) {
     if (id.find('*') == std::string::npos && suites->catalogue.find(id) == nullptr) {
       const auto near = did_you_mean(id, suites->catalogue.ids());
-      return report_error({"unknown requirement '" + id + "'",
-                           {},
-                           near.empty() ? "" : "did you mean '" + std::string(near) + "'?"},
-                          exit_usage);
+      return refuse({"unknown requirement '" + id + "'",
+                     {},
+                     near.empty() ? "" : "did you mean '" + std::string(near) + "'?"},
+                    exit_usage);
     }
   }
   {
@@ -190,7 +171,7 @@ int run_command(const RunCommand& options) {
     everything.allowed = scenario::Risk::motion;
     if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty() &&
         !engine::names_a_monitor(everything.selection, suites->catalogue)) {
-      return report_error(
+      return refuse(
           {"nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is"},
           exit_usage);
     }
@@ -200,13 +181,13 @@ int run_command(const RunCommand& options) {
   std::unique_ptr<can::SocketCanTransport> transport;
   if (!options.simulate && !options.dry_run) {
     if (profile->interface.empty())
-      return report_error(
-          {"no interface is named", {}, "--interface can0, or interface: in the device profile"}, exit_usage);
+      return refuse({"no interface is named", {}, "--interface can0, or interface: in the device profile"},
+                    exit_usage);
     auto opened = can::SocketCanTransport::open(profile->interface);
-    if (!opened) return report_error(opened.error(), exit_environment);
+    if (!opened) return refuse(opened.error(), exit_environment);
     transport = std::move(*opened);
     auto taken = can::InterfaceLock::take(profile->interface);
-    if (!taken) return report_error(taken.error(), exit_environment);
+    if (!taken) return refuse(taken.error(), exit_environment);
     lock.emplace(std::move(*taken));
   }
   // A real machine may hang on a real interface: without --allow nothing is written to it.
@@ -215,8 +196,8 @@ int run_command(const RunCommand& options) {
   if (!options.allow.empty()) {
     const auto risk = scenario::parse_risk(options.allow);
     if (!risk)
-      return report_error(
-          {"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"}, exit_usage);
+      return refuse({"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"},
+                    exit_usage);
     run_options.plan.allowed = *risk;
   }
   if (options.dry_run && options.allow.empty() && !options.simulate) {
@@ -234,80 +215,117 @@ int run_command(const RunCommand& options) {
     return 0;
   }
 
-  catch_signals();
+  Facts facts;
   char host[256] = "unknown";
   if (!options.simulate) ::gethostname(host, sizeof host - 1);
-  LiveReports reports(options, "canopen-conform " CONFORM_VERSION, options.simulate ? "simulation" : host,
-                      options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000);
-  reports.add_property("suite.digest", suite_digest(*root));
-  if (known->description) reports.add_property("dut.description", known->description->name);
-  reports.add_property("run.seed", std::to_string(options.seed));
-  reports.add_property("run.allowed", std::string(to_string(run_options.plan.allowed)));
+  facts.host = options.simulate ? "simulation" : host;
+  facts.started = options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000;
+  facts.notes = known->notes;
+  facts.add("suite.digest", suite_digest(*root));
+  if (known->description) facts.add("dut.description", known->description->name);
+  facts.add("run.seed", std::to_string(options.seed));
+  facts.add("run.allowed", std::string(to_string(run_options.plan.allowed)));
   if (transport != nullptr) {
     const auto info = transport->info();
-    reports.add_property("can.interface", info.name);
-    reports.add_property("can.driver", info.driver);
-    if (info.bit_rate > 0) reports.add_property("can.bit_rate", std::to_string(info.bit_rate));
-    reports.add_property("can.receive_buffer", std::to_string(info.receive_buffer));
+    facts.add("can.interface", info.name);
+    facts.add("can.driver", info.driver);
+    if (info.bit_rate > 0) facts.add("can.bit_rate", std::to_string(info.bit_rate));
+    facts.add("can.receive_buffer", std::to_string(info.receive_buffer));
   } else {
-    reports.add_property("can.interface", "simulated");
-    if (!options.defects.empty()) reports.add_property("simulation.defects", join(options.defects, " "));
-    if (!options.variants.empty()) reports.add_property("simulation.variants", join(options.variants, " "));
+    facts.add("can.interface", "simulated");
+    if (!options.defects.empty()) facts.add("simulation.defects", join(options.defects, " "));
+    if (!options.variants.empty()) facts.add("simulation.variants", join(options.variants, " "));
+  }
+
+  can::CaptureInfo info;
+  info.interface_name = options.simulate ? "simulated" : profile->interface;
+  info.epoch_ns = transport != nullptr ? transport->info().epoch_ns : 0;
+  info.tool = Facts::tool;
+  info.comment = profile->name;
+  if (auto opened = reports.stream(info); !opened) return refuse(opened.error(), exit_environment);
+
+  // A run of which no file is asked, and that touches no device, leaves nothing to look after.
+  std::optional<RunJournal> kept;
+  std::optional<journal::Writer> journal;
+  std::optional<Guardian> guardian;
+  if (!options.simulate || !options.journal.empty() || !reports.none()) {
+    auto opened =
+        RunJournal::open(options.journal, info.interface_name, profile->node.value(), options.simulate);
+    if (!opened) return refuse(opened.error(), exit_environment);
+    kept.emplace(std::move(*opened));
+    if (!options.simulate) tell_what_was_left(*kept, facts);
+    journal.emplace(kept->descriptor());
+    result::RunResult begun;
+    facts.complete(begun);
+    begun.device = profile->name;
+    journal->begin({.interface = info.interface_name,
+                    .node = profile->node.value(),
+                    .simulated = options.simulate,
+                    .profile = absolute(options.device),
+                    .eds = absolute(options.eds),
+                    .epoch_ns = info.epoch_ns,
+                    .reports = reports.paths()},
+                   begun);
+    for (auto value : kept->left()) {
+      value.during.clear();
+      journal->changing(value);
+    }
+    if (journal->error() != 0)
+      return refuse({"cannot write the journal: " + std::generic_category().message(journal->error()),
+                     kept->path(), "--journal FILE puts it elsewhere"},
+                    exit_environment);
+    guardian.emplace(*kept);
+    record_faults_in(kept->descriptor());
+    if (options.simulate) watch_progress(kept->descriptor());
   }
 
   const bool live = ::isatty(1) != 0 && !options.quiet;
   const reports::Style style{colour, terminal_width(), 0};
-  std::size_t done = 0;
-  run_options.on_planned = [&](const result::RunResult& run) { reports.refresh(run, true); };
-  run_options.on_case_begin = [&](const result::RunResult& run, std::size_t index) {
-    if (!live) return;
-    print("\r\x1B[K" +
-          reports::progress(index + 1, run.cases.size(), run.cases[index].name(), run.counts(), style));
-    std::fflush(stdout);
-  };
-  run_options.on_case_end = [&](const result::RunResult& run, std::size_t index) {
-    ++done;
-    const auto& each = run.cases[index];
-    const bool quiet_verdict =
-        each.verdict == result::Verdict::pass || each.verdict == result::Verdict::not_applicable;
-    if (live) {
-      if (!quiet_verdict) print("\r\x1B[K" + reports::case_line(each, style) + "\n");
-    } else if (!options.quiet || !quiet_verdict) {
-      print(reports::case_line(each, style) + "\n");
-    }
-    reports.refresh(run, false);
-  };
+  RunWatch watch({live, options.quiet, style}, reports, journal ? &*journal : nullptr,
+                 [&facts](result::RunResult& run) { facts.complete(run); });
+  run_options.observer = &watch;
 
   result::RunResult run;
   can::Capture capture;
-  std::int64_t epoch = 0;
   if (options.simulate) {
     auto simulated = simulate(
         {.defects = options.defects, .variants = options.variants, .description = known->description},
         *profile, suites->suite, suites->catalogue, run_options, options.seed);
-    if (!simulated) return report_error(simulated.error(), exit_usage);
+    if (!simulated) return refuse(simulated.error(), exit_usage);
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);
   } else {
-    epoch = transport->info().epoch_ns;
     run = engine::run(*transport, *profile, suites->suite, suites->catalogue, run_options, capture);
   }
   if (live) print("\r\x1B[K");
-  run.notes.insert(run.notes.begin(), known->notes.begin(), known->notes.end());
-  reports.complete(run);
-  reports.write_junit(run);
-  can::CaptureInfo info;
-  info.interface_name = options.simulate ? "simulated" : profile->interface;
-  info.epoch_ns = epoch;
-  info.tool = run.tool;
+  facts.complete(run);
+  if (journal) journal->finished(run);
+  if (journal && journal->error() != 0)
+    run.unwritten.push_back((kept->path().empty() ? "the journal" : kept->path()) +
+                            ": cannot write: " + std::generic_category().message(journal->error()));
   info.comment = run.device;
-  if (!options.capture.empty()) reports.write(options.capture, can::write_pcapng(capture, info));
-  if (!options.candump.empty()) reports.write(options.candump, can::write_candump_log(capture, info));
-  if (!options.markdown.empty()) reports.write(options.markdown, reports::markdown(run));
+  reports.write(run, capture, info);
+  if (journal) journal->reported();
   print(reports::summary(run, style));
   std::fflush(stdout);
-  const auto code = result::exit_code(run);
-  return reports.failed() && code == 0 ? exit_environment : code;
+  return result::exit_code(run);
+}
+
+}  // namespace
+
+int run_command(const RunCommand& options) {
+  catch_signals();
+  // Also into a file, so that what was said is there when the program is killed.
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  RunReports reports({absolute(options.junit), absolute(options.markdown), absolute(options.capture),
+                      absolute(options.candump)});
+  if (options.dry_run) {
+    RunReports none({});
+    return run(options, none);
+  }
+  if (auto begun = reports.begin(Facts::tool, {options.device, options.eds, options.journal}); !begun)
+    return report_error(begun.error(), exit_environment);
+  return run(options, reports);
 }
 
 }  // namespace conform::cli

@@ -10,7 +10,7 @@
 namespace conform::device {
 namespace {
 
-constexpr std::array<Feature, 34> feature_table{{
+constexpr std::array<Feature, 35> feature_table{{
     {"emcy", "sends emergency messages (1014h)"},
     {"emcy consumer", "consumes emergency messages of other nodes (1028h)"},
     {"error behaviour", "offers the error behaviour object 1029h"},
@@ -44,6 +44,7 @@ constexpr std::array<Feature, 34> feature_table{{
     {"modular device", "lists its modules in 1027h"},
     {"lss", "layer setting services (CiA 305)"},
     {"program download", "takes programs (1F50h)"},
+    {"tpdo on change", "an event-driven TPDO is sent when an object in it changes"},
     {"only node on the bus", "no other node is there: commands to all nodes may be sent"},
 }};
 

@@ -14,6 +14,7 @@
 #include "engine/monitor_cases.hpp"
 #include "engine/restore.hpp"
 #include "engine/run_session.hpp"
+#include "result/annotate.hpp"
 
 namespace conform::engine {
 namespace {
@@ -50,6 +51,7 @@ class Run {
         runner_(session_, catalogue_, options.strict),
         restarts_(facts_of(profile)) {
     session_.try_all_objects(options.plan.all_objects);
+    if (options.observer != nullptr) recorder_.set_observer(*options.observer);
   }
 
   result::RunResult execute() {
@@ -57,7 +59,7 @@ class Run {
     const auto begin = recorder_.now();
     auto ready = prepare();
     make_plan();
-    if (options_.on_planned) options_.on_planned(out_);
+    recorder_.observer().planned(out_);
     if (!ready) {
       abort_run(ready.error());
     } else if (!alive_) {
@@ -198,13 +200,13 @@ class Run {
         result.reason = plan_[i].held_back.empty() ? plan_[i].not_applicable : plan_[i].held_back;
         result.finished = true;
         result.begin = result.end = recorder_.now();
-        if (options_.on_case_end) options_.on_case_end(out_, i);
+        recorder_.observer().case_ended(out_, i);
         continue;
       }
       if (mute_ && !plan_[i].scenario->basic) continue;
-      if (options_.on_case_begin) options_.on_case_begin(out_, i);
+      recorder_.observer().case_begun(out_, i);
       auto done = run_case(plan_[i], result);
-      if (options_.on_case_end) options_.on_case_end(out_, i);
+      recorder_.observer().case_ended(out_, i);
       if (!done) {
         abort_run(done.error());
         break;
@@ -258,8 +260,6 @@ class Run {
     out.finished = true;
     distrust_if_unhealthy(out, health, lateness);
     accept_known_deviations(profile_, catalogue_, out);
-    if (out.first_frame < out.end_frame) recorder_.capture().comment(out.first_frame, out.name());
-    comment_findings(out);
     return {};
   }
 
@@ -277,20 +277,6 @@ class Run {
     trusted_frames_ = frames;
   }
 
-  /// The frames that decided a verdict say so in the capture.
-  void comment_findings(const CaseResult& out) {
-    for (const auto& judgement : out.judgements) {
-      for (const auto& finding : judgement.findings) {
-        for (const auto& frame : finding.evidence) {
-          if (frame.decisive && frame.capture_index < recorder_.capture().size()) {
-            recorder_.capture().comment(frame.capture_index, std::string(to_string(finding.verdict)) + " " +
-                                                                 finding.requirement + ": " + finding.actual);
-          }
-        }
-      }
-    }
-  }
-
   /// The monitors see the whole trace, also of a run that stopped early. A device that was never heard leaves
   /// them nothing to do.
   void judge_monitors() {
@@ -303,10 +289,8 @@ class Run {
     const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };
     if (out_.aborted && !plan_.empty() && std::ranges::none_of(scenarios, was_run))
       withdraw_passes(std::span(out_.cases).last(monitors_.size()), "the run stopped before any scenario");
-    for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i) {
-      comment_findings(out_.cases[i]);
-      if (options_.on_case_end) options_.on_case_end(out_, i);
-    }
+    for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i)
+      recorder_.observer().case_ended(out_, i);
   }
 
   /// In the summary; a boot-up message behind a case may come from what happened in it.
@@ -694,6 +678,7 @@ result::RunResult run(can::Transport& transport, const device::Profile& profile,
   Run run(transport, profile, suite, catalogue, options);
   auto out = run.execute();
   capture = run.take_capture();
+  result::annotate(capture, out);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "can/capture.hpp"
 #include "can/transport.hpp"
 #include "device/profile.hpp"
+#include "engine/observer.hpp"
 #include "engine/plan.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
@@ -23,10 +24,7 @@ struct RunOptions {
   /// hand only.
   std::function<Result<void>()> power_cycle;
   const std::atomic<int>* stop = nullptr;  ///< a signal number ends the run in good order
-  // For live consoles and reports that survive a crash. The result shows every planned case from the start.
-  std::function<void(const result::RunResult&)> on_planned;
-  std::function<void(const result::RunResult&, std::size_t)> on_case_begin;  ///< index into cases
-  std::function<void(const result::RunResult&, std::size_t)> on_case_end;
+  Observer* observer = nullptr;            ///< who is told what happens; lives longer than the run
 };
 
 /// Runs the plan on an open transport. Never throws a verdict away: whatever happens, the result says what

@@ -36,12 +36,15 @@ Result<bool> Recorder::pump(BusTime deadline) {
   if (*event) {
     capture_.add(**event);
     recent_ = std::max(recent_, (**event).time);
+    observer_->recorded(capture_.frames().back());
     return true;
   }
   if (is_ahead) lateness_.waking = std::max<Duration>(lateness_.waking, now() - until);
   auto produced = produce_due();
   if (!produced) return std::unexpected(produced.error());
-  return now() < deadline;
+  const bool goes_on = now() < deadline;
+  observer_->waited(recent_);
+  return goes_on;
 }
 
 Result<void> Recorder::produce_due() {
@@ -89,6 +92,7 @@ Result<void> Recorder::post(const can::Frame& frame) {
 
 std::size_t Recorder::echo_lost(const can::Frame& frame) {
   capture_.add({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
+  observer_->recorded(capture_.frames().back());
   return capture_.size() - 1;
 }
 

@@ -14,6 +14,7 @@
 #include "base/error.hpp"
 #include "can/capture.hpp"
 #include "can/transport.hpp"
+#include "engine/observer.hpp"
 #include "steps/session.hpp"
 
 namespace conform::engine {
@@ -37,6 +38,9 @@ class Recorder {
   [[nodiscard]] const can::Capture& capture() const { return capture_; }
   [[nodiscard]] can::Capture& capture() { return capture_; }
   [[nodiscard]] can::Transport& transport() { return transport_; }
+  /// Who is told of every frame; lives longer than this.
+  void set_observer(Observer& observer) { observer_ = &observer; }
+  [[nodiscard]] Observer& observer() { return *observer_; }
 
   /// Sends and waits for the echo. Its capture index: the frame was on the bus at its stamp.
   [[nodiscard]] Result<std::size_t> send(const can::Frame& frame);
@@ -103,6 +107,8 @@ class Recorder {
   bool ignore_stop_ = false;
   std::optional<Error> fault_;
   can::Capture capture_;
+  Observer nobody_;
+  Observer* observer_ = &nobody_;
   std::vector<Running> running_;
   Lateness lateness_;
 };

@@ -102,12 +102,17 @@ Result<void> restore_pdo(Restorer& device, Index communication, const std::vecto
 Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) {
   RestoreReport out;
   Restorer device(session);
+  auto& observer = session.recorder().observer();
   std::ranges::reverse(changes);
   std::vector<Change> differing;
   for (auto& change : changes) {
     auto now = device.read(change.object);
     if (!now) return std::unexpected(now.error());
-    if (!*now || **now != change.before) differing.push_back(std::move(change));
+    if (!*now || **now != change.before) {
+      differing.push_back(std::move(change));
+    } else {
+      observer.put_back(change.object, change.before);
+    }
   }
   out.written = differing.size();
   std::map<Index, std::vector<Change>> pdos;
@@ -149,7 +154,10 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
     auto now = device.read(change.object);
     if (!now) return std::unexpected(now.error());
     // A clock that runs (1013h) cannot be put back.
-    if (*now == change.before || session.may_change(change.object)) continue;
+    if (*now == change.before || session.may_change(change.object)) {
+      observer.put_back(change.object, change.before);
+      continue;
+    }
     out.left.push_back(to_string(change.object) + " is " +
                        (*now ? hex_bytes(**now) : std::string("not readable")) + ", was " +
                        hex_bytes(change.before));

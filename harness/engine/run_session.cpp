@@ -291,6 +291,7 @@ Result<void> RunSession::will_change(Multiplexer object) {
     return fail(to_string(object) + " must not be written: untouchable in the device profile", "scenario");
   }
   const auto* found = entry(object);
+  if (found != nullptr && found->command) recorder_.observer().commanding(object);
   if (found != nullptr && !found->readable()) return {};
   // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is
   // all commands.
@@ -309,8 +310,10 @@ Result<void> RunSession::will_change(Multiplexer object) {
   if (found != nullptr && found->command) return {};
   // Nor can a value be put back that only the device itself sets, like an error field.
   if (found != nullptr && found->may_change && !found->writable()) return {};
-  if (std::ranges::find(journal_, object, &Change::object) == journal_.end())
+  if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) {
+    recorder_.observer().changing(object, before->data);
     journal_.push_back({object, before->data});
+  }
   return {};
 }
 

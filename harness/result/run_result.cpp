@@ -17,18 +17,20 @@ std::string_view to_string(Verdict verdict) {
   return "error";
 }
 
+void Counts::add(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::not_applicable: ++not_applicable; break;
+    case Verdict::pass: ++pass; break;
+    case Verdict::warn: ++warn; break;
+    case Verdict::inconclusive: ++inconclusive; break;
+    case Verdict::error: ++error; break;
+    case Verdict::fail: ++fail; break;
+  }
+}
+
 Counts RunResult::counts() const {
   Counts counts;
-  for (const CaseResult& one : cases) {
-    switch (one.verdict) {
-      case Verdict::not_applicable: ++counts.not_applicable; break;
-      case Verdict::pass: ++counts.pass; break;
-      case Verdict::warn: ++counts.warn; break;
-      case Verdict::inconclusive: ++counts.inconclusive; break;
-      case Verdict::error: ++counts.error; break;
-      case Verdict::fail: ++counts.fail; break;
-    }
-  }
+  for (const CaseResult& one : cases) counts.add(one.verdict);
   return counts;
 }
 
@@ -45,6 +47,7 @@ int exit_code(const RunResult& run) {
   if (counts.error != 0 || counts.inconclusive != 0) return 3;
   // A run that stopped early is never green, and it says so even when nothing had been planned yet.
   if (run.aborted) return 3;
+  if (!run.unwritten.empty()) return 3;
   // Monitors watch every run; that they saw nothing wrong does not make up for scenarios none of which
   // applied.
   const auto is_scenario = [](const CaseResult& one) { return one.suite != "monitor"; };

@@ -117,6 +117,7 @@ struct Counts {
   [[nodiscard]] std::size_t total() const {
     return pass + warn + fail + inconclusive + not_applicable + error;
   }
+  void add(Verdict verdict);  ///< one more of it
 };
 
 struct RunResult {
@@ -131,6 +132,7 @@ struct RunResult {
   std::vector<std::string> notes;             ///< remarks about the run as a whole
   std::optional<std::string> aborted;         ///< why the run stopped early
   int signal = 0;                             ///< SIGINT or SIGTERM that ended it, else 0
+  std::vector<std::string> unwritten{};       ///< reports that could not be written, with the reason
 
   [[nodiscard]] Counts counts() const;
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;

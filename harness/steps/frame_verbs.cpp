@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/nmt.hpp"
+#include "steps/timing.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
@@ -29,7 +30,7 @@ struct Source {
     const auto text = field.text();
     if (!text) return std::nullopt;
     for (const std::string_view word :
-         {"heartbeat", "emcy", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
+         {"heartbeat", "emcy", "emcy error", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
       if (*text == word) {
         out.service = *text;
         return out;
@@ -45,11 +46,11 @@ struct Source {
 
   /// The entry that configures the service.
   [[nodiscard]] std::vector<ObjectReference> concerns() const {
-    const std::string_view entry = service == "heartbeat" ? "1017h:00"
-                                   : service == "emcy"    ? "1014h:00"
-                                   : service == "sync"    ? "1005h:00"
-                                   : service == "tpdo 1"  ? "1800h:01"
-                                                          : "";
+    const std::string_view entry = service == "heartbeat"        ? "1017h:00"
+                                   : service.starts_with("emcy") ? "1014h:00"
+                                   : service == "sync"           ? "1005h:00"
+                                   : service == "tpdo 1"         ? "1800h:01"
+                                                                 : "";
     auto object = ObjectReference::parse(entry);
     return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
   }
@@ -70,12 +71,19 @@ struct Source {
       can_id = canopen::sync_can_id;
     } else if (service == "tpdo 1") {
       can_id = set.tpdo[0];
-    } else if (service == "emcy") {
+    } else if (service == "emcy" || service == "emcy error") {
       can_id = session.emcy_can_id();
     } else {
       const auto number = id.number(session);
       if (!number) return std::unexpected(number.error());
       can_id = CanId(static_cast<std::uint32_t>(*number));
+    }
+    // Not the end of one: EMCY 0000h.
+    if (service == "emcy error") {
+      return [can_id](const can::CapturedFrame& c) {
+        if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
+        return c.frame.size() < 2 || c.frame.data[0] != 0 || c.frame.data[1] != 0;
+      };
     }
     const bool no_boot_up = service == "heartbeat", only_boot_up = service == "boot-up";
     return [can_id, no_boot_up, only_boot_up](const can::CapturedFrame& c) {
@@ -352,41 +360,90 @@ class Collect final : public Action {
     if (time) {
       if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
     }
+    if (const auto per = fields.optional("per")) {
+      if (per.text() != "sync") {
+        if (auto expression = parse_expression_at(per, context.names)) out->stimulus_ = *expression;
+      }
+      out->answers_ = true;
+    }
     parse_after(fields, context, out->after_);
     return from && time ? std::move(out) : nullptr;
   }
-  Measures measures() const override { return {"count", "first", "state", "period", "shortest", "longest"}; }
+  Measures measures() const override {
+    Measures out{"count", "first", "state", "period", "shortest", "longest"};
+    if (answers_) out.insert(out.end(), {"missed", "skipped", "extra", "closest", "farthest", "latency"});
+    return out;
+  }
   std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
-  std::string words(Session&) const override { return "collect " + source_.words() + " for " + time_.text(); }
+  std::string words(Session&) const override {
+    if (!answers_) return "collect " + source_.words() + " for " + time_.text();
+    return "collect " + source_.words() + " per " +
+           (stimulus_.empty() ? "SYNC" : "frame on CAN-ID " + stimulus_.text()) + ", until " + time_.text() +
+           " after the last";
+  }
 
   Result<Actual> run(Session& session) const override {
     const auto window = settled_window_of(session, after_);
     if (!window) return std::unexpected(window.error());
     auto match = source_.match(session);
     if (!match) return std::unexpected(match.error());
-    const auto until = window->anchor + time_.resolve(session.profile());
+    Session::Match sent;
+    if (answers_) {
+      const auto id = stimulus_id(session);
+      if (!id) return std::unexpected(id.error());
+      sent = [id = *id](const can::CapturedFrame& c) {
+        return c.direction == can::Direction::transmitted && c.frame.is_data(id);
+      };
+    }
+    const auto time = time_.resolve(session.profile());
+    auto until = window->anchor + time;
     std::vector<std::size_t> hits;
+    std::vector<BusTime> stimuli;
+    const auto& frames = session.capture().frames();
+    const auto wanted = [&](const can::CapturedFrame& c) { return (*match)(c) || (sent && sent(c)); };
     for (std::size_t from = window->first;;) {
-      auto found = session.find_frame(from, *match, until);
+      auto found = session.find_frame(from, wanted, until);
       if (!found) return std::unexpected(found.error());
       if (!*found) break;
-      hits.push_back(**found);
       from = **found + 1;
+      if (!sent || !sent(frames[**found])) {
+        hits.push_back(**found);
+        continue;
+      }
+      stimuli.push_back(frames[**found].time);
+      until = std::max(until, stimuli.back() + time);
     }
-    return measure(session, *window, hits);
+    if (sent && stimuli.empty()) return fail("nothing was sent that could have been answered", "scenario");
+    return measure(session, *window, hits, stimuli, until);
   }
 
  private:
+  [[nodiscard]] Result<CanId> stimulus_id(Session& session) const {
+    if (!stimulus_.empty()) {
+      const auto number = stimulus_.number(session);
+      if (!number) return std::unexpected(number.error());
+      return CanId(static_cast<std::uint32_t>(*number));
+    }
+    // As send_sync has found it.
+    const auto* known = session.find("sync_can_id");
+    if (known == nullptr || !known->number) return canopen::sync_can_id;
+    return CanId(static_cast<std::uint32_t>(*known->number));
+  }
+
   [[nodiscard]] static Actual measure(Session& session, const Window& window,
-                                      const std::vector<std::size_t>& hits) {
+                                      const std::vector<std::size_t>& hits,
+                                      const std::vector<BusTime>& stimuli, BusTime end) {
     Actual out;
     const auto& frames = session.capture().frames();
+    std::vector<BusTime> times;
+    for (const auto hit : hits) times.push_back(frames[hit].time);
     out.measured["count"] = hits.size();
     out.detail = std::to_string(hits.size()) + " frames";
+    if (!stimuli.empty()) measure_answers(out, answers_of(stimuli, times), stimuli.size());
     if (hits.empty()) return out;
     out.decisive = hits.back();
-    const auto first = frames[hits.front()].time;
+    const auto first = times.front();
     out.measured["first"] =
         static_cast<std::uint64_t>(std::max<Duration::rep>(0, (first - window.anchor).count()));
     std::optional<std::uint8_t> state;
@@ -400,31 +457,46 @@ class Collect final : public Action {
       state = value;
     }
     if (one_state) out.measured["state"] = *state;
+    const auto distances = distances_of(times, end);
+    out.measured["longest"] = static_cast<std::uint64_t>(distances.longest.count());
+    using std::chrono::microseconds;
+    const auto words = [](Duration time) { return to_string(std::chrono::round<microseconds>(time)); };
     if (hits.size() > 1) {
-      Duration shortest = Duration::max(), longest{};
-      for (std::size_t i = 1; i < hits.size(); ++i) {
-        const auto gap = frames[hits[i]].time - frames[hits[i - 1]].time;
-        shortest = std::min(shortest, gap);
-        longest = std::max(longest, gap);
-      }
-      const auto mean = (frames[hits.back()].time - first) / static_cast<Duration::rep>(hits.size() - 1);
-      out.measured["period"] = static_cast<std::uint64_t>(mean.count());
-      out.measured["shortest"] = static_cast<std::uint64_t>(shortest.count());
-      out.measured["longest"] = static_cast<std::uint64_t>(longest.count());
-      using std::chrono::microseconds;
-      out.detail += ", period " + to_string(std::chrono::round<microseconds>(mean)) + " (" +
-                    to_string(std::chrono::round<microseconds>(shortest)) + ".." +
-                    to_string(std::chrono::round<microseconds>(longest)) + ")";
+      out.measured["period"] = static_cast<std::uint64_t>(distances.mean.count());
+      out.measured["shortest"] = static_cast<std::uint64_t>(distances.shortest.count());
+      out.detail += ", period " + words(distances.mean) + " (" + words(distances.shortest) + ".." +
+                    words(distances.longest) + ")";
     }
-    out.detail += ", first after " + relative(first, window) + ", " +
+    out.detail += ", first after " + relative(first, window) + ", last " + words(end - times.back()) +
+                  " before the end, " +
                   (one_state ? "first byte " + hex(*state, 2) : std::string("differing first bytes"));
     session.consume(hits.back());
     return out;
   }
 
+  static void measure_answers(Actual& out, const Answers& answers, std::size_t stimuli) {
+    out.measured["missed"] = answers.missed;
+    out.measured["skipped"] = answers.skipped;
+    out.measured["extra"] = answers.extra;
+    if (answers.shortest > 0) out.measured["closest"] = answers.shortest;
+    out.measured["farthest"] = answers.longest;
+    out.detail += " for " + std::to_string(stimuli) + " sent, " + std::to_string(answers.missed) +
+                  " unanswered, " + std::to_string(answers.extra) + " extra";
+    const auto& latencies = answers.latencies;
+    if (latencies.empty()) return;
+    out.measured["latency"] = static_cast<std::uint64_t>(latencies.back().count());
+    const auto words = [](Duration time) {
+      return to_string(std::chrono::round<std::chrono::microseconds>(time));
+    };
+    out.detail += ", latency " + words(latencies.front()) + " to " + words(latencies.back()) + ", median " +
+                  words(latencies[latencies.size() / 2]);
+  }
+
   Source source_;
   TimeReference time_;
   std::string after_;
+  bool answers_ = false;
+  Expression stimulus_;  ///< CAN-ID; empty: that of SYNC
 };
 
 constexpr Verb table[] = {
@@ -432,15 +504,19 @@ constexpr Verb table[] = {
      "id: CAN-ID\ndata: bytes, or $name of saved ones\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
      "- send: {id: 80h, data: \"\"}", &Send::parse},
     {"frame", "Wait for a frame of the device.",
-     "id: CAN-ID, or heartbeat, emcy, sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
+     "id: CAN-ID, or heartbeat, emcy, emcy error (any but 0000h), sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
      "- frame: {id: 6A0h, within: 2 s}\n  checks: OD-1014-07", &AwaitFrame::parse},
     {"silence", "No frame may come.",
      "of: CAN-ID or service, or a list of them\nfor: how long\nuntil: instead of for, a label that "
      "was reached\nafter: label to count from",
      "- silence: {of: [emcy, 6A0h], for: 1 s}\n  checks: OD-1014-08", &Silence::parse},
     {"collect", "Count and time frames.",
-     "from: CAN-ID or service\nfor: how long\nafter: label to count from\nmeasured: count, period, shortest, longest, first, state",
-     "- collect: {from: heartbeat, for: 1 s}\n  checks: OD-1017-05\n  expect: {count: 9..11, period: 90 ms..110 ms, state: pre-operational}",
+     "from: CAN-ID or service\nfor: how long; with per: how long after the last frame that was sent\nper: sync or a CAN-ID: frames are "
+     "answers to what was sent there\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind the last "
+     "frame included), first, state; with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
+     "two answers in frames sent), latency (the longest)",
+     "- collect: {from: heartbeat, for: 1 s}\n  checks: OD-1017-05\n  expect: {count: 9..11, period: 90 ms..110 ms, state: pre-operational}\n"
+     "- collect: {from: 180h + N, per: sync, for: 50 ms}\n  checks: PDO-TX-06\n  expect: {extra: 0, closest: 3.., farthest: ..3}",
      &Collect::parse},
 };
 

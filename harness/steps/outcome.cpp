@@ -192,7 +192,8 @@ constexpr std::string_view measures[] = {
     "segments",      "wrong_toggles", "difference", "unmarked",  "empty_last", "bits",          "absent",
     "longer",        "shorter",       "announced",  "size_open", "sub_blocks", "retransmitted", "acks",
     "first_ackseq",  "blksize",       "crc_agreed", "crc_ok",    "crc",        "unused",        "switched",
-    "wrong_numbers", "timeouts",      "surplus",    "answers"};
+    "wrong_numbers", "timeouts",      "surplus",    "answers",   "missed",     "skipped",       "extra",
+    "closest",       "farthest"};
 
 /// A misspelt key is a misspelt outcome: the author knows no other word for it.
 void check_keys(const yaml::Field& field) {

@@ -394,6 +394,7 @@ class SendSync final : public Action {
     auto known = session.read({Index(0x1005), SubIndex(0)});
     if (known && known->number) id = canopen::can_id_of(CobId(static_cast<std::uint32_t>(*known->number)));
     const auto frame = can::data_frame(id, Bytes());
+    session.set("sync_can_id", Value::of_number(id.value()));
     if (count_) {
       if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
       session.consume(session.capture().size());
@@ -401,9 +402,12 @@ class SendSync final : public Action {
       if (!begun) return std::unexpected(begun.error());
       return Actual{};
     }
+    const auto begin = session.capture().size();
     auto sent = session.send(frame);
     if (!sent) return std::unexpected(sent.error());
-    return Actual{};
+    Actual out;
+    out.decisive = sent_frame(session, begin);
+    return out;
   }
 
  private:

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result/annotate.hpp"
+
+namespace conform::result {
+namespace {
+
+void add(can::Capture& capture, std::size_t index, const std::string& text) {
+  if (index >= capture.size()) return;
+  if (capture.frames()[index].comment.find(text) == std::string::npos) capture.comment(index, text);
+}
+
+}  // namespace
+
+void annotate(can::Capture& capture, const RunResult& run) {
+  for (const auto& one : run.cases) {
+    if (!one.finished) continue;
+    if (one.first_frame < one.end_frame) add(capture, one.first_frame, one.name());
+    for (const auto& judgement : one.judgements) {
+      for (const auto& finding : judgement.findings) {
+        for (const auto& frame : finding.evidence) {
+          if (frame.decisive)
+            add(capture, frame.capture_index,
+                std::string(to_string(finding.verdict)) + " " + finding.requirement + ": " + finding.actual);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace conform::result

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a row of time stamps says, and the verb that counts and times frames.
+#include "steps/timing.hpp"
+
+#include "catch.hpp"
+#include "steps/step.hpp"
+#include "steps/tests/fake_session.hpp"
+#include "yaml/loader.hpp"
+
+namespace {
+
+using namespace conform;
+using namespace conform::steps;
+using namespace std::chrono_literals;
+
+std::vector<BusTime> at(std::initializer_list<int> milliseconds) {
+  std::vector<BusTime> out;
+  for (const int each : milliseconds) out.emplace_back(std::chrono::milliseconds(each));
+  return out;
+}
+
+Actual collected(FakeSession& session, const std::string& text) {
+  const auto source = yaml::make_source("x.yaml", text);
+  yaml::Diagnostics diagnostics(source);
+  const auto root = yaml::load(*source, diagnostics);
+  REQUIRE(root);
+  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
+  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
+  REQUIRE(steps.size() == 1);
+  const auto actual = steps[0].action->run(session);
+  REQUIRE(actual);
+  return *actual;
+}
+
+void record(FakeSession& session, int milliseconds, std::uint32_t id, bool sent = false) {
+  session.trace.add(can::CapturedFrame{can::data_frame(CanId(id), Bytes{0x7F}),
+                                       BusTime(std::chrono::milliseconds(milliseconds)),
+                                       sent ? can::Direction::transmitted : can::Direction::received,
+                                       {}});
+}
+
+}  // namespace
+
+// A heartbeat that dies six seconds after it was switched on had kept its period as long as it lived.
+TEST_CASE("a producer that falls silent has its longest distance at the end of the window") {
+  const auto distances = distances_of(at({100, 200, 300}), BusTime(1s));
+  CHECK(distances.mean == 100ms);
+  CHECK(distances.shortest == 100ms);
+  CHECK(distances.longest == 700ms);
+}
+
+TEST_CASE("a single frame has a distance to the end of the window, and no other") {
+  const auto distances = distances_of(at({100}), BusTime(250ms));
+  CHECK(distances.longest == 150ms);
+}
+
+TEST_CASE("answers belong to the stimulus before them, however late that was sent") {
+  // The third SYNC was 40 ms late: the distance of the TPDOs says nothing about the device.
+  const auto answers = answers_of(at({0, 50, 140, 150}), at({2, 53, 141, 152}));
+  CHECK(answers.missed == 0);
+  CHECK(answers.extra == 0);
+  CHECK(answers.shortest == 1);
+  CHECK(answers.longest == 1);
+  CHECK(answers.latencies == std::vector<Duration>{1ms, 2ms, 2ms, 3ms});
+}
+
+TEST_CASE("answers that are missing are counted, those before the first by themselves") {
+  const auto answers = answers_of(at({0, 50, 100, 150, 200}), at({51, 201}));
+  CHECK(answers.missed == 3);
+  CHECK(answers.skipped == 1);
+  CHECK(answers.shortest == 3);
+  CHECK(answers.longest == 3);
+}
+
+TEST_CASE("what comes twice, or before anything was sent, is extra") {
+  const auto answers = answers_of(at({10, 60}), at({5, 11, 12, 61}));
+  CHECK(answers.extra == 2);
+  CHECK(answers.missed == 0);
+}
+
+TEST_CASE("answers that end early make the distance longer, and none at all the longest") {
+  CHECK(answers_of(at({0, 50, 100, 150}), at({1, 51})).longest == 3);
+  const auto none = answers_of(at({0, 50, 100}), {});
+  CHECK(none.missed == 3);
+  CHECK(none.skipped == 3);
+  CHECK(none.longest == 4);
+  CHECK(none.latencies.empty());
+}
+
+TEST_CASE("every second SYNC is a distance of two, wherever the device begins to count") {
+  const auto first = answers_of(at({0, 50, 100, 150}), at({1, 101}));
+  const auto second = answers_of(at({0, 50, 100, 150}), at({51, 151}));
+  CHECK(first.longest == 2);
+  CHECK(first.shortest == 2);
+  CHECK(second.longest == 2);
+  CHECK(second.shortest == 2);
+}
+
+TEST_CASE("a collection per SYNC goes on behind the last SYNC and measures the answers") {
+  FakeSession session;
+  session.set("sync_can_id", Value::of_number(0x88));
+  record(session, 0, 0x88, true);
+  record(session, 3, 0x185);
+  record(session, 40, 0x88, true);
+  record(session, 41, 0x185);
+  record(session, 80, 0x88, true);
+  record(session, 131, 0x185);  // 51 ms after the last SYNC
+  const auto actual = collected(session, "- collect: {from: 185h, per: sync, for: 50 ms}\n");
+  CHECK(actual.measured.at("count") == 2);
+  CHECK(actual.measured.at("missed") == 1);
+  CHECK(actual.measured.at("farthest") == 2);
+  CHECK(actual.measured.at("latency") == 3'000'000);
+}
+
+TEST_CASE("a collection for answers needs something that was sent") {
+  FakeSession session;
+  record(session, 3, 0x185);
+  const auto source = yaml::make_source("x.yaml", "- collect: {from: 185h, per: sync, for: 50 ms}\n");
+  yaml::Diagnostics diagnostics(source);
+  const auto root = yaml::load(*source, diagnostics);
+  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
+  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
+  const auto actual = steps[0].action->run(session);
+  REQUIRE_FALSE(actual);
+  CHECK(actual.error().where == "scenario");
+}
