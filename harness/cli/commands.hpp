@@ -52,6 +52,7 @@ struct RecoverCommand {
   std::string interface;  ///< empty: that of the journal
   std::optional<std::uint32_t> node;
   std::string device, eds;  ///< instead of those that the run was given
+  bool all = false;         ///< also what has been put back already
 };
 [[nodiscard]] int recover_command(const RecoverCommand& options);
 

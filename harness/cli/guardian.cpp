@@ -177,11 +177,17 @@ void watch_progress(int journal) {
   faulty_journal = journal;
   struct sigaction action{};
   action.sa_handler = on_processor_time;
+  action.sa_flags = SA_RESTART;
   ::sigemptyset(&action.sa_mask);
   ::sigaction(SIGVTALRM, &action, nullptr);
   itimerval timer{};
   timer.it_interval.tv_sec = timer.it_value.tv_sec = hang_seconds;
   ::setitimer(ITIMER_VIRTUAL, &timer, nullptr);
+}
+
+void stop_watching() {
+  const itimerval never{};
+  ::setitimer(ITIMER_VIRTUAL, &never, nullptr);
 }
 
 void note_progress() { progress.fetch_add(1, std::memory_order_relaxed); }

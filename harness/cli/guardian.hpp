@@ -34,6 +34,8 @@ class Guardian {
 void record_faults_in(int journal);
 /// The simulated node shares the process: once it has taken this long without any progress, it hangs.
 void watch_progress(int journal);
+/// Nothing of the node runs any more.
+void stop_watching();
 void note_progress();
 
 }  // namespace conform::cli

@@ -163,6 +163,9 @@ int dispatch(int argc, char** argv) {
   recover_sub->add_option("--eds", recover.eds, "Description of the device, if it is not where it was")
       ->type_name("FILE");
 
+  recover_sub->add_flag("--all", recover.all,
+                        "Every value that the run changed, also those that were put back already");
+
   std::string guarded;
   auto* guard_sub = app.add_subcommand("guard", "Watches over a run");
   guard_sub->group("");

@@ -37,12 +37,9 @@ class Progress final : public engine::Observer {
 void tell_of_commands(const journal::Journal& journal) {
   for (const auto& object : journal.commands) {
     print(fmt::format(
-        "unknown: the interrupted case gave the command {}; what it stored in the device cannot be read. "
-        "If a test value comes back with a reset, run recover again{}\n",
-        to_string(object),
-        object.index == Index(0x1010) || object.index == Index(0x1011)
-            ? ", then store with 1010h what is right"
-            : ""));
+        "unknown: the interrupted case gave the command {}; what it stored in the device cannot be read.\n"
+        "  If a test value comes back with a reset: canopen-conform recover --all {}, and store (1010h) after it\n",
+        to_string(object), journal.path));
   }
 }
 
@@ -63,7 +60,8 @@ int recover_command(const RecoverCommand& options) {
   const auto& header = journal->header;
   if (header.simulated)
     return report_error({"the run was a simulation: its device is gone with it", path, {}}, exit_usage);
-  if (journal->outstanding.empty()) {
+  const auto& values = options.all ? journal->changed : journal->outstanding;
+  if (values.empty()) {
     print("nothing is left to put back\n");
     tell_of_commands(*journal);
     return 0;
@@ -78,20 +76,21 @@ int recover_command(const RecoverCommand& options) {
   if (!transport) return report_error(transport.error(), exit_environment);
   const auto lock = can::InterfaceLock::take(interface);
   if (!lock) return report_error(lock.error(), exit_environment);
-  const can::Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  const can::Descriptor file(::open(journal->path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   if (!file.valid())
-    return report_error({"cannot open the file: " + std::generic_category().message(errno), path, {}},
-                        exit_environment);
+    return report_error(
+        {"cannot open the file: " + std::generic_category().message(errno), journal->path, {}},
+        exit_environment);
 
   std::vector<engine::Change> changes;
-  for (const auto& each : journal->outstanding) changes.push_back({each.object, each.before});
+  for (const auto& each : values) changes.push_back({each.object, each.before});
   Progress progress(file.get());
   const auto done = engine::recover(**transport, known->profile, std::move(changes), progress);
   if (!done) return report_error(done.error(), exit_environment);
   tell_of_commands(*journal);
   for (const auto& left : done->left) report_error({"could not be put back: " + left, {}, {}}, 0);
-  print(fmt::format("{} of {} values are as they were before the run\n",
-                    journal->outstanding.size() - done->left.size(), journal->outstanding.size()));
+  print(fmt::format("{} of {} values are as they were before the run\n", values.size() - done->left.size(),
+                    values.size()));
   return done->left.empty() ? 0 : exit_environment;
 }
 

@@ -249,11 +249,14 @@ int run(const RunCommand& options, RunReports& reports) {
   std::optional<journal::Writer> journal;
   std::optional<Guardian> guardian;
   if (!options.simulate || !options.journal.empty() || !reports.none()) {
-    auto opened =
-        RunJournal::open(options.journal, info.interface_name, profile->node.value(), options.simulate);
+    auto opened = RunJournal::open(options.journal, info.interface_name, profile->node.value(),
+                                   options.simulate, reports.first());
     if (!opened) return refuse(opened.error(), exit_environment);
     kept.emplace(std::move(*opened));
     if (!options.simulate) tell_what_was_left(*kept, facts);
+    if (!kept->why_not_usual().empty())
+      facts.notes.push_back("the journal is not at its usual place, so the next run will not find it: " +
+                            kept->why_not_usual());
     journal.emplace(kept->descriptor());
     result::RunResult begun;
     facts.complete(begun);
@@ -291,6 +294,7 @@ int run(const RunCommand& options, RunReports& reports) {
     auto simulated = simulate(
         {.defects = options.defects, .variants = options.variants, .description = known->description},
         *profile, suites->suite, suites->catalogue, run_options, options.seed);
+    stop_watching();
     if (!simulated) return refuse(simulated.error(), exit_usage);
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);

@@ -56,19 +56,36 @@ std::string usual_journal(const std::string& interface, unsigned node) {
 }
 
 Result<RunJournal> RunJournal::open(const std::string& wish, const std::string& interface, unsigned node,
-                                    bool simulated) {
+                                    bool simulated, const std::string& beside) {
   RunJournal out;
   if (simulated && wish.empty()) {
-    out.file_ = can::Descriptor(::memfd_create("canopen-conform-journal", MFD_CLOEXEC));
-    if (!out.file_.valid()) return cannot("make room for the journal", "memory");
+    if (auto done = out.keep_in_memory(); !done) return std::unexpected(done.error());
     return out;
   }
+  if (!wish.empty()) {
+    std::error_code ignored;
+    const auto size = fs::file_size(wish, ignored);
+    if (!ignored && size > 0 && !journal::read(wish))
+      return fail("will not be overwritten: it is no journal", wish, "--journal FILE");
+  }
   const auto home = simulated ? std::string() : usual_journal(interface, node);
-  if (home.empty() && wish.empty())
-    return fail("there is no place for the journal: neither XDG_STATE_HOME nor HOME is set", {},
-                "--journal FILE");
-  if (auto done = out.take_place(absolute(wish), home); !done) return std::unexpected(done.error());
-  return out;
+  auto taken = home.empty() && wish.empty()
+                   ? Result<void>(fail("neither XDG_STATE_HOME nor HOME says where journals are kept"))
+                   : out.take_place(absolute(wish), home);
+  if (taken) return out;
+  if (!wish.empty()) return std::unexpected(taken.error());
+  // A machine without a home for us can still test; only the next run will not know of this one.
+  RunJournal other;
+  other.why_not_usual_ = taken.error().text();
+  taken = beside.empty() ? other.keep_in_memory() : other.take_place(beside + ".journal", {});
+  if (!taken) return std::unexpected(taken.error());
+  return other;
+}
+
+Result<void> RunJournal::keep_in_memory() {
+  file_ = can::Descriptor(::memfd_create("canopen-conform-journal", MFD_CLOEXEC));
+  if (!file_.valid()) return cannot("make room for the journal", "memory");
+  return {};
 }
 
 Result<void> RunJournal::take_place(const std::string& wish, const std::string& home) {
@@ -116,7 +133,8 @@ void RunJournal::look_at_earlier(const std::string& home) {
   earlier_was_killed_ = !earlier->finished;
   if (earlier->finished && left_.empty()) return;
   // Reports can still be made from it.
-  if (const auto text = read_file(home, largest_journal)) (void)write_file_atomically(home + ".old", *text);
+  if (const auto text = read_file(earlier->path, largest_journal))
+    (void)write_file_atomically(home + ".old", *text);
 }
 
 }  // namespace conform::cli

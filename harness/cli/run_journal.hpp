@@ -21,7 +21,7 @@ class RunJournal {
   /// `wish`: the place the user wants it at. Without one, a run on an interface keeps it at the usual place,
   /// where the next run finds it, and a simulated run in memory.
   [[nodiscard]] static Result<RunJournal> open(const std::string& wish, const std::string& interface,
-                                               unsigned node, bool simulated);
+                                               unsigned node, bool simulated, const std::string& beside);
 
   [[nodiscard]] int descriptor() const { return file_.get(); }
   /// Held as long as the run, and who watches over it, live; -1 where there is none.
@@ -29,9 +29,11 @@ class RunJournal {
   [[nodiscard]] const std::string& path() const { return path_; }  ///< empty: in memory
   /// What the run before changed and did not put back. It stays so until somebody does.
   [[nodiscard]] const std::vector<journal::OldValue>& left() const { return left_; }
+  [[nodiscard]] const std::string& why_not_usual() const { return why_not_usual_; }
   [[nodiscard]] bool earlier_was_killed() const { return earlier_was_killed_; }
 
  private:
+  [[nodiscard]] Result<void> keep_in_memory();
   [[nodiscard]] Result<void> take_place(const std::string& wish, const std::string& home);
   void look_at_earlier(const std::string& home);
 
@@ -39,6 +41,7 @@ class RunJournal {
   std::string path_;
   std::vector<journal::OldValue> left_;
   bool earlier_was_killed_ = false;
+  std::string why_not_usual_;
 };
 
 }  // namespace conform::cli

@@ -127,11 +127,14 @@ void RunReports::write_words(result::RunResult& run) {
 }
 
 void RunReports::write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info) {
+  flush();
+  const bool log_is_whole = candump_ && candump_->error() == 0;
   pcapng_.reset();
   candump_.reset();
   // Anew, because now the frames that decided something are known and can say so.
   if (!paths_.capture.empty()) put(run, paths_.capture, can::write_pcapng(capture, info));
-  if (!paths_.candump.empty()) put(run, paths_.candump, can::write_candump_log(capture, info));
+  if (!paths_.candump.empty() && !log_is_whole)
+    put(run, paths_.candump, can::write_candump_log(capture, info));
   write_words(run);
 }
 

@@ -67,6 +67,10 @@ class Parser {
 
   Journal finish() {
     if (!out_.finished) {
+      for (const auto& one : out_.run.cases) {
+        if (one.finished)
+          out_.run.elapsed = std::max(out_.run.elapsed, one.end - out_.run.cases.front().begin);
+      }
       out_.run.aborted = why_.empty() ? "the runner was killed before the run had ended" : why_;
       if (running_ && *running_ < out_.run.cases.size()) {
         auto& one = out_.run.cases[*running_];
@@ -98,10 +102,12 @@ class Parser {
   /// What stands there first is what was there before everything.
   void changing(const Json& line) {
     const auto object = object_of(line, lines::changing);
-    if (!object || std::ranges::find(out_.outstanding, *object, &OldValue::object) != out_.outstanding.end())
-      return;
-    out_.outstanding.push_back(
-        {*object, hex_value(line.at("before").get<std::string>()), text_of(line.at("during"))});
+    if (!object) return;
+    const OldValue value{*object, hex_value(line.at("before").get<std::string>()),
+                         text_of(line.at("during"))};
+    for (auto* const list : {&out_.outstanding, &out_.changed}) {
+      if (std::ranges::find(*list, *object, &OldValue::object) == list->end()) list->push_back(value);
+    }
   }
 
   Journal out_;
@@ -130,7 +136,9 @@ Result<Journal> parse(std::string_view text, const std::string& where) {
     return fail(std::string("is not a journal: ") + error.what(), where + ":" + std::to_string(number));
   }
   if (number == 0) return fail("is not a journal: it has no whole line", where);
-  return parser.finish();
+  auto out = parser.finish();
+  out.path = where;
+  return out;
 }
 
 Result<Journal> read(const std::string& path) {

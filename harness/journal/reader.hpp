@@ -14,6 +14,7 @@
 namespace conform::journal {
 
 struct Journal {
+  std::string path;  ///< where it was read from, whatever led there
   Header header;
   /// As far as it came. Where the run was killed, `aborted` says so, and the case that was running says so,
   /// too.
@@ -21,6 +22,7 @@ struct Journal {
   bool finished = false;              ///< the run came to its end, be it by a stop request
   bool reported = false;              ///< and its reports were made
   std::vector<OldValue> outstanding;  ///< in the order in which they were changed
+  std::vector<OldValue> changed;      ///< all that the run changed, put back or not: what was there at first
   /// Commands that the interrupted case gave (1010h "save" and the like): what they did no value tells.
   std::vector<Multiplexer> commands;
 };

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 
 FOLDER, SUITES = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 INTERFACE = os.environ.get("CONFORM_TEST_CAN", "")
@@ -12,6 +13,9 @@ if not INTERFACE:
     print("skipped: CONFORM_TEST_CAN names no interface (scripts/with-vcan env CONFORM_TEST_CAN=vcan0 ...)")
     sys.exit(77)
 del sys.argv[1:]
+# Journals of these runs are nobody else's.
+STATE = tempfile.TemporaryDirectory()
+os.environ["XDG_STATE_HOME"] = STATE.name
 
 
 class Node:

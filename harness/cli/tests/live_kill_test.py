@@ -199,6 +199,9 @@ class Kill(unittest.TestCase):
                 chosen, delay = rng.sample(areas, 4), rng.uniform(0.2, 14.0)
                 words = f"round {number}, seed {SEED}: {' '.join(chosen)} killed after {delay:.3f} s"
                 with self.subTest(words):
+                    for path in (self.junit, self.log, self.pcapng):
+                        if os.path.exists(path):
+                            os.remove(path)
                     witness = Witness()
                     process = self.start(*chosen)
                     try:
@@ -213,6 +216,8 @@ class Kill(unittest.TestCase):
                     if process.returncode != -signal.SIGKILL:
                         self.assertIn(process.returncode, (0, 2), output[-2000:] + errors)
                         continue
+                    if not os.path.exists(self.log):
+                        continue  # the program had not even begun
                     cases, reached = self.check_reports(output, errors)
                     frames = self.check_capture(heard, killed)
                     done = self.recover() if os.path.exists(self.journal) else None
