@@ -21,8 +21,8 @@ SEED = os.environ.get("CONFORM_KILL_SEED", time.strftime("%Y%m%d"))
 FRAME = struct.Struct("=IB3x8s")
 SO_TIMESTAMPNS = 35
 SO_RCVBUFFORCE = 33
-# What the device itself changes: error register, error field, clock.
-ITS_OWN = {0x1001, 0x1003, 0x1013}
+# What the device itself changes: error register, error field, clock, what the last command of its operating system gave.
+ITS_OWN = {0x1001, 0x1003, 0x1013, 0x1023}
 SEARCHED = [range(0x1000, 0x1030), range(0x1200, 0x1204), range(0x1280, 0x1283), range(0x1400, 0x1410), range(0x1600, 0x1610),
             range(0x1800, 0x1810), range(0x1A00, 0x1A10), range(0x2000, 0x2040), range(0x6000, 0x6010)]
 
