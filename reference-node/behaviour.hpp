@@ -134,6 +134,7 @@ struct Behaviour {
   bool heartbeat_stops_in_stopped = false;
   bool heartbeat_state_stale = false;
   bool heartbeat_with_toggle_bit = false;
+  int heartbeat_ends_after_ms = 0;  ///< 0: it does not; counted from the write of 1017h
 
   // Heartbeat consumer
   int consumer_time_factor = 1;
@@ -168,6 +169,7 @@ struct Behaviour {
   bool emergency_sent_in_stopped = false;
   bool emergency_register_always_generic = false;
   int emergency_inhibit_unit_us = 100;
+  bool emergency_lost_while_inhibited = false;
   bool records_error_reset = false;
   bool history_not_written = false;
   bool history_starts_with_error = false;
@@ -185,6 +187,7 @@ struct Behaviour {
   bool history_clear_ignored = false;
   bool history_clear_resets_errors = false;
   bool sync_length_not_reported = false;
+  bool sync_without_data_reported = false;  ///< EMCY 8240h for every SYNC of the right length
 
   // COB-ID parameters
   CobIdFaults sync_cob_id;
@@ -214,6 +217,8 @@ struct Behaviour {
   bool remote_type_sends_at_sync = false;
   bool acyclic_type_sends_every_sync = false;
   bool sync_ratio_off_by_one = false;
+  bool tpdo_change_ignored = false;           ///< a change of what is mapped is no event
+  bool tpdo_timer_ignores_valid_bit = false;  ///< sent by the event timer while not valid
 
   // Single communication objects
   ClockFaults clock;

@@ -41,6 +41,9 @@ struct PdoChoices {
   bool any_remote = true;            ///< TPDO: remote frames at all; without, bit 30 cannot be 0
   bool initial_event = false;        ///< TPDO: entering Operational is an event
   bool sends_at_first_sync = false;  ///< TPDO: type n sends at SYNC 1, n + 1, ...
+  bool change_is_event = true;       ///< TPDO: of types 00h, FEh and FFh
+  bool sent_empty = false;           ///< TPDO: without mapped objects it is sent, with no data
+  bool needs_mapping = false;        ///< without mapped objects bit 31 stays set, whatever is written
 };
 
 /// What the boot-up message of a monitored node is to the heartbeat consumer.
@@ -58,6 +61,7 @@ struct Choices {
   // NMT, error control
   int node_start_up_ms = 20;
   int communication_start_up_ms = 5;
+  bool self_starting = false;              ///< Operational after boot-up (CiA 302, 1F80h)
   int nmt_latency_ms = 0;                  ///< from start, stop or enter pre-operational to the new state
   bool heartbeat_at_state_change = false;  ///< one more, while 1017h is not 0
   bool heartbeat_at_once = false;          ///< the first right after 1017h was written, and after boot-up

@@ -190,6 +190,8 @@ void Emergency::report(const Message& message) {
   }
   if (device_->choices.emergency_dropped_in_stopped && message.code == 0 && !reported_ && pending_.empty())
     return;
+  const bool waits = inhibited_until_ && device_->now < *inhibited_until_;
+  if (waits && device_->behaviour.emergency_lost_while_inhibited) return;
   pending_.push_back(message);
   if (pending_.size() > pending_limit) pending_.pop_front();
   flush();

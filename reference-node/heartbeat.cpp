@@ -28,6 +28,9 @@ void HeartbeatProducer::on_period_written() {
   next_.reset();
   if (period() == Duration::zero()) return;
   next_ = device_->now + period();
+  ends_.reset();
+  if (behaviour.heartbeat_ends_after_ms > 0)
+    ends_ = device_->now + milliseconds(behaviour.heartbeat_ends_after_ms);
   if (device_->choices.heartbeat_at_once) transmit();
 }
 
@@ -40,6 +43,7 @@ void HeartbeatProducer::on_state_change() {
 
 void HeartbeatProducer::on_time() {
   if (!next_ || device_->now < *next_) return;
+  if (ends_ && device_->now >= *ends_) return next_.reset();
   Duration step = period() > Duration::zero() ? period() : Duration(milliseconds(100));
   if (const int percent = device_->choices.heartbeat_jitter_percent; percent != 0) {
     late_ = !late_;

@@ -33,8 +33,9 @@ class HeartbeatProducer {
 
   Device* device_;
   std::optional<BusTime> next_;
-  bool toggle_ = false;  ///< used by a defect only
-  bool late_ = false;    ///< used by a variant only
+  bool toggle_ = false;          ///< used by a defect only
+  std::optional<BusTime> ends_;  ///< a defect only
+  bool late_ = false;            ///< used by a variant only
 };
 
 class HeartbeatConsumer {

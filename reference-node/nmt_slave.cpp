@@ -121,8 +121,8 @@ void NmtSlave::on_time() {
     restart_due_ = device_->now + std::chrono::milliseconds(device_->behaviour.restarts_after_ms);
   device_->send(Service::boot_up,
                 conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
-  device_->state =
-      device_->behaviour.starts_in_operational ? NmtState::operational : NmtState::pre_operational;
+  const bool starts = device_->behaviour.starts_in_operational || device_->choices.self_starting;
+  device_->state = starts ? NmtState::operational : NmtState::pre_operational;
   if (on_boot_up) on_boot_up();
 }
 

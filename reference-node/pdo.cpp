@@ -67,7 +67,9 @@ bool ReceivePdo::on_frame(const Frame& frame) {
 }
 
 void ReceivePdo::on_sync() {
-  if (buffered_ && device_->state == NmtState::operational) apply(*buffered_);
+  const bool works =
+      device_->state == NmtState::operational || device_->behaviour.rpdo_processed_in_pre_operational;
+  if (buffered_ && works) apply(*buffered_);
   buffered_.reset();
 }
 
@@ -110,7 +112,10 @@ bool TransmitPdo::enabled() const {
   const bool state =
       device_->state == NmtState::operational ||
       (device_->state == NmtState::pre_operational && device_->behaviour.tpdo_sent_in_pre_operational);
-  return state && parameters_.cob_id().valid() && parameters_.mapped_size() > 0;
+  const bool timed = device_->behaviour.tpdo_timer_ignores_valid_bit && event_driven() &&
+                     parameters_.event_timer() > Duration::zero();
+  const bool something = parameters_.mapped_size() > 0 || device_->choices.tpdo.sent_empty;
+  return state && (parameters_.cob_id().valid() || timed) && something;
 }
 
 Bytes TransmitPdo::content() const {
@@ -153,6 +158,7 @@ void TransmitPdo::start_event_timer() {
 
 void TransmitPdo::on_application_change() {
   if (!enabled() || content() == reported_) return;
+  if (device_->behaviour.tpdo_change_ignored || !device_->choices.tpdo.change_is_event) return;
   event_ = true;
   if (!event_driven()) return;
   if (inhibited_until_ && device_->now < *inhibited_until_) return;

@@ -7,6 +7,7 @@ namespace refnode {
 
 namespace {
 
+constexpr std::uint8_t cob_id_sub = 1;
 constexpr std::uint8_t type_sub = 2;
 constexpr std::uint8_t inhibit_sub = 3;
 constexpr std::uint8_t event_timer_sub = 5;
@@ -47,8 +48,8 @@ PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint16
       direction_(direction),
       communication_(static_cast<std::uint16_t>(first_communication_index(direction) + number)),
       mapping_(static_cast<std::uint16_t>(communication_ + to_mapping)),
-      cob_id_(device, direction == PdoDirection::receive ? CobIdUse::rpdo : CobIdUse::tpdo, communication_, 1,
-              0) {
+      cob_id_(device, direction == PdoDirection::receive ? CobIdUse::rpdo : CobIdUse::tpdo, communication_,
+              cob_id_sub, 0) {
   ObjectDictionary& od = device.dictionary;
   cob_id_.bind();
   if (Entry* type = od.entry(communication_, type_sub))
@@ -64,6 +65,12 @@ PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint16
   };
   if (const auto found = od.objects().find(communication_); found != od.objects().end()) {
     for (auto& [sub, entry] : found->second.entries) entry.written = changed;
+  }
+  if (Entry* cob_id = od.entry(communication_, cob_id_sub)) {
+    cob_id->written = [this, changed, cob_id] {
+      if (choices().needs_mapping && mapped_size() == 0) cob_id->value.back() |= 0x80U;
+      changed();
+    };
   }
   const auto mapping = od.objects().find(mapping_);
   if (mapping == od.objects().end()) return;

@@ -49,6 +49,8 @@ bool SyncConsumer::on_frame(const Frame& frame) {
         !device_->behaviour.sync_length_not_reported && device_->choices.wrong_sync_reported;
     if (reported) emergency_->raise(wrong_length, frame.size());
     if (!device_->choices.wrong_sync_used) return true;
+  } else if (device_->behaviour.sync_without_data_reported) {
+    emergency_->raise(wrong_length, frame.size());
   } else {
     emergency_->clear(wrong_length);
   }

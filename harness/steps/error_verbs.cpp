@@ -251,8 +251,11 @@ class AwaitEmcy final : public Action {
     const auto id = session.emcy_can_id();
     auto found = session.find_frame(
         window->first,
-        [id](const auto& captured) {
-          return captured.direction == can::Direction::received && captured.frame.is_data(id);
+        [id, wanted](const auto& captured) {
+          if (captured.direction != can::Direction::received || !captured.frame.is_data(id)) return false;
+          // Where an error is waited for, the end of another one (0000h) is none.
+          const auto emcy = canopen::decode_emcy(captured.frame.bytes());
+          return !wanted || *wanted == 0 || !emcy || emcy->code != 0;
         },
         window->anchor + within);
     if (!found) return std::unexpected(found.error());

@@ -28,6 +28,12 @@ void fill_manufacturer_bytes(VariantTarget& target) {
   });
 }
 
+/// 1F80h, NMT start-up: bit 2 is 0, so the device starts without an NMT master.
+void start_by_itself(VariantTarget& target) {
+  target.dictionary.add_variable(0x1F80, integer_entry("NMT start-up", DataType::unsigned32, Access::ro, 0));
+  target.choices.self_starting = true;
+}
+
 /// Storing and restoring take their time.
 How slow_storage(std::chrono::milliseconds delay) {
   return [delay](VariantTarget& target) {
@@ -62,6 +68,8 @@ VariantTable service_variants() {
       {"nmt-90ms", "follows start, stop and enter pre-operational after 90 ms",
        "7.3.2.2: no time is given, NMT-FSA-20: T_NMT", choose([](Choices& c) { c.nmt_latency_ms = 90; }),
        "nmt-latency"},
+      {"self-starting", "goes on into Operational after boot-up, as its 1F80h says",
+       "CiA 302-2, 1F80h bit 2 = 0; NMT-BOOT-07 does not apply", start_by_itself},
       {"heartbeat-at-state-change", "one more heartbeat when the state changes", "EC-HBP-06",
        choose([](Choices& c) { c.heartbeat_at_state_change = true; })},
       {"heartbeat-at-once", "the first heartbeat right after 1017h was written, and after boot-up",
