@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
+#include "reports/cause_lines.hpp"
 #include "reports/paint.hpp"
 #include "reports/phrases.hpp"
 #include "reports/tally.hpp"
@@ -17,6 +19,7 @@ namespace conform::reports {
 namespace {
 
 using result::CaseResult;
+using result::Cause;
 using result::Counts;
 using result::RunResult;
 using result::Verdict;
@@ -162,22 +165,54 @@ void write_card_list(Page& page, const RunResult& run, const std::vector<Located
     page.line(fmt::format("\n... and {} more, in full in the report files", all.size() - most));
 }
 
-/// Findings of one verdict as cards; a case without findings tells its reason instead.
-void write_cards(Page& page, const RunResult& run, Verdict verdict, std::string_view title) {
-  std::vector<LocatedFinding> all;
+/// One cause: the card of what the rest rests on, and a line for each further requirement.
+void write_cause(Page& page, const RunResult& run, const Cause& cause) {
+  page.text(finding_card(run, *cause.primary.owner, *cause.primary.finding, page.style()));
+  const auto rules = broken_rules(cause);
+  constexpr std::size_t named = 12;
+  if (rules.size() > 1) page.line("  also broken, of the same cause as far as can be told from outside:");
+  for (std::size_t i = 1; i < std::min(rules.size(), named); ++i) {
+    const auto& rule = rules[i];
+    page.item(fmt::format("{} ({}, {}): {}", log_safe(rule.requirement), verdict_words(rule.verdict),
+                          counted(rule.cases, "case"), headline(*rule.first.finding)),
+              "    ");
+  }
+  if (rules.size() > named) page.item(fmt::format("and {} more requirements", rules.size() - named), "    ");
+  if (cause.resting.empty()) return;
+  page.item(fmt::format("not judged, because {} on it: {}, the first {}",
+                        cause.resting.size() == 1 ? "it rests" : "they rest",
+                        counted(cause.resting.size(), "case"), log_safe(cause.resting.front()->name())),
+            "  ");
+}
+
+/// Causes of one verdict, as a list and then one by one; a case without findings tells its reason instead.
+void write_causes(Page& page, const RunResult& run, const std::vector<Cause>& causes, Verdict verdict,
+                  std::string_view title) {
+  std::vector<const Cause*> chosen;
+  for (const Cause& cause : causes) {
+    if (cause.verdict == verdict) chosen.push_back(&cause);
+  }
   std::vector<const CaseResult*> bare;
   for (const CaseResult& one : run.cases) {
-    const auto findings = findings_of(one);
-    std::ranges::copy_if(findings, std::back_inserter(all), [&](const LocatedFinding& located) {
-      return located.verdict == verdict && !located.setup;
-    });
-    if (one.verdict == verdict && findings.empty()) bare.push_back(&one);
+    if (one.verdict == verdict && findings_of(one).empty()) bare.push_back(&one);
   }
-  if (all.empty() && bare.empty()) return;
-  page.heading(fmt::format("{} ({})", title, all.size() + bare.size()));
-  write_card_list(page, run, all);
-  if (!all.empty() && !bare.empty()) page.line();
+  if (chosen.empty() && bare.empty()) return;
+  page.heading(fmt::format("{}: {}", title, counted(chosen.size() + bare.size(), "cause")));
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Cause& cause = *chosen[i];
+    page.item(fmt::format("{}: {}, {}; {}", log_safe(cause.primary.finding->requirement), cause.about,
+                          extent(cause), headline(*cause.primary.finding)),
+              fmt::format("{}. ", i + 1));
+  }
   for (const CaseResult* one : bare) page.item(log_safe(one->name()) + ": " + prose(one->reason));
+  const std::size_t most =
+      page.style().cards == 0 ? chosen.size() : std::min(chosen.size(), page.style().cards);
+  for (std::size_t i = 0; i < most; ++i) {
+    page.line();
+    write_cause(page, run, *chosen[i]);
+  }
+  if (most < chosen.size())
+    page.line(fmt::format("\n... and {} more, in full in the report files", chosen.size() - most));
 }
 
 /// Cases without verdict by reason: a long list with one cause is one item.
@@ -233,6 +268,10 @@ std::string exit_text(const RunResult& run, int code) {
   const Counts counts = run.counts();
   switch (code) {
     case 0:
+      if (const auto waived = run.waived(); !waived.empty())
+        return fmt::format("what was judged conforms, but for {} that {} accepted as known: {}",
+                           counted(waived.size(), "violated requirement"), waived.size() == 1 ? "is" : "are",
+                           join(waived, ", "));
       return counts.warn == 0 ? "everything that was judged conforms"
                               : "everything that was judged conforms, with warnings";
     case 1: return "the device violates at least one requirement";
@@ -294,8 +333,9 @@ std::string summary(const RunResult& run, const Style& style) {
   // The worst comes last: it is what a terminal shows when the run is over.
   write_not_applicable(page, run);
   write_unjudged(page, run);
-  write_cards(page, run, Verdict::warn, "Warnings");
-  write_cards(page, run, Verdict::fail, "Failures");
+  const auto causes = result::causes_of(run);
+  write_causes(page, run, causes, Verdict::warn, "Warnings");
+  write_causes(page, run, causes, Verdict::fail, "Failures");
   write_totals(page, run);
   return page.take();
 }

@@ -15,6 +15,7 @@
 #include <pugixml.hpp>
 
 #include "base/text.hpp"
+#include "reports/cause_lines.hpp"
 #include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
 
@@ -217,8 +218,9 @@ std::string evidence_log(const RunResult& run, const CaseResult& one) {
   return text;
 }
 
-std::string message_of(const RunResult& run, const CaseResult& one) {
-  std::string text = headline(one);
+std::string message_of(const RunResult& run, const CauseOfCase& causes, const CaseResult& one) {
+  const std::string cause = consequence_words(causes, one);
+  std::string text = cause.empty() ? headline(one) : cause + ": " + headline(one);
   if (is_not_run(one) && run.aborted) text += ": " + prose(*run.aborted);
   return clip_bytes(text, message_limit);
 }
@@ -232,12 +234,13 @@ void write_outcome(pugi::xml_node parent, const char* element, std::string_view 
 }
 
 void write_case(pugi::xml_node parent, const RunResult& run, const JUnitOptions& options,
-                const CaseResult& one, std::string_view class_name, std::set<std::string>& taken) {
+                const CauseOfCase& causes, const CaseResult& one, std::string_view class_name,
+                std::set<std::string>& taken) {
   pugi::xml_node node = parent.append_child("testcase");
   set(node, "classname", class_name);
   set(node, "name", case_name(one, taken));
   set(node, "time", seconds(one.end - one.begin));
-  const std::string message = message_of(run, one);
+  const std::string message = message_of(run, causes, one);
   switch (one.verdict) {
     case Verdict::pass: return;
     case Verdict::warn: {
@@ -311,7 +314,8 @@ pugi::xml_node begin_suite(pugi::xml_node root, const RunResult& run, std::strin
   return node;
 }
 
-void write_suite(pugi::xml_node root, const RunResult& run, const JUnitOptions& options, const Suite& suite) {
+void write_suite(pugi::xml_node root, const RunResult& run, const JUnitOptions& options,
+                 const CauseOfCase& causes, const Suite& suite) {
   Duration time{};
   for (const CaseResult* one : suite.cases) time += std::max(one->end - one->begin, Duration{});
   // Cases that were not run have no time of their own; the suite then starts with the run.
@@ -323,7 +327,8 @@ void write_suite(pugi::xml_node root, const RunResult& run, const JUnitOptions& 
   if (!file.empty()) set(node, "file", options.source_prefix + file);
   write_properties(node, run);
   std::set<std::string> taken;
-  for (const CaseResult* one : suite.cases) write_case(node, run, options, *one, suite.class_name, taken);
+  for (const CaseResult* one : suite.cases)
+    write_case(node, run, options, causes, *one, suite.class_name, taken);
 }
 
 void write_empty_run(pugi::xml_node root, const RunResult& run) {
@@ -351,7 +356,9 @@ std::string junit(const RunResult& run, const JUnitOptions& options) {
   for (const CaseResult& one : run.cases) all.push_back(&one);
   write_numbers(root, run.cases.empty() ? Numbers{1, 0, 1, 0} : numbers_of(all));
   set(root, "time", seconds(run.elapsed));
-  for (const Suite& suite : suites_of(run, options)) write_suite(root, run, options, suite);
+  const auto causes = result::causes_of(run);
+  const auto by_case = causes_by_case(causes);
+  for (const Suite& suite : suites_of(run, options)) write_suite(root, run, options, by_case, suite);
   if (run.cases.empty()) write_empty_run(root, run);
 
   std::ostringstream out;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/cause_lines.hpp"
 #include "reports/console.hpp"
 #include "reports/phrases.hpp"
 #include "reports/tally.hpp"
@@ -18,6 +19,7 @@ namespace conform::reports {
 namespace {
 
 using result::CaseResult;
+using result::Cause;
 using result::Counts;
 using result::RunResult;
 using result::Verdict;
@@ -63,9 +65,13 @@ std::string code(std::string_view text) {
 /// A block of text whose fence cannot occur in it: log_safe() lines never hold a line of tildes alone.
 std::string block(std::string_view text) { return fmt::format("~~~~~~text\n{}~~~~~~\n", text); }
 
-std::string_view banner(int exit_code) {
+std::string banner(const RunResult& run, int exit_code) {
   switch (exit_code) {
-    case 0: return "conforms";
+    case 0:
+      if (const auto waived = run.waived(); !waived.empty())
+        return fmt::format("conforms but for {}, accepted as known: {}",
+                           counted(waived.size(), "violated requirement"), escaped(join(waived, ", ")));
+      return "conforms";
     case 1: return "does not conform";
     case 2: return "nothing was judged";
     default: return "not fully judged";
@@ -145,16 +151,46 @@ class Document {
   std::string out_;
 };
 
-std::vector<std::string> findings_text(const RunResult& run, Verdict verdict) {
+/// The list a reader begins with: one line for each cause.
+std::string causes_text(const std::vector<Cause>& causes) {
+  if (causes.empty()) return {};
+  std::string text = "\n| | Cause | Requirement | Cases | First case |\n|---|---|---|--:|---|\n";
+  for (const Cause& cause : causes) {
+    text += fmt::format("| {} | {}: {} | {} | {} | {} |\n", verdict_words(cause.verdict),
+                        escaped(cause.about), escaped(headline(*cause.primary.finding), 160),
+                        escaped(cause.primary.finding->requirement),
+                        cause.cases.size() + cause.resting.size(), code(cause.primary.owner->name()));
+  }
+  return text;
+}
+
+/// The finding that the rest rests on, and one line for each further requirement.
+std::string cause_text(const RunResult& run, const Cause& cause) {
+  std::string text =
+      finding_text(run, {cause.primary.owner, cause.primary.finding, cause.primary.verdict, false});
+  const auto rules = broken_rules(cause);
+  if (rules.size() > 1) text += "\nOf the same cause, as far as can be told from outside:\n\n";
+  for (std::size_t i = 1; i < rules.size(); ++i) {
+    const auto& rule = rules[i];
+    text += fmt::format("- {} ({}, {}, first {}): {}\n", escaped(rule.requirement),
+                        verdict_words(rule.verdict), counted(rule.cases, "case"),
+                        code(rule.first.owner->name()), escaped(headline(*rule.first.finding)));
+  }
+  if (!cause.resting.empty())
+    text += fmt::format("\nNot judged, resting on it: {}, the first {}\n",
+                        counted(cause.resting.size(), "case"), code(cause.resting.front()->name()));
+  return text;
+}
+
+std::vector<std::string> findings_text(const RunResult& run, const std::vector<Cause>& causes,
+                                       Verdict verdict) {
   std::vector<std::string> items;
+  for (const Cause& cause : causes) {
+    if (cause.verdict == verdict) items.push_back(cause_text(run, cause));
+  }
   for (const CaseResult& one : run.cases) {
-    const auto all = findings_of(one);
-    for (const LocatedFinding& located : all) {
-      if (located.verdict == verdict && !located.setup) items.push_back(finding_text(run, located));
-    }
-    if (one.verdict == verdict && all.empty()) {
+    if (one.verdict == verdict && findings_of(one).empty())
       items.push_back(fmt::format("\n- {}: {}\n", code(one.name()), escaped(one.reason)));
-    }
   }
   return items;
 }
@@ -188,18 +224,20 @@ std::string markdown(const RunResult& run, const MarkdownOptions& options) {
   Document document(options.size_limit);
   document.add(fmt::format("## {}: {}\n\n",
                            escaped(run.device.empty() ? "CANopen conformance" : run.device, 100),
-                           banner(exit_code)));
+                           banner(run, exit_code)));
   document.add(fmt::format("{}, {}: {}. Exit code {}.\n", escaped(run.tool),
                            counted(run.cases.size(), "case"), counts_text(run.counts()), exit_code));
   if (run.aborted) document.add(fmt::format("\nStopped early: {}\n", escaped(*run.aborted)));
+  const auto causes = result::causes_of(run);
+  document.add(causes_text(causes));
   document.add(areas_text(run));
   document.add(facts_text(run));
   for (std::size_t i = 0; i < run.notes.size(); ++i) {
     document.add(fmt::format("{}- {}\n", i == 0 ? "\n" : "", escaped(run.notes[i])));
   }
-  document.section("Failures", findings_text(run, Verdict::fail));
+  document.section("Failures", findings_text(run, causes, Verdict::fail));
   document.section("Not judged", unjudged_text(run));
-  document.section("Warnings", findings_text(run, Verdict::warn));
+  document.section("Warnings", findings_text(run, causes, Verdict::warn));
   return document.take();
 }
 

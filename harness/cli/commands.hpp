@@ -133,6 +133,7 @@ struct SelftestCommand {
   bool verbose = false;
   std::vector<std::string> defects;
   bool whole = false;
+  bool blame = false;
   bool edits = false;    ///< edits of every entry of the dictionary instead of the defects
   unsigned jobs = 0;     ///< 0: the machine's cores
   std::string markdown;  ///< file for docs/proof.md

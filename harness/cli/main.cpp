@@ -266,6 +266,9 @@ int dispatch(int argc, char** argv) {
   selftest_sub->add_option("--defect", selftest.defects, "Only this defect; repeatable")
       ->allow_extra_args(false)
       ->type_name("ID");
+  selftest_sub->add_flag(
+      "--blame", selftest.blame,
+      "Also whom the whole suite blames for each defect: one cause and a rule that it violates?");
   selftest_sub->add_flag("--whole", selftest.whole,
                          "Run the whole suite for every defect, to see with -v what else it spoils");
   selftest_sub->add_flag(

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "can/simulated_bus.hpp"
+#include "cli/blame.hpp"
 #include "cli/verdicts.hpp"
 #include "cli/workers.hpp"
 #include "defects/defect.hpp"
@@ -135,6 +136,15 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
     verdicts[i].emplace(verdict_of(bench, monitored, *rows[i], options.whole));
   });
+  std::vector<std::optional<Result<Blame>>> blames(options.blame ? rows.size() : 0);
+  in_parallel(blames.size(), options.jobs, [&](std::size_t i) {
+    blames[i].emplace(*verdicts[i] ? blame_of(std::string(rows[i]->id), (**verdicts[i]).violates, bench)
+                                   : Blame{});
+  });
+  for (auto& blame : blames) {
+    if (!*blame) return std::unexpected(blame->error());
+    out.blames.push_back(std::move(**blame));
+  }
   for (auto& verdict : verdicts) {
     if (!*verdict) return std::unexpected(verdict->error());
     proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());

@@ -47,9 +47,21 @@ struct DefectVerdict {
   std::vector<std::string> unknown;     ///< ids it lists that the catalogue does not have
 };
 
+/// Whom the run of the whole suite against one defect blames: there should be one cause, and a rule that the
+/// defect violates.
+struct Blame {
+  std::string defect;
+  std::vector<std::string> causes;  ///< primary requirement of each cause, failures first
+  std::vector<std::string> about;   ///< in the same order, a line for a reader
+  bool right = false;               ///< the first one's is a requirement that the defect violates
+
+  [[nodiscard]] bool single_and_right() const { return causes.size() == 1 && right; }
+};
+
 struct KillMatrix {
   result::RunResult conformant;
   std::vector<DefectVerdict> defects;
+  std::vector<Blame> blames;          ///< where asked for
   std::vector<std::string> unproven;  ///< requirements the suite judges and no defect proves, sorted
   std::vector<std::string> proven;
 
@@ -64,6 +76,7 @@ struct KillOptions {
   /// The whole suite for every defect, to see its bystanders; otherwise what judges a requirement it
   /// violates.
   bool whole = false;
+  bool blame = false;  ///< also the blame of each defect: whole runs, and minutes instead of seconds
   unsigned jobs =
       0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
 };

@@ -30,6 +30,22 @@ std::string markdown(const KillMatrix& matrix) {
   return out;
 }
 
+/// One cause, and the right one, for each defect; those that show otherwise by name.
+std::string blame_words(const std::vector<Blame>& blames, bool verbose) {
+  std::string out;
+  std::size_t right = 0, several = 0;
+  for (const auto& blame : blames) {
+    if (blame.single_and_right()) ++right;
+    if (blame.causes.size() > 1) ++several;
+    if (blame.single_and_right() && !verbose) continue;
+    out += fmt::format("{} {}: {}\n", blame.single_and_right() ? "blamed  " : "MISBLAMED", blame.defect,
+                       join(blame.causes, ", "));
+    for (const auto& about : blame.about) out += "    " + about + "\n";
+  }
+  return out + fmt::format("{} of {} defects show one cause whose first rule they violate; {} show several\n",
+                           right, blames.size(), several);
+}
+
 int edits(const SelftestCommand& options, const device::Profile& profile, const LoadedSuites& suites) {
   const auto matrix =
       edit_matrix(profile, suites.suite, suites.catalogue, options.seed, options.jobs, options.defects);
@@ -58,9 +74,12 @@ int selftest_command(const SelftestCommand& options) {
   auto profile = device::load_profile_file(*root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
   if (options.edits) return edits(options, profile->profile, *suites);
-  auto matrix = kill_matrix(
-      profile->profile, suites->suite, suites->catalogue,
-      {.seed = options.seed, .only = options.defects, .whole = options.whole, .jobs = options.jobs});
+  auto matrix = kill_matrix(profile->profile, suites->suite, suites->catalogue,
+                            {.seed = options.seed,
+                             .only = options.defects,
+                             .whole = options.whole,
+                             .blame = options.blame,
+                             .jobs = options.jobs});
   if (!matrix) return report_error(matrix.error(), exit_usage);
   const auto counts = matrix->conformant.counts();
   std::string out = fmt::format(
@@ -94,6 +113,7 @@ int selftest_command(const SelftestCommand& options) {
                      matrix->proven.size(), matrix->unproven.size());
   if (options.verbose && options.defects.empty() && !matrix->unproven.empty())
     out += "unproven: " + join(matrix->unproven, ", ") + "\n";
+  if (options.blame) out += blame_words(matrix->blames, options.verbose);
   print(out);
   if (!options.markdown.empty()) {
     auto written = write_file_atomically(options.markdown, markdown(*matrix));

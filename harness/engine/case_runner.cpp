@@ -8,6 +8,7 @@
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
 #include "canopen/sdo_initiate.hpp"
+#include "result/services.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {
@@ -36,12 +37,50 @@ steps::Value bind(const std::string& text, RunSession& session, const scenario::
   return steps::Value::of_word(text);
 }
 
+/// The entry a step is about, or the first of those it looks at.
+std::optional<Multiplexer> object_of(const Step& step, RunSession& session) {
+  if (step.action == nullptr) return std::nullopt;
+  if (const auto* own = step.action->object()) {
+    const auto object = own->resolve(session);
+    return object ? std::optional(*object) : std::nullopt;
+  }
+  for (const auto& reference : step.action->concerns()) {
+    if (const auto object = reference.resolve(session)) return *object;
+  }
+  return std::nullopt;
+}
+
 std::optional<canopen::DataType> type_of(const Step& step, RunSession& session) {
   if (step.action == nullptr || step.action->object() == nullptr) return std::nullopt;
-  const auto object = step.action->object()->resolve(session);
-  if (!object) return std::nullopt;
-  const auto* entry = session.dictionary().find(*object);
+  const auto object = object_of(step, session);
+  const auto* entry = object ? session.dictionary().find(*object) : nullptr;
   return entry == nullptr ? std::nullopt : std::optional(entry->type);
+}
+
+/// How what came differs, as a kind: what many parts of a device have in common when one thing is wrong with
+/// it.
+std::string deviation_of(const Step& step, const Actual& actual, const RunSession& session) {
+  using Outcome = steps::Outcome;
+  const auto expects_abort = std::ranges::any_of(step.expectation.pass, [](const Outcome& outcome) {
+    return outcome.kind == Outcome::Kind::abort_code || outcome.kind == Outcome::Kind::abort_any ||
+           outcome.kind == Outcome::Kind::abort_defined;
+  });
+  // A conversation meets aborts as frames.
+  if (actual.kind == Actual::Kind::mismatched && actual.decisive) {
+    const auto& frame = session.capture().frames()[*actual.decisive].frame;
+    const auto abort = frame.is_data(canopen::connection_set(session.node()).sdo_response)
+                           ? canopen::decode_abort(frame.bytes())
+                           : std::nullopt;
+    if (abort) return "abort " + to_string(abort->code);
+  }
+  const bool waits = step.action != nullptr && !step.action->acts();
+  switch (actual.kind) {
+    case Actual::Kind::confirmed: return expects_abort ? "confirmed instead of refused" : "";
+    case Actual::Kind::aborted: return "abort " + to_string(actual.code);
+    case Actual::Kind::silence: return waits ? "no " + step.verb : "no answer";
+    case Actual::Kind::violation: return "protocol violation";
+    default: return "";
+  }
 }
 
 /// Where the description tells of an entry, or that it does not.
@@ -367,6 +406,17 @@ Result<CaseRunner::Flow> CaseRunner::judge(const Step& step, const Actual& actua
   return Flow::go_on;
 }
 
+std::optional<std::string> CaseRunner::rule_below(const std::string& requirement, const Actual& actual) {
+  attribution_.follow(session_.capture().frames());
+  const auto depth = result::depth_of_requirement(requirement);
+  for (auto& rule : attribution_.rules_below(actual)) {
+    if (rule == requirement) return std::nullopt;
+    if (result::depth_of_requirement(rule) < depth && catalogue_.find(rule) != nullptr)
+      return std::move(rule);
+  }
+  return std::nullopt;
+}
+
 Result<CaseRunner::Flow> CaseRunner::cannot_go_on(const Step& step, const Error& error) {
   if (session_.recorder().fault()) return std::unexpected(error);
   Actual actual;
@@ -388,8 +438,15 @@ result::Judgement& CaseRunner::judgement(const std::string& requirement) {
   return all.emplace_back(std::move(fresh));
 }
 
-void CaseRunner::record(const Step& step, const std::string& requirement, const Grade& grade,
+void CaseRunner::record(const Step& step, const std::string& requirement, const Grade& given,
                         const Actual& actual) {
+  auto grade = given;
+  if (grade.verdict == Verdict::fail || grade.verdict == Verdict::warn) {
+    if (const auto rule = rule_below(requirement, actual)) {
+      grade = {Verdict::inconclusive, "rests on " + *rule + ", which failed"};
+      out_->rests_on = *rule;
+    }
+  }
   auto& target = judgement(requirement);
   ++target.expectations;
   target.frames_seen = session_.capture().size();
@@ -519,6 +576,10 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   out.actual_bytes.assign(actual.data.begin(), actual.data.end());
   out.reason = grade.reason;
   out.declared_at = declared_at(step, actual);
+  attribution_.follow(session_.capture().frames());
+  out.broken_rules = attribution_.rules_below(actual);
+  if (const auto object = object_of(step, session_)) out.object = object->index;
+  out.deviation = deviation_of(step, actual, session_);
   out.evidence = evidence(step_begin_, actual.decisive);
   out.frames_seen = session_.capture().size();
   return out;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/attribution.hpp"
 #include "engine/given.hpp"
 #include "engine/plan.hpp"
 #include "engine/run_session.hpp"
@@ -18,8 +19,12 @@ namespace conform::engine {
 
 class CaseRunner {
  public:
-  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, bool strict)
-      : session_(session), catalogue_(catalogue), givens_(session), strict_(strict) {}
+  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, Attribution& attribution, bool strict)
+      : session_(session),
+        catalogue_(catalogue),
+        givens_(session),
+        attribution_(attribution),
+        strict_(strict) {}
 
   /// Steps and cleanup; fills judgements, verdict and reason of `out`. Error: the environment failed; what
   /// was judged stays.
@@ -77,6 +82,9 @@ class CaseRunner {
   /// else the case.
   [[nodiscard]] Flow not_applicable(const steps::Step& step, const std::string& reason);
   void withdraw_passes(const Steps& list, const std::vector<result::Judgement>& before);
+  /// What came breaks rules below the one that is judged: those have failed, and this one cannot be judged.
+  [[nodiscard]] std::optional<std::string> rule_below(const std::string& requirement,
+                                                      const steps::Actual& actual);
   /// A failure of a rule that only recommends is a warning, as everywhere.
   [[nodiscard]] result::Verdict capped(const std::string& requirement) const;
   [[nodiscard]] std::string_view level_of(const std::string& requirement) const;
@@ -90,6 +98,7 @@ class CaseRunner {
   RunSession& session_;
   const scenario::Catalogue& catalogue_;
   Givens givens_;
+  Attribution& attribution_;
   bool strict_;
   result::CaseResult* out_ = nullptr;
   std::size_t step_begin_ = 0;

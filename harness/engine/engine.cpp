@@ -48,7 +48,8 @@ class Run {
         options_(options),
         recorder_(transport, options.stop),
         session_(recorder_, profile_, device::dictionary_of(profile_)),
-        runner_(session_, catalogue_, options.strict),
+        attribution_(facts_of(profile)),
+        runner_(session_, catalogue_, attribution_, options.strict),
         restarts_(facts_of(profile)) {
     session_.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder_.set_observer(*options.observer);
@@ -204,8 +205,19 @@ class Run {
         continue;
       }
       if (mute_ && !plan_[i].scenario->basic) continue;
+      if (const auto* broken = ground_lost(*plan_[i].scenario)) {
+        // It costs no bus time: whatever came would say nothing.
+        result.verdict = Verdict::inconclusive;
+        result.rests_on = broken->requirement;
+        result.reason = "rests on " + broken->requirement + ", which failed in " + broken->in;
+        result.finished = true;
+        result.begin = result.end = recorder_.now();
+        recorder_.observer().case_ended(out_, i);
+        continue;
+      }
       recorder_.observer().case_begun(out_, i);
       auto done = run_case(plan_[i], result);
+      note_channels(*plan_[i].scenario, result);
       recorder_.observer().case_ended(out_, i);
       if (!done) {
         abort_run(done.error());
@@ -222,6 +234,31 @@ class Run {
                  "only what needs no answer was judged"});
     }
     finish();
+  }
+
+  /// A channel that failed, with the requirement that says so.
+  struct Broken {
+    std::string requirement, in;
+  };
+
+  [[nodiscard]] const Broken* ground_lost(const scenario::Scenario& scenario) const {
+    for (const auto channel : scenario.rests_on) {
+      const auto found = broken_channels_.find(channel);
+      if (found != broken_channels_.end()) return &found->second;
+    }
+    return nullptr;
+  }
+
+  void note_channels(const scenario::Scenario& scenario, const CaseResult& result) {
+    for (const auto channel : scenario.establishes) {
+      if (broken_channels_.contains(channel)) continue;
+      const auto failed = std::ranges::find(result.judgements, Verdict::fail, &result::Judgement::verdict);
+      if (failed != result.judgements.end()) {
+        broken_channels_[channel] = {failed->requirement, result.name()};
+      } else if (result.verdict == Verdict::inconclusive && !result.rests_on.empty()) {
+        broken_channels_[channel] = {result.rests_on, result.name()};
+      }
+    }
   }
 
   Result<void> run_case(const PlannedCase& planned, CaseResult& out) {
@@ -272,6 +309,8 @@ class Run {
       losses_.push_back({trusted_frames_, frames});
       (void)restarts_.follow(recorder_.capture().frames());
       restarts_.lose_track();
+      attribution_.follow(recorder_.capture().frames());
+      attribution_.lose_track();
     }
     health_ = now;
     trusted_frames_ = frames;
@@ -648,6 +687,7 @@ class Run {
   const RunOptions& options_;
   Recorder recorder_;
   RunSession session_;
+  Attribution attribution_;
   CaseRunner runner_;
   RestartWatch restarts_;
   std::size_t unexplained_ = 0;  ///< restarts without a known cause
@@ -657,6 +697,7 @@ class Run {
   bool mute_ = false;                 ///< alive, but without a single SDO answer
   std::optional<Error> fell_silent_;  ///< during the run
   std::vector<PlannedCase> plan_;
+  std::map<std::string_view, Broken> broken_channels_;
   Monitors monitors_;
   std::vector<monitor::Loss> losses_;
   can::BusHealth health_;           ///< at the last look

@@ -98,6 +98,7 @@ void accept_known_deviations(const device::Profile& profile, const scenario::Cat
       if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name()))
         continue;
       judgement.verdict = Verdict::warn;
+      judgement.waived = deviation.reason;
       for (auto& finding : judgement.findings) {
         if (finding.verdict == Verdict::fail) finding.verdict = Verdict::warn;
         finding.reason += "; accepted as known deviation: " + deviation.reason;

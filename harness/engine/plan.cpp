@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "base/random.hpp"
 #include "base/text.hpp"
@@ -81,7 +82,11 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
     }
   }
   std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
-    return std::pair(!planned.scenario->basic, planned.scenario->risk);
+    // What others rest on is judged before them, as early as its risk allows.
+    const auto& establishes = planned.scenario->establishes;
+    const auto channel =
+        establishes.empty() ? steps::channels().size() : steps::rank_of_channel(establishes.front());
+    return std::tuple(!planned.scenario->basic, planned.scenario->risk, channel);
   });
   return out;
 }

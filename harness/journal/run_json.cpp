@@ -58,30 +58,31 @@ void members(Same<SourcePosition> auto& it, auto&& see) {
 }
 void members(Same<Finding> auto& it, auto&& see) {
   auto& [verdict, requirement, position, step, accepts, tolerates, actual, actual_bytes, reason, evidence,
-         declared_at, during, frames_seen] = it;
+         declared_at, during, object, deviation, broken_rules, frames_seen] = it;
   see("verdict", verdict), see("requirement", requirement), see("position", position), see("step", step),
       see("accepts", accepts), see("tolerates", tolerates), see("actual", actual),
       see("actual_bytes", actual_bytes), see("reason", reason), see("evidence", evidence),
-      see("declared_at", declared_at), see("during", during), see("frames_seen", frames_seen);
+      see("declared_at", declared_at), see("during", during), see("object", object),
+      see("deviation", deviation), see("broken_rules", broken_rules), see("frames_seen", frames_seen);
 }
 void members(Same<DecidingStep> auto& it, auto&& see) {
   auto& [position, step, actual, frame] = it;
   see("position", position), see("step", step), see("actual", actual), see("frame", frame);
 }
 void members(Same<Judgement> auto& it, auto&& see) {
-  auto& [requirement, verdict, findings, expectations, frames_seen, decided_by, reason] = it;
+  auto& [requirement, verdict, findings, expectations, frames_seen, decided_by, reason, waived] = it;
   see("requirement", requirement), see("verdict", verdict), see("findings", findings),
       see("expectations", expectations), see("frames_seen", frames_seen), see("decided_by", decided_by),
-      see("reason", reason);
+      see("reason", reason), see("waived", waived);
 }
 void members(Same<CaseResult> auto& it, auto&& see) {
   auto& [id, instance, title, suite, position, requirements, cct, judgements, setup_findings, verdict, reason,
-         finished, begin, end, first_frame, end_frame] = it;
+         rests_on, finished, begin, end, first_frame, end_frame] = it;
   see("id", id), see("instance", instance), see("title", title), see("suite", suite),
       see("position", position), see("requirements", requirements), see("cct", cct),
       see("judgements", judgements), see("setup_findings", setup_findings), see("verdict", verdict),
-      see("reason", reason), see("finished", finished), see("begin", begin), see("end", end),
-      see("first_frame", first_frame), see("end_frame", end_frame);
+      see("reason", reason), see("rests_on", rests_on), see("finished", finished), see("begin", begin),
+      see("end", end), see("first_frame", first_frame), see("end_frame", end_frame);
 }
 void members(Same<RequirementInfo> auto& it, auto&& see) {
   auto& [id, clause, level, area, statement] = it;
@@ -124,6 +125,8 @@ Json write(const T& value) {
     return value.time_since_epoch().count();
   } else if constexpr (std::same_as<T, Duration>) {
     return value.count();
+  } else if constexpr (std::same_as<T, Index>) {
+    return value.value();
   } else if constexpr (std::is_arithmetic_v<T>) {
     return value;
   } else if constexpr (Bytewise<T>) {
@@ -161,6 +164,8 @@ void read(const Json& json, T& value) {
     value = BusTime(Duration(json.get<std::int64_t>()));
   } else if constexpr (std::same_as<T, Duration>) {
     value = Duration(json.get<std::int64_t>());
+  } else if constexpr (std::same_as<T, Index>) {
+    value = Index(json.get<std::uint16_t>());
   } else if constexpr (std::is_arithmetic_v<T>) {
     value = json.get<T>();
   } else if constexpr (std::same_as<T, Bytes>) {

@@ -2,6 +2,7 @@
 #include "result/run_result.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace conform::result {
 
@@ -32,6 +33,16 @@ Counts RunResult::counts() const {
   Counts counts;
   for (const CaseResult& one : cases) counts.add(one.verdict);
   return counts;
+}
+
+std::vector<std::string> RunResult::waived() const {
+  std::set<std::string> out;
+  for (const CaseResult& one : cases) {
+    for (const Judgement& judgement : one.judgements) {
+      if (!judgement.waived.empty()) out.insert(judgement.requirement);
+    }
+  }
+  return {out.begin(), out.end()};
 }
 
 const RequirementInfo* RunResult::requirement(const std::string& id) const {

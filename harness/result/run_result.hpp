@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/strong.hpp"
 #include "base/time.hpp"
 #include "can/frame.hpp"
 #include "can/transport.hpp"
@@ -47,6 +48,12 @@ struct Finding {
   std::string declared_at;  ///< "device.eds:120", where the description of the device tells of the entry; may
                             ///< be empty
   std::string during;       ///< of monitors: the case that ran meanwhile; empty: none, or not known
+  // What findings are grouped by (result/causes.hpp).
+  std::optional<Index> object{};  ///< the object the step is about
+  std::string
+      deviation{};  ///< how it differs, without values that tell nothing about the cause: "abort 0800 0000h"
+  std::vector<std::string>
+      broken_rules{};  ///< rules that the deciding frame breaks by itself, as the monitors see it
   std::size_t frames_seen =
       0;  ///< length of the capture when it was judged: what came later shows that the device lived
 };
@@ -70,8 +77,10 @@ struct Judgement {
   /// Always there where the verdict is `pass`: a pass is earned by a step that was carried out and met.
   /// Monitors decide by the whole trace and name no step.
   std::optional<DecidingStep> decided_by{};
-  std::string
-      reason{};  ///< why it is not applicable or inconclusive, where that is not the case's own reason
+  /// Why it is not applicable or inconclusive, where that is not the case's own reason.
+  std::string reason{};
+  /// Why this failure is accepted (known_deviations of the profile); its verdict is then `warn`.
+  std::string waived{};
 };
 
 /// One scenario instance, planned or run.
@@ -87,6 +96,7 @@ struct CaseResult {
   std::vector<Finding> setup_findings;  ///< set-up steps that failed
   Verdict verdict = Verdict::error;     ///< planned cases start as "not run", an error
   std::string reason = "not run";       ///< for not_applicable, inconclusive, error
+  std::string rests_on{};  ///< of an inconclusive case: the requirement whose failure left it without ground
   bool finished = false;
   BusTime begin;
   BusTime end;
@@ -135,6 +145,9 @@ struct RunResult {
   std::vector<std::string> unwritten{};       ///< reports that could not be written, with the reason
 
   [[nodiscard]] Counts counts() const;
+  /// Requirements whose failure the profile accepts, sorted, each once: a run with some does not simply
+  /// conform.
+  [[nodiscard]] std::vector<std::string> waived() const;
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;
 };
 

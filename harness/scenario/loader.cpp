@@ -19,6 +19,36 @@ void collect_checks(const std::vector<steps::Step>& list, std::set<std::string>&
   }
 }
 
+/// What the steps see the device through; walks and branches included.
+void collect_channels(const std::vector<steps::Step>& list, steps::Channels& out) {
+  for (const auto& step : list) {
+    if (step.action != nullptr) steps::add_channels(out, step.action->rests_on());
+    if (step.walk) collect_channels(step.walk->steps, out);
+    for (const auto& branch : step.branches) collect_channels(branch.steps, out);
+  }
+}
+
+/// `establishes: heartbeat`, `rests_on: [TPDO, SYNC]`
+steps::Channels parse_channels(const yaml::Field& field) {
+  steps::Channels out;
+  if (!field) return out;
+  for (const auto& item : field.items_or_one()) {
+    const auto name = item.text();
+    if (!name) continue;
+    const auto known = steps::channels();
+    if (steps::is_channel(*name)) {
+      steps::add_channels(out, {known[steps::rank_of_channel(*name)].name});
+      continue;
+    }
+    std::vector<std::string_view> names;
+    for (const auto& channel : known) names.push_back(channel.name);
+    const auto near = did_you_mean(*name, names);
+    item.error("unknown channel '" + *name + "'", near.empty() ? "see 'canopen-conform explain channels'"
+                                                               : "did you mean '" + std::string(near) + "'?");
+  }
+  return out;
+}
+
 bool is_id(std::string_view id) {
   return !id.empty() && id.size() <= 80 && std::ranges::all_of(id, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
@@ -147,6 +177,8 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   if (const auto for_each = fields.optional("for_each")) out.for_each = parse_for_each(for_each, context);
   if (const auto checks = fields.optional("checks")) context.default_checks = parse_checks(checks, context);
   if (const auto when = fields.optional("when")) out.when = steps::parse_condition_at(when, context.names);
+  out.establishes = parse_channels(fields.optional("establishes"));
+  out.rests_on = parse_channels(fields.optional("rests_on"));
   const auto errors_before = context.diagnostics.error_count();
   if (const auto steps = fields.required("steps")) out.steps = parse_steps(steps, context);
   if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
@@ -168,6 +200,13 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
       item.error("the condition of a read-only scenario may write: '" + out.when->text() + "'",
                  "add risk: config");
     }
+  }
+  collect_channels(out.steps, out.rests_on);
+  // What judges a channel cannot rest on it, nor on one that is judged behind it.
+  if (!out.establishes.empty()) {
+    const auto first = steps::rank_of_channel(out.establishes.front());
+    std::erase_if(out.rests_on,
+                  [first](std::string_view channel) { return steps::rank_of_channel(channel) >= first; });
   }
   std::set<std::string> requirements;
   collect_checks(out.steps, requirements);

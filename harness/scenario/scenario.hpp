@@ -56,8 +56,10 @@ struct Scenario {
   std::uint64_t sample = 0;  ///< most instances of a query, 0: all
   Risk risk = Risk::read_only;
   Fresh fresh = Fresh::none;
-  bool basic = false;  ///< judged first, and even when the device answers no SDO request at all
-  bool slow = false;   ///< takes long on a real bus: held back there unless asked for
+  bool basic = false;           ///< judged first, and even when the device answers no SDO request at all
+  bool slow = false;            ///< takes long on a real bus: held back there unless asked for
+  steps::Channels establishes;  ///< channels that this scenario judges first, for the others
+  steps::Channels rests_on;     ///< channels without which it could not tell anything
   std::vector<steps::Step> steps;
   std::vector<steps::Step> cleanup;
   std::vector<std::string>

@@ -139,6 +139,7 @@ class RaiseError final : public Action {
     return out->number_ == 0 ? nullptr : std::move(out);
   }
 
+  Channels rests_on() const override { return {channel::emcy}; }
   std::string words(Session& session) const override {
     std::string name = "error trigger " + std::to_string(number_);
     if (number_ <= session.profile().errors.size())
@@ -226,6 +227,7 @@ class AwaitEmcy final : public Action {
     return cob_id ? std::vector{std::move(*cob_id)} : std::vector<ObjectReference>{};
   }
   bool acts() const override { return false; }
+  Channels rests_on() const override { return {channel::emcy}; }
   std::string words(Session& session) const override {
     std::string out = "EMCY";
     if (!code_.empty()) {

@@ -42,6 +42,13 @@ struct Source {
     return out;
   }
 
+  /// Channels that a frame of the source comes through; that none comes is no ground for anything.
+  [[nodiscard]] Channels rests_on() const {
+    if (service == "heartbeat") return {channel::heartbeat};
+    if (service == "emcy") return {channel::emcy};
+    if (service == "boot-up") return {channel::boot_up};
+    return {};
+  }
   [[nodiscard]] std::string words() const { return service.empty() ? "CAN-ID " + id.text() : service; }
 
   /// The entry that configures the service.
@@ -237,6 +244,7 @@ class AwaitFrame final : public Action {
   }
   std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
+  Channels rests_on() const override { return source_.rests_on(); }
   std::string words(Session&) const override {
     return "a frame of " + source_.words() + " within " + within_.text();
   }
@@ -376,6 +384,7 @@ class Collect final : public Action {
   }
   std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
+  Channels rests_on() const override { return source_.rests_on(); }
   std::string words(Session&) const override {
     if (!answers_) return "collect " + source_.words() + " for " + time_.text();
     return "collect " + source_.words() + " per " +

@@ -33,6 +33,11 @@ class Interleave final : public Action {
   const ObjectReference* object() const override { return &transfers_.front().object(); }
 
   Measures measures() const override { return {"count"}; }
+  Channels rests_on() const override {
+    Channels out;
+    for (const auto& transfer : transfers_) add_channels(out, transfer.rests_on());
+    return out;
+  }
   Result<Actual> run(Session& session) const override {
     std::vector<SdoJob> jobs;
     for (const auto& transfer : transfers_) {

@@ -50,6 +50,10 @@ class Nmt final : public Action {
     return out;
   }
   std::string words(Session&) const override { return "NMT " + std::string(canopen::to_string(command_)); }
+  Channels rests_on() const override {
+    const bool resets = command_ == NmtCommand::reset_node || command_ == NmtCommand::reset_communication;
+    return {resets ? channel::boot_up : channel::nmt_commands};
+  }
   Result<Actual> run(Session& session) const override {
     const auto index = session.capture().size();
     auto sent = session.nmt(command_);
@@ -76,6 +80,7 @@ class Reset final : public Action {
   std::string words(Session&) const override {
     return "NMT " + std::string(canopen::to_string(command_)) + " and wait for the boot-up message";
   }
+  Channels rests_on() const override { return {channel::boot_up}; }
   Result<Actual> run(Session& session) const override {
     auto sent = session.nmt(command_);
     if (!sent) return std::unexpected(sent.error());
@@ -100,6 +105,7 @@ class BootUp final : public Action {
     }
     return out;
   }
+  Channels rests_on() const override { return {channel::boot_up}; }
   bool acts() const override { return false; }
   std::string words(Session&) const override {
     return "boot-up message within " + within_.text() + (once_for_.count() > 0 ? ", exactly once" : "");

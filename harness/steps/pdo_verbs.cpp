@@ -162,6 +162,7 @@ class SetPdo final : public Action {
   }
 
   std::vector<ObjectReference> concerns() const override { return {pdo_}; }
+  Channels rests_on() const override { return {channel::pdo_parameters}; }
   std::string words(Session& session) const override {
     std::string out = "configure " + pdo_words(pdo_, session);
     if (maps_) out += ", " + std::to_string(entries_.size()) + " mapped";

@@ -421,6 +421,13 @@ Result<SdoJob> SdoStep::job(Session& session) const {
   return out;
 }
 
+Channels SdoStep::rests_on() const {
+  if (transfer_of(transfer_).block) return {upload_ ? channel::block_upload : channel::block_download};
+  if (!upload_ && (transfer_.starts_with("segmented") || !pattern_.empty()))
+    return {channel::segmented_download};
+  return {};
+}
+
 Measures SdoStep::measures() const {
   auto out = measures_of(upload_, transfer_of(transfer_).block);
   if (upload_) out.emplace_back("latency");

@@ -44,6 +44,8 @@ class SdoStep {
   [[nodiscard]] const ObjectReference& object() const { return object_; }
   [[nodiscard]] std::string words(Session& session) const;
   [[nodiscard]] Measures measures() const;
+  /// Of an automatic transfer nobody knows before whether it takes segments.
+  [[nodiscard]] Channels rests_on() const;
   [[nodiscard]] Result<SdoJob> job(Session& session) const;
   /// Saves what was asked to be saved, and tells what came.
   [[nodiscard]] Actual conclude(Session& session, const SdoJob& job, const SdoAnswer& answer) const;

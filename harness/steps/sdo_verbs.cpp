@@ -26,6 +26,7 @@ class Transfer final : public Action {
   bool reads_only() const override { return step_.reads_only(); }
   const ObjectReference* object() const override { return &step_.object(); }
   Measures measures() const override { return step_.measures(); }
+  Channels rests_on() const override { return step_.rests_on(); }
 
   Result<Actual> run(Session& session) const override {
     auto job = step_.job(session);

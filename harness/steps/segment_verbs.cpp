@@ -42,6 +42,7 @@ class Segments final : public Action {
     return {"segments", "wrong_toggles", "difference", "unmarked", "empty_last"};
   }
   bool reads_only() const override { return true; }
+  Channels rests_on() const override { return {channel::segmented_upload}; }
   const ObjectReference* object() const override { return &object_; }
 
   Result<Actual> run(Session& session) const override {

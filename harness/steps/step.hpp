@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "steps/channels.hpp"
 #include "steps/condition.hpp"
 #include "steps/outcome.hpp"
 #include "steps/session.hpp"
@@ -41,6 +42,8 @@ class Action {
   /// Where object() is none: the entries that it looks at or configures, the one that tells most first. For
   /// pointing at the device description.
   [[nodiscard]] virtual std::vector<ObjectReference> concerns() const { return {}; }
+  /// What it sees the device through, beside plain SDO transfers of up to four bytes.
+  [[nodiscard]] virtual Channels rests_on() const { return {}; }
   /// The measurements its outcome may have. To ask for others is a mistake of the author, which would be
   /// counted against the device.
   [[nodiscard]] virtual Measures measures() const { return {}; }

@@ -100,8 +100,12 @@ TEST_CASE("A violated recommendation is a warning although its finding failed") 
   run.cases[1].judgements[0].verdict = Verdict::warn;
   run.cases[1].verdict = Verdict::warn;
   const std::string text = summary(run, {});
-  CHECK(contains(text, "Warnings (2)"));
+  CHECK(contains(text, "Warnings: 1 cause"));
+  CHECK(contains(text, "1. OD-1003-06: emergency, 2 cases; download 1003h:00"));
   CHECK(contains(text, "warn: OD-1003-06"));
+  CHECK(contains(
+      text,
+      "also broken, of the same cause as far as can be told from outside:\n    OD-1003-08 (warn, 1 case)"));
 }
 
 TEST_CASE("Set-up steps that failed are shown even in a case that failed") {

@@ -79,7 +79,10 @@ TEST_CASE("A warning passes and is told in system-out") {
   const pugi::xml_node node = document.find("field-write");
   CHECK_FALSE(node.child("failure"));
   CHECK_FALSE(node.child("error"));
-  CHECK(std::string(node.child("system-out").text().get()).starts_with("warning: OD-1003-08: "));
+  CHECK(std::string(node.child("system-out").text().get())
+            .starts_with(
+                "warning: consequence of OD-1003-06, which failed in cia301/dictionary/1003-error-history/"
+                "non-zero-write[02h]: OD-1003-08: "));
 }
 
 TEST_CASE("What was not judged is an error with its kind, what does not apply is skipped") {

@@ -42,5 +42,17 @@ TEST_CASE("The Markdown report stays below its limit") {
   for (int i = 0; i < 200; ++i) run.cases.push_back(run.cases[1]);
   const std::string text = markdown(run, {20'000});
   CHECK(text.size() < 20'500);
-  CHECK(contains(text, "more, see the other reports of this run"));
+  const std::string cut = markdown(testing::sample_run(), {4'000});
+  CHECK(cut.size() < 4'500);
+  CHECK(contains(cut, "more, see the other reports of this run"));
+}
+
+TEST_CASE("The Markdown report begins with the causes, one line each") {
+  RunResult run = testing::sample_run();
+  for (int i = 0; i < 200; ++i) run.cases.push_back(run.cases[1]);
+  const std::string text = markdown(run);
+  const auto list = text.find("| | Cause | Requirement | Cases | First case |");
+  REQUIRE(list != std::string::npos);
+  CHECK(list < text.find("| Requirements |"));
+  CHECK(contains(text, "| OD-1003-06 | 202 |"));
 }

@@ -37,6 +37,9 @@ Finding full_finding() {
   out.evidence = {full_frame(), {}};
   out.declared_at = "device.eds:120";
   out.during = "another";
+  out.object = Index(0x1003);
+  out.deviation = "confirmed instead of refused";
+  out.broken_rules = {"SDO-GEN-02", "SDO-GEN-03"};
   out.frames_seen = 123456789;
   return out;
 }
@@ -58,10 +61,12 @@ CaseResult full_case() {
        .frames_seen = 4,
        .decided_by =
            DecidingStep{.position = {"a.yaml", 3, 4}, .step = "upload", .actual = "got", .frame = 9},
-       .reason = "rests on R-2"}};
+       .reason = "rests on R-2",
+       .waived = "known"}};
   out.setup_findings = {full_finding()};
   out.verdict = Verdict::not_applicable;
   out.reason = "";
+  out.rests_on = "R-2";
   out.finished = true;
   out.begin = BusTime(Duration(1));
   out.end = BusTime(Duration(2));

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/attribution.hpp"
+
+#include <algorithm>
+
+#include "result/services.hpp"
+
+namespace conform::engine {
+namespace {
+
+std::vector<const monitor::Rule*> all_rules() {
+  std::vector<const monitor::Rule*> out;
+  for (const auto& rule : monitor::rules()) out.push_back(&rule);
+  return out;
+}
+
+constexpr std::string_view reserved_bytes = "SDO-GEN-05";
+constexpr std::string_view undefined_code = "SDO-ERR-05";
+
+}  // namespace
+
+Attribution::Attribution(const monitor::Facts& facts) : watch_(facts, all_rules()) {
+  for (const auto& each : watch_.monitors()) violated_.emplace_back(each->tallies().size(), 0);
+}
+
+void Attribution::follow(std::span<const can::CapturedFrame> frames) {
+  for (; seen_ < frames.size(); ++seen_) {
+    watch_.on_frame(frames[seen_], seen_);
+    for (std::size_t i = 0; i < violated_.size(); ++i) {
+      const auto& one = *watch_.monitors()[i];
+      for (std::size_t j = 0; j < violated_[i].size(); ++j) {
+        const auto now = one.tallies()[j].violated;
+        if (now == violated_[i][j]) continue;
+        violated_[i][j] = now;
+        broken_[seen_].emplace_back(one.rule().requirements[j]);
+      }
+    }
+  }
+}
+
+void Attribution::lose_track() { watch_.on_loss(); }
+
+std::vector<std::string> Attribution::rules_below(const steps::Actual& actual) const {
+  using Kind = steps::Actual::Kind;
+  if (!actual.decisive || (actual.kind != Kind::violation && actual.kind != Kind::aborted)) return {};
+  const auto found = broken_.find(*actual.decisive);
+  if (found == broken_.end()) return {};
+  auto out = found->second;
+  std::erase_if(out, [&](const std::string& rule) {
+    return actual.kind == Kind::aborted ? rule != undefined_code : rule == reserved_bytes;
+  });
+  std::ranges::stable_sort(out, {}, result::depth_of_requirement);
+  return out;
+}
+
+}  // namespace conform::engine

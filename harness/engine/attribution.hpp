@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which rules a frame breaks by itself, whatever a scenario wanted of it: the monitors' word while the run
+// goes on.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "can/frame.hpp"
+#include "monitor/watch.hpp"
+#include "steps/outcome.hpp"
+
+namespace conform::engine {
+
+class Attribution {
+ public:
+  explicit Attribution(const monitor::Facts& facts);
+
+  /// The trace so far; frames that were looked at before are not looked at again.
+  void follow(std::span<const can::CapturedFrame> frames);
+  /// The host lost frames before the next one.
+  void lose_track();
+
+  /// Rules that the frame which decided `actual` breaks so that its content cannot be judged: an answer that
+  /// the client could not use, an abort with a code that does not exist. What does not keep anybody from
+  /// reading the frame (a reserved byte) excuses nothing. Nearest to the frame first.
+  [[nodiscard]] std::vector<std::string> rules_below(const steps::Actual& actual) const;
+
+ private:
+  monitor::Watch watch_;
+  std::size_t seen_ = 0;
+  std::vector<std::vector<std::size_t>> violated_;  ///< per monitor and requirement, as last looked at
+  std::map<std::size_t, std::vector<std::string>> broken_;  ///< by capture index
+};
+
+}  // namespace conform::engine

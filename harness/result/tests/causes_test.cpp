@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result/causes.hpp"
+
+#include "catch.hpp"
+#include "result/services.hpp"
+
+using namespace conform;
+using namespace conform::result;
+
+namespace {
+
+CaseResult failed(const std::string& id, const std::string& requirement, const std::string& deviation = {},
+                  std::optional<Index> object = {}) {
+  CaseResult out;
+  out.id = id;
+  out.verdict = Verdict::fail;
+  Finding finding;
+  finding.requirement = requirement;
+  finding.deviation = deviation;
+  finding.object = object;
+  finding.frames_seen = 10;
+  Judgement judgement;
+  judgement.requirement = requirement;
+  judgement.verdict = Verdict::fail;
+  judgement.findings.push_back(finding);
+  out.judgements.push_back(judgement);
+  return out;
+}
+
+void add(CaseResult& to, const std::string& requirement) {
+  to.judgements.push_back(failed(to.id, requirement).judgements.front());
+}
+
+}  // namespace
+
+TEST_CASE("failures of one part of a device are one cause, told by the rule nearest to the frame") {
+  RunResult run;
+  run.cases = {failed("a", "OD-1017-05"), failed("b", "EC-HBP-02"), failed("c", "EC-HBP-03")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].about == "heartbeat producer");
+  CHECK(causes[0].cases.size() == 3);
+  CHECK(causes[0].requirements.size() == 3);
+}
+
+TEST_CASE("failures of two parts are two causes, the one with more cases first") {
+  RunResult run;
+  run.cases = {failed("a", "SYNC-CON-01"), failed("b", "EC-HBP-02"), failed("c", "EC-HBP-03")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 2);
+  CHECK(causes[0].about == "heartbeat producer");
+  CHECK(causes[1].about == "SYNC");
+}
+
+TEST_CASE("a deviation that three parts share is one cause, told by a rule about entries in general") {
+  RunResult run;
+  const std::string same = "confirmed instead of refused";
+  run.cases = {failed("a", "OD-1000-02", same, Index(0x1000)), failed("b", "OD-1003-08", same, Index(0x1003)),
+               failed("c", "OD-ACC-01", same, Index(0x1400)), failed("d", "OD-1200-04", same, Index(0x1200))};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "OD-ACC-01");
+}
+
+TEST_CASE("a rule about entries in general belongs to the part whose own rule is broken as well") {
+  RunResult run;
+  run.cases = {failed("a", "OD-GEN-17", {}, Index(0x1014)), failed("b", "OD-1014-01", {}, Index(0x1014))};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "OD-1014-01");
+}
+
+TEST_CASE("what fails only where something else fails as well has no cause of its own") {
+  RunResult run;
+  run.cases = {failed("a", "PDO-TX-05"), failed("b", "PDO-TX-06")};
+  add(run.cases[0], "SYNC-CON-01");
+  CHECK(causes_of(run).size() == 1);
+  run.cases.push_back(failed("c", "SYNC-CON-02"));
+  CHECK(causes_of(run).size() == 2);
+}
+
+TEST_CASE("a frame that breaks a rule by itself is the cause of what a scenario wanted of it") {
+  RunResult run;
+  run.cases = {failed("a", "SDO-SUP-01"), failed("b", "SDO-GEN-02")};
+  run.cases[0].judgements[0].findings[0].broken_rules = {"SDO-GEN-02"};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "SDO-GEN-02");
+}
+
+TEST_CASE("cases without ground are told with the cause that took it") {
+  RunResult run;
+  run.cases = {failed("a", "EC-HBP-02"), failed("b", "SYNC-CON-01"), {}};
+  run.cases[2].id = "c";
+  run.cases[2].verdict = Verdict::inconclusive;
+  run.cases[2].rests_on = "EC-HBP-02";
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 2);
+  CHECK(causes[0].about == "heartbeat producer");
+  REQUIRE(causes[0].resting.size() == 1);
+  CHECK(causes[0].resting[0]->id == "c");
+}
+
+TEST_CASE("a warning alone is a cause, behind every failure") {
+  RunResult run;
+  run.cases = {failed("a", "SYNC-CON-05"), failed("b", "EC-HBP-02")};
+  run.cases[0].judgements[0].verdict = Verdict::warn;
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 2);
+  CHECK(causes[1].verdict == Verdict::warn);
+  CHECK(causes[1].about == "SYNC");
+}
