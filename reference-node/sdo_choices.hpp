@@ -6,9 +6,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "abort_codes.hpp"
 #include "base/time.hpp"
 
 namespace refnode {
+
+using conform::AbortCode;
 
 struct SdoChoices {
   bool segmented = true;         ///< false: expedited transfers only (and block transfer, if that is offered)
@@ -16,6 +19,10 @@ struct SdoChoices {
   bool expedited_upload = true;  ///< false: objects of one to four bytes are uploaded in segments too
   bool upload_size_indicated = true;   ///< segmented and block upload; false: bytes 4-7 stay zero
   bool toggle_errors_ignored = false;  ///< true: no reply to a repeated segment in place of 0503 0000h
+
+  /// Answer to a new initiate request while a transfer is open, which it ends; nullopt: the new one is
+  /// served.
+  std::optional<AbortCode> initiate_while_busy;
 
   // Block transfer
   bool crc = true;                        ///< this side can generate and check the CRC

@@ -94,6 +94,8 @@ SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
 SdoReply SdoServer::initiate_upload(SdoExchange& exchange) {
   exchange.step = SdoStep::upload_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
   reset();
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return refuse(data.error());
@@ -123,6 +125,8 @@ SdoReply SdoServer::upload_response(SdoExchange& exchange, Bytes data) {
 SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
   exchange.step = SdoStep::download_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
   reset();
   const std::uint8_t command = exchange.request[0];
   const bool expedited = (command & 0x02U) != 0;
@@ -177,6 +181,8 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   const SdoChoices& choices = device_->choices.sdo;
   exchange.step = SdoStep::block_upload_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
   if (!choices.block) return refuse(abort_code::command_unknown);
   reset();
   const SdoBlockFaults& fault = device_->behaviour.block;
@@ -216,6 +222,8 @@ SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
   const SdoChoices& choices = device_->choices.sdo;
   exchange.step = SdoStep::block_download_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
   if (!choices.block) return refuse(abort_code::command_unknown);
   reset();
   const std::uint8_t command = exchange.request[0];

@@ -195,7 +195,7 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   auto actual = step.action->run(session_);
   session_.end_step();
   if (!actual) return cannot_go_on(step, actual.error());
-  if (!step.label.empty() && actual->decisive) session_.label(step.label, *actual->decisive);
+  if (!step.label.empty()) session_.label(step, *actual);
   if (!step.branches.empty()) return run_branches(step, *actual);
   return judge(step, *actual);
 }

@@ -13,6 +13,9 @@ using namespace std::chrono_literals;
 constexpr Duration stop_latency = 40ms;
 /// A frame that is not on the bus by then will not be: bus-off, no acknowledging node, stuck queue.
 constexpr Duration transmit_limit = 1s;
+/// Echo and answer that are fetched from the controller together get stamps this close. On the bus an answer
+/// needs longer.
+constexpr Duration overtaking = 20us;
 
 }  // namespace
 
@@ -114,6 +117,15 @@ Result<std::optional<std::size_t>> Recorder::find(std::size_t from, const steps:
     if (captured.time > deadline) return std::optional<std::size_t>();
     if (match(captured)) return std::optional(i);
   }
+}
+
+std::size_t Recorder::first_effect(std::size_t echo) const {
+  const auto& frames = capture_.frames();
+  auto first = echo;
+  while (first > 0 && frames[first - 1].direction == can::Direction::received &&
+         frames[first - 1].time + overtaking > frames[echo].time)
+    --first;
+  return first;
 }
 
 Result<void> Recorder::wait_until(BusTime until) {

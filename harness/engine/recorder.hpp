@@ -63,6 +63,9 @@ class Recorder {
   [[nodiscard]] Result<std::optional<std::size_t>> find(std::size_t from, const steps::Session::Match& match,
                                                         BusTime deadline);
   [[nodiscard]] Result<void> wait_until(BusTime until);
+  /// Index of the first frame that may be an effect of the frame of ours at `echo`. On some machines an
+  /// answer overtakes the echo of its request; whatever was on the bus before the request is no answer.
+  [[nodiscard]] std::size_t first_effect(std::size_t echo) const;
 
   void produce(steps::Production production);
   void stop_producing(std::string_view label);  ///< empty: everything

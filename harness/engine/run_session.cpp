@@ -81,6 +81,7 @@ Result<steps::Value> RunSession::current() {
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
   if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
   auto answer = channel_.upload(object, std::nullopt);
+  adapt();
   // A transfer that was given up is no reason to end the run.
   if (!answer && answer.error().where == "scenario") {
     steps::SdoAnswer given_up;
@@ -273,11 +274,30 @@ std::size_t RunSession::error_triggers() const {
 }
 
 void RunSession::note_sent(std::size_t index) {
-  if (stimulus_open_) {
-    window_.first = index;
-    stimulus_open_ = false;
-  }
+  const auto first = recorder_.first_effect(index);
+  if (std::exchange(request_open_, false) || stimulus_open_) request_ = first;
+  if (std::exchange(stimulus_open_, false)) window_.first = first;
   window_.anchor = recorder_.capture().frames()[index].time;
+}
+
+void RunSession::adapt() {
+  profile_.sdo_timeout = channel_.timeout();
+  profile_.quiet_time = channel_.quiet();
+}
+
+Result<std::optional<std::size_t>> RunSession::find_answer(const Match& match,
+                                                           std::optional<Duration> within) {
+  const auto limit = within.value_or(profile_.sdo_timeout);
+  auto found = recorder_.find(std::max(window_.first, request_), match, window_.anchor + limit);
+  if (!found || !*found) return found;
+  const auto& captured = recorder_.capture().frames()[**found];
+  const bool answers = captured.frame.is_data(canopen::connection_set(node()).sdo_response);
+  // A server's own time-out is no answer, and what a line gives a time of its own is known to be slow.
+  if (answers && !within) {
+    channel_.note_latency(std::max(Duration(0), captured.time - window_.anchor));
+    adapt();
+  }
+  return found;
 }
 
 Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Duration> timeout) {
@@ -341,6 +361,7 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
   }
   if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
   auto answers = channel_.run(jobs);
+  adapt();
   if (!answers) return answers;
   note_sent(channel_.first_request());
   window_.anchor = channel_.last_request();
@@ -458,17 +479,23 @@ Result<void> RunSession::send(const can::Frame& frame) {
   if (!commands) {
     if (auto reached = await_state(); !reached) return reached;
   }
+  const bool requests = frame.is_data(canopen::connection_set(node()).sdo_request);
+  if (requests && !at_once_) {
+    if (auto rested = channel_.rest_after_abort(); !rested) return rested;
+  }
   auto sent = recorder_.send(frame);
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
   if (commands) note_command(*sent);
+  if (requests && frame.size() > 0 && frame.data[0] == 0x80)
+    channel_.note_abort(recorder_.capture().frames()[*sent].time);
   return {};
 }
 
 Result<steps::Window> RunSession::window_after(std::string_view label) const {
   const auto found = labels_.find(label);
   if (found == labels_.end()) return fail("label '" + std::string(label) + "' was not reached", "scenario");
-  return steps::Window{found->second + 1, recorder_.capture().frames()[found->second].time};
+  return found->second;
 }
 
 void RunSession::consume(std::size_t index) {
@@ -481,7 +508,18 @@ void RunSession::consume(std::size_t index) {
 }
 
 void RunSession::label(std::string_view name, std::size_t capture_index) {
-  labels_.insert_or_assign(std::string(name), capture_index);
+  labels_.insert_or_assign(
+      std::string(name), steps::Window{capture_index + 1, recorder_.capture().frames()[capture_index].time});
+}
+
+void RunSession::label(const steps::Step& step, const steps::Actual& actual) {
+  // The same window as a step has that follows at once: what came between request and response is in it.
+  const bool sent = step.action->acts() && !stimulus_open_;
+  if (sent && step.action->label_is_on_request()) {
+    labels_.insert_or_assign(step.label, window_);
+  } else if (actual.decisive) {
+    label(step.label, *actual.decisive);
+  }
 }
 
 void RunSession::device_was_reset(bool) {

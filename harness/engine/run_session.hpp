@@ -77,6 +77,9 @@ class RunSession final : public steps::Session {
                                                               BusTime deadline) override {
     return recorder_.find(from, match, deadline);
   }
+  void next_request() override { request_open_ = true; }
+  [[nodiscard]] Result<std::optional<std::size_t>> find_answer(const Match& match,
+                                                               std::optional<Duration> within) override;
   [[nodiscard]] Result<void> wait_until(BusTime until) override { return recorder_.wait_until(until); }
   [[nodiscard]] steps::Window window() const override { return window_; }
   [[nodiscard]] Result<void> await_state() override;
@@ -85,6 +88,8 @@ class RunSession final : public steps::Session {
   void consume(std::size_t index) override;
   [[nodiscard]] CanId emcy_can_id() const override { return emcy_can_id_; }
   void label(std::string_view name, std::size_t capture_index) override;
+  /// The label of the step that has just been carried out.
+  void label(const steps::Step& step, const steps::Actual& actual);
   void set(std::string name, steps::Value value) override { names_[std::move(name)] = std::move(value); }
   [[nodiscard]] Result<void> produce(steps::Production production) override;
   void stop_producing(std::string_view label) override { recorder_.stop_producing(label); }
@@ -135,6 +140,8 @@ class RunSession final : public steps::Session {
     bool alone = true;  ///< no other command was still to be followed when it was sent
   };
   void note_sent(std::size_t index);
+  /// The waits of the profile follow what was learnt about the device.
+  void adapt();
   /// A frame with the CAN-ID 0 was sent.
   void note_command(std::size_t index);
   [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }
@@ -144,13 +151,13 @@ class RunSession final : public steps::Session {
   void watch_emcy(Multiplexer object, const Bytes& value);
 
   Recorder& recorder_;
-  const device::Profile& profile_;
+  device::Profile profile_;  ///< T_SDO and T_QUIET grow with the slowest answer
   device::Dictionary dictionary_;
   SdoChannel channel_;
   Others others_;
   std::map<std::string, steps::Value, std::less<>> names_;
   mutable std::map<std::string, steps::Value, std::less<>> profile_names_;
-  std::map<std::string, std::size_t, std::less<>> labels_;
+  std::map<std::string, steps::Window, std::less<>> labels_;
   std::map<Multiplexer, bool> present_;
   std::map<Multiplexer, bool> writable_;
   std::vector<Change> journal_;
@@ -160,6 +167,8 @@ class RunSession final : public steps::Session {
   steps::Window window_;
   std::optional<bool> offers_block_upload_, offers_block_download_;  ///< once tried
   bool stimulus_open_ = false;  ///< the running step acts, and its first frame begins the window
+  bool request_open_ = false;   ///< the next frame of ours is a new request
+  std::size_t request_ = 0;     ///< no answer to the latest request has a lower capture index
   bool all_objects_ = false;
   bool write_refused_ = false;
   bool state_changed_ = true;

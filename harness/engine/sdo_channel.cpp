@@ -18,6 +18,12 @@ namespace {
 /// A server that wrongly answers the abort does so within this time, and its answer is then no answer to what
 /// follows.
 constexpr Duration after_conversation = std::chrono::milliseconds(20);
+/// A device may take longer than anybody thought. The silence of an entry is not believed before this, until
+/// it has been seen twice (once it may have been a request that fell into the boot time).
+constexpr Duration longest_answer = std::chrono::seconds(3);
+/// ... but a device that often is silent must not cost hours.
+constexpr Duration most_patience = std::chrono::seconds(60);
+constexpr int times_in_vain = 2;
 
 auto is_response(CanId id) {
   return [id](const can::CapturedFrame& captured) {
@@ -57,21 +63,52 @@ SdoChannel::SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Durati
   lines_[default_ids_];
 }
 
+Duration SdoChannel::rest() const { return std::max(after_conversation, 2 * latest_); }
+
+bool SdoChannel::is_patient(Multiplexer object) const {
+  const auto before = mute_.find(object);
+  return patience_spent_ < most_patience && (before == mute_.end() || before->second < times_in_vain);
+}
+
+void SdoChannel::waited_in_vain(Multiplexer object, Duration time) {
+  if (time <= Duration(0)) return;
+  patience_spent_ += time;
+  ++mute_[object];
+}
+
+Result<void> SdoChannel::rest_after_abort() {
+  const auto aborted_at = std::exchange(aborted_at_, std::nullopt);
+  if (!aborted_at || recorder_.now() >= *aborted_at + rest()) return {};
+  return recorder_.wait_until(*aborted_at + rest());
+}
+
 void SdoChannel::dirty(Line& line, bool late_answers) {
   line.state = late_answers || line.state == State::late_answers ? State::late_answers : State::open;
 }
 
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
   if (line.state == State::idle) return {};
-  const auto rest =
-      std::exchange(line.state, State::idle) == State::late_answers ? quiet_ : after_conversation;
+  const bool late = std::exchange(line.state, State::idle) == State::late_answers;
   // An abort is never answered; after it, answers to what was before must not be taken for answers to what
   // comes.
   const auto abort =
       canopen::encode_abort(line.latest.value_or(Multiplexer{Index(0), SubIndex(0)}), AbortCode(0x0800'0000));
   auto sent = recorder_.send(can::data_frame(ids.request, abort));
   if (!sent) return std::unexpected(sent.error());
-  return recorder_.wait_until(recorder_.now() + rest);
+  aborted_at_.reset();
+  const auto begin = line.asked_at;
+  const auto from = *sent;
+  auto waited = recorder_.wait_until(recorder_.now() + (late ? quiet() : rest()));
+  if (!waited || !late || !line.stale) return waited;
+  // What comes now says how long to wait next time.
+  const auto& frames = recorder_.capture().frames();
+  const auto is_answer = is_response(ids.response);
+  for (auto i = from; i < frames.size(); ++i) {
+    if (!is_answer(frames[i]) || frames[i].frame.size() < 4) continue;
+    if (canopen::sdo_multiplexer(frames[i].frame.bytes()) == *line.stale)
+      note_latency(frames[i].time - begin);
+  }
+  return waited;
 }
 
 Result<void> SdoChannel::make_idle() {
@@ -99,8 +136,9 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     run.object = job.request.object;
     run.request = ids.request;
     run.response = ids.response;
-    run.limit = job.timeout.value_or(timeout_);
-    run.wait = job.wait.value_or(quiet_);
+    run.limit = job.timeout.value_or(timeout());
+    if (!job.timeout && is_patient(run.object)) run.patience = longest_answer;
+    run.wait = job.wait.value_or(quiet());
     run.listens_after = !job.request.faults.empty();
     run.stale = line.stale;
     clients.push_back(std::move(*client));
@@ -112,6 +150,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)
       return std::unexpected(idle.error());
   }
+  if (auto rested = rest_after_abort(); !rested) return std::unexpected(rested.error());
   for (std::size_t i = 0; i < runs.size(); ++i) lines[i]->latest = runs[i].object;
   if (auto done = run_transfers(recorder_, runs); !done) {
     for (auto* line : lines) dirty(*line, true);
@@ -123,10 +162,17 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     using Kind = canopen::TransferResult::Kind;
     auto& result = runs[i].result;
     auto& line = *lines[i];
+    // What a step gives a time of its own is known to be slow: it says nothing about other answers.
+    if (!jobs[i].timeout && runs[i].heard > 0) {
+      note_latency(runs[i].slowest);
+      latest_ = runs[i].latest;
+    }
+    waited_in_vain(runs[i].object, runs[i].waited_in_vain);
     line.state = result.abandoned ? State::abandoned : State::idle;
     if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
       dirty(line, true);
       line.stale = runs[i].object;
+      line.asked_at = runs[i].last_request;
     } else if (!result.abandoned) {
       // A server answers in order: what was overdue does not come any more.
       line.stale.reset();
@@ -174,18 +220,53 @@ Result<steps::SdoAnswer> SdoChannel::upload(Multiplexer object, std::optional<Du
   return run_one({.upload = true, .object = object}, timeout);
 }
 
+Result<std::optional<std::array<std::uint8_t, 8>>> SdoChannel::ask(
+    const std::array<std::uint8_t, 8>& request) {
+  using Answer = std::optional<std::array<std::uint8_t, 8>>;
+  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
+  if (auto rested = rest_after_abort(); !rested) return std::unexpected(rested.error());
+  auto& line = default_line();
+  const auto object = canopen::sdo_multiplexer(request);
+  const auto answers = [this, &line, object](const can::CapturedFrame& captured) {
+    if (!is_response(default_ids_.response)(captured)) return false;
+    const auto bytes = captured.frame.bytes();
+    const bool of_another = line.stale && *line.stale != object && bytes.size() >= 4 &&
+                            canopen::sdo_multiplexer(bytes) == *line.stale;
+    return !of_another;
+  };
+  auto sent = recorder_.send(can::data_frame(default_ids_.request, request));
+  if (!sent) return std::unexpected(sent.error());
+  const auto asked_at = recorder_.capture().frames()[*sent].time;
+  const auto limit = is_patient(object) ? std::max(longest_answer, timeout()) : timeout();
+  auto found = recorder_.find(recorder_.first_effect(*sent), answers, asked_at + limit);
+  if (!found) return std::unexpected(found.error());
+  line.latest = object;
+  Answer out;
+  if (*found) {
+    const auto& answer = recorder_.capture().frames()[**found];
+    out = answer.frame.data;
+    note_latency(std::max(Duration(0), answer.time - asked_at));
+    line.stale.reset();
+    // An abort has closed the channel, and an expedited upload never opened one.
+    const bool expedited = ((*out)[0] & 0xE2U) == 0x42U && (request[0] & 0xE0U) == 0x40U;
+    if ((*out)[0] != 0x80 && !expedited) dirty(false);
+  } else {
+    line.stale = object;
+    line.asked_at = asked_at;
+    waited_in_vain(object, limit - timeout());
+    dirty(true);
+  }
+  // Whoever comes next may send frames without looking at the channel.
+  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
+  return out;
+}
+
 Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) {
   using Size = std::optional<std::uint64_t>;
-  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
-  auto sent = recorder_.send(can::data_frame(default_ids_.request, canopen::encode_upload_request(object)));
-  if (!sent) return std::unexpected(sent.error());
-  const auto response = is_response(default_ids_.response);
-  auto found = recorder_.find(*sent + 1, response, recorder_.capture().frames()[*sent].time + timeout_);
-  if (!found) return std::unexpected(found.error());
-  default_line().latest = object;
-  dirty(!*found);
-  if (!*found) return Size();
-  const auto answer = canopen::decode_upload_response(recorder_.capture().frames()[**found].frame.bytes());
+  const auto first = ask(canopen::encode_upload_request(object));
+  if (!first) return std::unexpected(first.error());
+  if (!*first) return Size();
+  const auto answer = canopen::decode_upload_response(**first);
   if (!answer) return Size();
   if (answer->expedited) return Size(answer->expedited_size());
   if (answer->size_indicated) return Size(answer->value);
@@ -196,19 +277,7 @@ Result<std::optional<std::uint64_t>> SdoChannel::held_bytes(Multiplexer object) 
 
 Result<std::optional<std::array<std::uint8_t, 8>>> SdoChannel::try_block_initiate(
     const std::array<std::uint8_t, 8>& request) {
-  using Answer = std::optional<std::array<std::uint8_t, 8>>;
-  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
-  auto sent = recorder_.send(can::data_frame(default_ids_.request, request));
-  if (!sent) return std::unexpected(sent.error());
-  auto found = recorder_.find(*sent + 1, is_response(default_ids_.response),
-                              recorder_.capture().frames()[*sent].time + timeout_);
-  if (!found) return std::unexpected(found.error());
-  default_line().latest = canopen::sdo_multiplexer(request);
-  // Whoever comes next may send frames without looking at the channel.
-  dirty(!*found);
-  if (auto idle = make_idle(); !idle) return std::unexpected(idle.error());
-  if (!*found) return Answer();
-  return Answer(recorder_.capture().frames()[**found].frame.data);
+  return ask(request);
 }
 
 Result<steps::SdoAnswer> SdoChannel::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,

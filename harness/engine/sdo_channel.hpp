@@ -3,6 +3,7 @@
 // each was left, so that late answers are never taken for answers to what comes.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -46,6 +47,21 @@ class SdoChannel {
   [[nodiscard]] bool expects_late_answers() const { return default_line().state == State::late_answers; }
   /// Ends what is open on any channel and lets late answers pass; nothing to do on idle ones.
   [[nodiscard]] Result<void> make_idle();
+  /// How long an answer may take, and after which silence a request counts as ignored: CiA 301 sets no limit,
+  /// so both grow with the slowest answer seen.
+  [[nodiscard]] Duration timeout() const { return std::max(timeout_, 3 * slowest_); }
+  [[nodiscard]] Duration quiet() const { return std::max(quiet_, 3 * slowest_); }
+  [[nodiscard]] Duration slowest() const { return slowest_; }
+  /// An answer took this long.
+  void note_latency(Duration latency) {
+    latest_ = latency;
+    slowest_ = std::max(slowest_, latency);
+  }
+  /// A request was aborted at this time by a frame that no transfer sent.
+  void note_abort(BusTime time) { aborted_at_ = time; }
+  /// An abort is not answered; a server that does it all the same gets the time for it, so that its answer is
+  /// not taken for the answer to the request that comes next.
+  [[nodiscard]] Result<void> rest_after_abort();
   /// Whether somebody else sent requests on a channel that was used, among these frames.
   [[nodiscard]] bool has_other_client(std::size_t first, std::size_t end) const;
   /// Requests of the latest transfer: index of the first, stamp of the last frame we sent.
@@ -68,11 +84,18 @@ class SdoChannel {
     State state = State::idle;
     std::optional<Multiplexer> stale;   ///< entry whose answer is overdue
     std::optional<Multiplexer> latest;  ///< entry of the latest transfer, for the abort that ends it
+    BusTime asked_at{};                 ///< when the request went out whose answer is overdue
   };
   [[nodiscard]] Line& default_line() { return lines_.at(default_ids_); }
   [[nodiscard]] const Line& default_line() const { return lines_.at(default_ids_); }
   static void dirty(Line& line, bool late_answers);
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
+  [[nodiscard]] Duration rest() const;
+  [[nodiscard]] bool is_patient(Multiplexer object) const;
+  void waited_in_vain(Multiplexer object, Duration time);
+  /// The answer to one frame on the default channel; nullopt: silence. What remains of it is ended.
+  [[nodiscard]] Result<std::optional<std::array<std::uint8_t, 8>>> ask(
+      const std::array<std::uint8_t, 8>& request);
   [[nodiscard]] Result<steps::SdoAnswer> run_one(canopen::SdoRequest request,
                                                  std::optional<Duration> timeout);
   void trim(Multiplexer object, Bytes& data) const;
@@ -80,6 +103,10 @@ class SdoChannel {
   Recorder& recorder_;
   KnownSize known_size_;
   Duration timeout_, quiet_;
+  Duration slowest_{}, latest_{};      ///< answers: the slowest, and the latest one
+  Duration patience_spent_{};          ///< on answers that never came
+  std::map<Multiplexer, int> mute_;    ///< entries for which all patience was in vain, and how often
+  std::optional<BusTime> aborted_at_;  ///< by a conversation; the server has not been given time since
   steps::SdoChannelIds default_ids_;
   std::map<steps::SdoChannelIds, Line> lines_;
   std::size_t first_request_ = 0;

@@ -24,6 +24,8 @@ constexpr Duration transmit_limit = std::chrono::seconds(1);
 /// must be this quick on average.
 constexpr Duration patience = std::chrono::minutes(1);
 constexpr Duration per_answer = std::chrono::milliseconds(280);
+/// ... or as quick as they are, up to this.
+constexpr Duration longest_patience = std::chrono::minutes(3);
 
 class Runner {
  public:
@@ -49,7 +51,10 @@ class Runner {
       if (std::ranges::all_of(runs_, &SdoRun::over)) return {};
       for (const auto& run : runs_) {
         const auto taken = run.since - begin;
-        if (run.over || taken < patience + run.heard * per_answer) continue;
+        const auto pace = std::max(per_answer, run.slowest + run.slowest / 4);
+        const auto granted = patience + run.heard * per_answer;
+        if (run.over || taken < std::max(granted, std::min(patience + run.heard * pace, longest_patience)))
+          continue;
         return fail("the transfer of " + to_string(run.object) + " was given up after " +
                         to_string(std::chrono::floor<std::chrono::seconds>(taken)) + " and " +
                         std::to_string(run.heard) + " answers",
@@ -75,7 +80,7 @@ class Runner {
   static BusTime deadline(const SdoRun& run) {
     if (run.in_flight > 0) return run.not_sent_since + transmit_limit;
     if (run.quiet_until) return *run.quiet_until;
-    return run.since + (run.client->fell_silent() ? run.wait : run.limit);
+    return run.since + (run.client->fell_silent() ? run.wait : run.stretched ? run.patience : run.limit);
   }
 
   /// One frame, if the transfer has one and the bus has room.
@@ -124,6 +129,11 @@ class Runner {
         run.last_request = run.since = run.not_sent_since = captured.time;
         run.looked_again = false;
         if (!run.client->ended()) run.decisive = index;
+        const auto overtook = std::exchange(run.overtook, std::nullopt);
+        if (overtook && *overtook >= recorder_.first_effect(index)) {
+          const auto early = recorder_.capture().frames()[*overtook];
+          on_response(run, early, *overtook);
+        }
       } else if (captured.frame.is_data(run.response)) {
         on_response(run, captured, index);
       }
@@ -143,8 +153,14 @@ class Runner {
       const auto object = canopen::sdo_multiplexer(bytes);
       if (object == *run.stale && object != run.object) return;
     }
-    if (!run.client->on_frame(bytes, run.in_flight)) return;
-    run.since = captured.time;
+    if (!run.client->on_frame(bytes, run.in_flight)) {
+      if (run.in_flight > 0) run.overtook = index;
+      return;
+    }
+    run.latest = std::max(Duration(0), captured.time - run.since);
+    run.slowest = std::max(run.slowest, run.latest);
+    run.stretched = false;
+    run.since = std::max(run.since, captured.time);
     ++run.heard;
     run.decisive = index;
   }
@@ -170,6 +186,12 @@ class Runner {
       run.result = run.client->take();
       return {};
     }
+    const bool awaits_an_answer = !run.client->fell_silent() && !run.listens_after;
+    if (awaits_an_answer && !run.stretched && run.patience > run.limit) {
+      run.stretched = true;
+      return {};
+    }
+    if (run.stretched) run.waited_in_vain = run.patience - run.limit;
     run.since = now;
     run.client->on_silence();
     return {};
@@ -194,7 +216,7 @@ Result<void> run_transfers(Recorder& recorder, std::span<SdoRun> runs) {
     if (run.result.kind != Kind::silence) continue;
     detail = run.result.abandoned
                  ? "nothing from the server within " + to_string(run.wait) + " after the client fell silent"
-                 : "no answer within " + to_string(run.limit);
+                 : "no answer within " + to_string(run.limit + run.waited_in_vain);
   }
   return {};
 }

@@ -16,8 +16,9 @@ struct SdoRun {
   canopen::SdoClient* client = nullptr;
   Multiplexer object;
   CanId request, response;
-  Duration limit{};                  ///< how long an answer, or the next segment, may take
-  Duration wait{};                   ///< how long to listen when the client has ended it, or fell silent
+  Duration limit{};     ///< how long an answer, or the next segment, may take
+  Duration patience{};  ///< how long it may take once more than `limit` has passed: nobody knows all devices
+  Duration wait{};      ///< how long to listen when the client has ended it, or fell silent
   bool listens_after = false;        ///< count what still comes when it is over
   std::optional<Multiplexer> stale;  ///< entry whose answer is overdue from an earlier transfer
 
@@ -26,9 +27,13 @@ struct SdoRun {
   std::optional<std::size_t> first_request;  ///< capture index of our first frame
   BusTime last_request{};                    ///< stamp of our last frame
   std::size_t decisive = 0;                  ///< capture index of the frame that ended it
+  Duration slowest{}, latest{};              ///< answers: the slowest, and the latest one
+  Duration waited_in_vain{};                 ///< beyond `limit`
 
   // Of the runner.
-  can::Frame posted{};  ///< the latest
+  bool stretched = false;               ///< `limit` has passed
+  std::optional<std::size_t> overtook;  ///< an answer that came before the echo of what it may answer
+  can::Frame posted{};                  ///< the latest
   bool over = false;
   bool replied = false;
   std::size_t in_flight = 0;  ///< frames handed over whose echo has not come

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The verb `talk`: plays a conversation and shows the first wrong byte where it fails.
 #include <algorithm>
+#include <utility>
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
@@ -72,10 +73,13 @@ class Talk final : public Action {
     if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
     Actual out;
     out.detail = "as written";
+    bool asks = false;
     for (const auto& line : lines_) {
+      const bool asked = std::exchange(asks, line.kind == Line::Kind::send);
       if (line.kind == Line::Kind::send) {
         auto frame = build_frame(line, session, *object);
         if (!frame) return std::unexpected(frame.error());
+        if (!asked) session.next_request();
         auto sent = session.send(*frame);
         if (!sent) return std::unexpected(sent.error());
         continue;
@@ -152,14 +156,16 @@ class Talk final : public Action {
   /// absent.
   static Result<std::optional<std::size_t>> next(Session& session, const Line& line) {
     const auto id = line.can_id(session.node());
+    const auto matches = [id](const can::CapturedFrame& captured) {
+      return captured.direction == can::Direction::received && !captured.frame.error &&
+             captured.frame.id == id.value();
+    };
+    if (id == canopen::connection_set(session.node()).sdo_response) {
+      const bool own_time = line.time.has_value();
+      return session.find_answer(matches, own_time ? std::optional(time_of(session, line)) : std::nullopt);
+    }
     const auto window = session.window();
-    return session.find_frame(
-        window.first,
-        [id](const can::CapturedFrame& captured) {
-          return captured.direction == can::Direction::received && !captured.frame.error &&
-                 captured.frame.id == id.value();
-        },
-        window.anchor + time_of(session, line));
+    return session.find_frame(window.first, matches, window.anchor + time_of(session, line));
   }
 
   /// Downloads hidden in the frames change the device like any other: their old values are noted before the

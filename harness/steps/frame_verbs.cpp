@@ -302,6 +302,9 @@ class Silence final : public Action {
     } else if (time) {
       if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
     }
+    if (const auto delay = fields.optional("delay")) {
+      if (auto parsed = parse_time_at(delay)) out->delay_ = *parsed;
+    }
     parse_after(fields, context, out->after_);
     return of && time ? std::move(out) : nullptr;
   }
@@ -323,6 +326,7 @@ class Silence final : public Action {
       if (!match) return std::unexpected(match.error());
       matches.push_back(*match);
     }
+    const auto begin = window->anchor + delay_.resolve(session.profile());
     auto time = time_.resolve(session.profile());
     if (!until_.empty()) {
       const auto end = session.window_after(until_);
@@ -331,8 +335,9 @@ class Silence final : public Action {
     }
     auto found = session.find_frame(
         window->first,
-        [&matches](const auto& captured) {
-          return std::ranges::any_of(matches, [&](const auto& match) { return match(captured); });
+        [&matches, begin](const auto& captured) {
+          return captured.time >= begin &&
+                 std::ranges::any_of(matches, [&](const auto& match) { return match(captured); });
         },
         window->anchor + time);
     if (!found) return std::unexpected(found.error());
@@ -351,7 +356,7 @@ class Silence final : public Action {
 
  private:
   std::vector<Source> sources_;
-  TimeReference time_;
+  TimeReference time_, delay_;
   std::string after_, until_;
 };
 
@@ -517,7 +522,7 @@ constexpr Verb table[] = {
      "- frame: {id: 6A0h, within: 2 s}\n  checks: OD-1014-07", &AwaitFrame::parse},
     {"silence", "No frame may come.",
      "of: CAN-ID or service, or a list of them\nfor: how long\nuntil: instead of for, a label that "
-     "was reached\nafter: label to count from",
+     "was reached\nafter: label to count from\ndelay: what comes within this time is not held against the device",
      "- silence: {of: [emcy, 6A0h], for: 1 s}\n  checks: OD-1014-08", &Silence::parse},
     {"collect", "Count and time frames.",
      "from: CAN-ID or service\nfor: how long; with per: how long after the last frame that was sent\nper: sync or a CAN-ID: frames are "

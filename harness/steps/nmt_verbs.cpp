@@ -81,6 +81,7 @@ class Reset final : public Action {
     return "NMT " + std::string(canopen::to_string(command_)) + " and wait for the boot-up message";
   }
   Channels rests_on() const override { return {channel::boot_up}; }
+  bool label_is_on_request() const override { return false; }
   Result<Actual> run(Session& session) const override {
     auto sent = session.nmt(command_);
     if (!sent) return std::unexpected(sent.error());

@@ -60,6 +60,7 @@ class Noise final : public Action {
       auto waited = session.wait_until(session.now() + every_->resolve(session.profile()));
       if (!waited) return std::unexpected(waited.error());
     }
+    session.sdo_answer_may_be_late();
     Actual out;
     out.decisive = sent_frame(session, begin);
     return out;

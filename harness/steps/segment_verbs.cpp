@@ -109,15 +109,14 @@ class Segments final : public Action {
   /// The answer to one request; nullopt when the transfer ended (silence or abort, then noted in `out`).
   static Answer exchange(Session& session, const canopen::SdoBytes& request, Actual& out) {
     const auto set = canopen::connection_set(session.node());
-    const auto begin = session.capture().size();
+    session.next_request();
     auto sent = session.send(can::data_frame(set.sdo_request, request));
     if (!sent) return std::unexpected(sent.error());
-    auto found = session.find_frame(
-        begin,
+    auto found = session.find_answer(
         [id = set.sdo_response](const can::CapturedFrame& captured) {
           return captured.direction == can::Direction::received && captured.frame.is_data(id);
         },
-        session.window().anchor + session.profile().sdo_timeout);
+        std::nullopt);
     if (!found) return std::unexpected(found.error());
     if (!*found) {
       out.kind = Actual::Kind::silence;

@@ -103,6 +103,12 @@ class Session : public Facts {
   /// Looks at what is recorded, then receives. nullopt: the deadline passed on the bus.
   [[nodiscard]] virtual Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match,
                                                                       BusTime deadline) = 0;
+  /// What is sent next is a new request: nothing that was on the bus before it is its answer.
+  virtual void next_request() = 0;
+  /// The next frame of the SDO server's channel that matches and may answer what was sent since the last
+  /// next_request(). `within` counts from the last frame sent; absent: T_SDO. nullopt: none came.
+  [[nodiscard]] virtual Result<std::optional<std::size_t>> find_answer(const Match& match,
+                                                                       std::optional<Duration> within) = 0;
   /// Receives until `until` without looking for anything.
   [[nodiscard]] virtual Result<void> wait_until(BusTime until) = 0;
 

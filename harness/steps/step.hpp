@@ -34,6 +34,8 @@ class Action {
   [[nodiscard]] virtual Result<bool> begins(Session& /*session*/) const { return false; }
   /// Whether it sends something to the device (and so begins a new window for the steps that wait).
   [[nodiscard]] virtual bool acts() const { return true; }
+  /// Where its label (`as`) sits: on what it sent, or on what it waited for.
+  [[nodiscard]] virtual bool label_is_on_request() const { return acts(); }
   /// Whether it cannot change anything: waits, and SDO uploads from the device under test. The tier
   /// `read-only` rests on it.
   [[nodiscard]] virtual bool reads_only() const { return !acts(); }

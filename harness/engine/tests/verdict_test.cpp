@@ -98,7 +98,7 @@ TEST_CASE("silence of a device that is alive is a failure") {
         checks: T-MUST
 )");
   CHECK(out.verdict_of("T-MUST") == Verdict::fail);
-  CHECK(out.only().judgements.front().findings.front().actual == "no answer within 1 s");
+  CHECK(out.only().judgements.front().findings.front().actual == "no answer within 3 s");
 }
 
 TEST_CASE("a condition that does not hold makes the case not applicable, with the words as the reason") {

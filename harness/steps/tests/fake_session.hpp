@@ -111,6 +111,11 @@ class FakeSession final : public Session {
     }
     return std::optional<std::size_t>();
   }
+  void next_request() override {}
+  [[nodiscard]] Result<std::optional<std::size_t>> find_answer(const Match& match,
+                                                               std::optional<Duration> within) override {
+    return find_frame(used_, match, BusTime() + within.value_or(device_profile.sdo_timeout));
+  }
   [[nodiscard]] Result<void> wait_until(BusTime until) override {
     time = until;
     return {};
