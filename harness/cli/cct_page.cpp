@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/text.hpp"
 #include "cli/cct_cases.hpp"
@@ -27,6 +28,29 @@ std::string by_file(const std::map<std::string, Names>& files) {
   return out;
 }
 
+/// Cases that some scenario names by itself.
+std::set<std::string> marked_cases(const scenario::Suite& suite) {
+  std::set<std::string> out;
+  for (const auto& file : suite.files) {
+    for (const auto& each : file.scenarios) out.insert(each.cct.begin(), each.cct.end());
+  }
+  return out;
+}
+
+/// What a scenario names, and what its rules name and no scenario does.
+std::set<std::string> cases_of(const scenario::Scenario& each, const scenario::Catalogue& catalogue,
+                               const std::set<std::string>& marked) {
+  std::set<std::string> out(each.cct.begin(), each.cct.end());
+  for (const auto& id : each.requirements) {
+    const auto* rule = catalogue.find(id);
+    if (rule == nullptr) continue;
+    for (const auto& number : rule->cct) {
+      if (!marked.contains(number)) out.insert(number);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string cct_page(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
@@ -34,12 +58,14 @@ std::string cct_page(const scenario::Suite& suite, const scenario::Catalogue& ca
   std::map<std::string, Names, std::less<>> scenarios, rules;
   std::map<std::string, Names> ours_alone;
   std::size_t alone = 0, chosen = 0;
+  const auto marked = marked_cases(suite);
   for (const auto& file : suite.files) {
     for (const auto& each : file.scenarios) {
       if (!selection.takes(each, "", catalogue)) continue;
       ++chosen;
-      for (const auto& number : each.cct) scenarios[number].push_back(each.id);
-      if (!each.cct.empty()) continue;
+      const auto numbers = cases_of(each, catalogue, marked);
+      for (const auto& number : numbers) scenarios[number].push_back(each.id);
+      if (!numbers.empty()) continue;
       ++alone;
       ours_alone[each.suite].push_back(each.id.substr(std::min(each.id.size(), each.suite.size() + 1)));
     }

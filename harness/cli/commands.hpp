@@ -121,7 +121,7 @@ struct ListCommand {
 [[nodiscard]] int list_command(const ListCommand& options);
 
 struct ExplainCommand {
-  std::string topic;
+  std::vector<std::string> topics;
   bool markdown = false;  ///< of verbs: the page docs/verbs.md
   std::string suites;
 };

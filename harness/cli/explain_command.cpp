@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `explain`: a requirement, a scenario, a monitor, a verb, a defect, a variant, or the words conditions are
-// made of.
+// `explain`: requirements, scenarios, monitors, verbs, defects, variants, the words conditions are made of,
+// and what each tier may send.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ std::string requirement_lines(const auto& ids, const scenario::Catalogue& catalo
 std::string explain_scenario(const scenario::Scenario& each, const scenario::Catalogue& catalogue) {
   auto out = fmt::format("{}: {}\n\n", each.id, each.title);
   out += paragraph("about", each.about);
-  out += paragraph("risk", std::string(to_string(each.risk)));
+  out += paragraph("risk", std::string(steps::word_of(each.risk)));
   out += paragraph("when", each.when ? each.when->text() : "");
   out += paragraph("slow", each.slow ? "takes long on a real bus: run with --slow" : "");
   out += paragraph("CCT", join(each.cct, ", "));
@@ -179,14 +179,68 @@ std::string word_list() {
   return out;
 }
 
+std::string verb_list() {
+  std::string out;
+  for (const auto& verb : steps::verbs()) out += fmt::format("  {:14} {}\n", verb.name, verb.summary);
+  return out + fmt::format("  {:14} {}\n", over.name, over.summary);
+}
+
+std::string condition_list() {
+  std::string out = "Conditions (when, unless, require) are made of\n";
+  for (const auto form : steps::condition_forms()) out += "  " + std::string(form) + "\n";
+  return out;
+}
+
+std::string tier_list() {
+  std::string out =
+      "What a run may send, by --allow; each tier includes those above it. N is the node-ID of the device.\n";
+  for (const auto& row : steps::tier_table())
+    out += fmt::format("  {:9}  {}\n", steps::word_of(row.tier), row.sends);
+  return out + fmt::format("  {:9}  {}\n", "never", steps::never_sent());
+}
+
+/// Empty: nothing is known about it; `known` then holds the names there are.
+std::string explain_one(const std::string& topic, const LoadedSuites& suites,
+                        std::vector<std::string>& known) {
+  if (topic == "coverage") return coverage_summary(coverage(suites));
+  if (const auto* requirement = suites.catalogue.find(topic))
+    return explain_requirement(*requirement, suites);
+  if (const auto* verb = steps::find_verb(topic)) return explain_verb(*verb);
+  if (topic == over.name) return explain_verb(over);
+  if (topic == "verbs") return verb_list();
+  if (topic == "conditions") return condition_list();
+  if (topic == "tiers") return tier_list();
+  if (const auto* defect = refnode::find_defect(topic)) return explain_defect(*defect, suites.catalogue);
+  if (const auto* variant = refnode::find_variant(topic)) return explain_variant(*variant, suites.catalogue);
+  for (const auto id : suites.catalogue.ids()) known.emplace_back(id);
+  // An instance of a case, "upper-bits[1400h:01]", is explained by its scenario.
+  const auto name = topic.substr(0, topic.find('['));
+  for (const auto& file : suites.suite.files) {
+    for (const auto& each : file.scenarios) {
+      if (each.id == name) return explain_scenario(each, suites.catalogue);
+      known.push_back(each.id);
+    }
+  }
+  for (const auto& rule : monitor::rules()) {
+    if (monitor::case_id(rule) == topic || rule.name == topic) return explain_monitor(rule, suites.catalogue);
+    known.push_back(monitor::case_id(rule));
+  }
+  for (const auto& verb : steps::verbs()) known.emplace_back(verb.name);
+  for (const auto& defect : refnode::defects()) known.emplace_back(defect.id);
+  for (const auto& variant : refnode::variants()) known.emplace_back(variant.id);
+  return {};
+}
+
 }  // namespace
 
 int explain_command(const ExplainCommand& options) {
-  const bool about_coverage = options.topic == "coverage";
-  if (options.markdown && options.topic != "verbs" && !about_coverage) {
+  const auto asked_for = [&options](std::string_view topic) {
+    return options.topics.size() == 1 && options.topics.front() == topic;
+  };
+  if (options.markdown && !asked_for("verbs") && !asked_for("coverage")) {
     return report_error({"--markdown goes with 'verbs' and 'coverage' only", {}, {}}, exit_usage);
   }
-  if ((options.markdown && !about_coverage) || options.topic == "words") {
+  if ((options.markdown && asked_for("verbs")) || asked_for("words")) {
     print(options.markdown ? verbs_page() : word_list());
     return 0;
   }
@@ -194,76 +248,31 @@ int explain_command(const ExplainCommand& options) {
   if (!root) return report_error(root.error(), exit_usage);
   auto suites = load_suites(*root, use_colour("auto", 2));
   if (!suites) return report_error(suites.error(), exit_usage);
-  if (about_coverage) {
-    const auto rules = coverage(*suites);
-    print(options.markdown ? coverage_page(rules) : coverage_summary(rules));
+  if (options.markdown) {
+    print(coverage_page(coverage(*suites)));
     return 0;
   }
-  if (const auto* requirement = suites->catalogue.find(options.topic)) {
-    print(explain_requirement(*requirement, *suites));
-    return 0;
-  }
-  if (const auto* verb = steps::find_verb(options.topic)) {
-    print(explain_verb(*verb));
-    return 0;
-  }
-  if (options.topic == over.name) {
-    print(explain_verb(over));
-    return 0;
-  }
-  if (options.topic == "verbs") {
-    std::string out;
-    for (const auto& verb : steps::verbs()) out += fmt::format("  {:14} {}\n", verb.name, verb.summary);
-    out += fmt::format("  {:14} {}\n", over.name, over.summary);
-    print(out);
-    return 0;
-  }
-  if (options.topic == "conditions") {
-    std::string out = "Conditions (when, unless, require) are made of\n";
-    for (const auto form : steps::condition_forms()) out += "  " + std::string(form) + "\n";
-    print(out);
-    return 0;
-  }
-  if (const auto* defect = refnode::find_defect(options.topic)) {
-    print(explain_defect(*defect, suites->catalogue));
-    return 0;
-  }
-  if (const auto* variant = refnode::find_variant(options.topic)) {
-    print(explain_variant(*variant, suites->catalogue));
-    return 0;
-  }
-  auto known = suites->catalogue.ids();
-  // An instance of a case, "upper-bits[1400h:01]", is explained by its scenario.
-  const auto name = options.topic.substr(0, options.topic.find('['));
-  for (const auto& file : suites->suite.files) {
-    for (const auto& each : file.scenarios) {
-      if (each.id == name) {
-        print(explain_scenario(each, suites->catalogue));
-        return 0;
-      }
-      known.push_back(each.id);
+  // What is known is printed, whatever else was mistyped.
+  int code = 0;
+  bool first = true;
+  for (const auto& topic : options.topics) {
+    std::vector<std::string> known;
+    const auto text = explain_one(topic, *suites, known);
+    if (!text.empty()) {
+      print((first ? "" : "\n") + text);
+      first = false;
+      continue;
     }
+    const auto near = did_you_mean(topic, std::vector<std::string_view>(known.begin(), known.end()));
+    code = report_error(
+        {"nothing is known about '" + topic + "'",
+         {},
+         near.empty()
+             ? "a requirement, scenario, monitor, verb, defect or variant; or 'verbs', 'conditions', 'tiers', 'coverage'"
+             : "did you mean '" + std::string(near) + "'?"},
+        exit_usage);
   }
-  std::vector<std::string> monitors;
-  for (const auto& rule : monitor::rules()) {
-    if (monitor::case_id(rule) == options.topic || rule.name == options.topic) {
-      print(explain_monitor(rule, suites->catalogue));
-      return 0;
-    }
-    monitors.push_back(monitor::case_id(rule));
-  }
-  known.insert(known.end(), monitors.begin(), monitors.end());
-  for (const auto& verb : steps::verbs()) known.push_back(verb.name);
-  for (const auto& defect : refnode::defects()) known.emplace_back(defect.id);
-  for (const auto& variant : refnode::variants()) known.emplace_back(variant.id);
-  const auto near = did_you_mean(options.topic, known);
-  return report_error(
-      {"nothing is known about '" + options.topic + "'",
-       {},
-       near.empty()
-           ? "a requirement, scenario, monitor, verb, defect or variant; or 'verbs', 'conditions', 'coverage'"
-           : "did you mean '" + std::string(near) + "'?"},
-      exit_usage);
+  return code;
 }
 
 }  // namespace conform::cli

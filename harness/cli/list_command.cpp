@@ -35,7 +35,7 @@ int list_command(const ListCommand& options) {
       if (!heading) out += fmt::format("{}{}\n", out.empty() ? "" : "\n", file.title);
       heading = true;
       ++shown;
-      out += fmt::format("  {}  [{}]\n      {}\n      {}\n", each.id, to_string(each.risk), each.title,
+      out += fmt::format("  {}  [{}]\n      {}\n      {}\n", each.id, steps::word_of(each.risk), each.title,
                          join(each.requirements, ", "));
       if (!each.cct.empty()) out += "      CCT " + join(each.cct, ", ") + "\n";
     }

@@ -250,10 +250,10 @@ int dispatch(int argc, char** argv) {
   ExplainCommand explain;
   auto* explain_sub = app.add_subcommand(
       "explain",
-      "Explain a requirement, scenario, monitor, verb, defect or variant; list verbs, conditions or coverage");
+      "Explain requirements, scenarios, monitors, verbs, defects or variants; list verbs, conditions, tiers or coverage");
   explain_sub
-      ->add_option("topic", explain.topic,
-                   "An id such as OD-1003-06, a verb such as download, or: verbs, conditions, coverage")
+      ->add_option("topic", explain.topics,
+                   "Ids such as OD-1003-06, verbs such as download, or: verbs, conditions, tiers, coverage")
       ->required()
       ->type_name("TOPIC");
   explain_sub->add_flag("--markdown", explain.markdown,

@@ -112,7 +112,7 @@ void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Moni
     const char* what = !planned.held_back.empty()        ? "held back"
                        : !planned.not_applicable.empty() ? "not appl."
                                                          : "would run";
-    out += fmt::format("{:9}  {:9}  {}  {}\n", what, to_string(planned.scenario->risk), result.name(),
+    out += fmt::format("{:9}  {:9}  {}  {}\n", what, steps::word_of(planned.scenario->risk), result.name(),
                        join(result.requirements, ", "));
   }
   for (const auto* rule : monitors) {
@@ -194,7 +194,7 @@ int run(const RunCommand& options, RunReports& reports) {
   const bool is_virtual = options.simulate || (transport != nullptr && transport->info().is_virtual);
   run_options.plan.allowed = is_virtual ? scenario::Risk::motion : scenario::Risk::read_only;
   if (!options.allow.empty()) {
-    const auto risk = scenario::parse_risk(options.allow);
+    const auto risk = steps::parse_tier(options.allow);
     if (!risk)
       return refuse({"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"},
                     exit_usage);
@@ -224,7 +224,7 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.add("suite.digest", suite_digest(*root));
   if (known->description) facts.add("dut.description", known->description->name);
   facts.add("run.seed", std::to_string(options.seed));
-  facts.add("run.allowed", std::string(to_string(run_options.plan.allowed)));
+  facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));
   if (transport != nullptr) {
     const auto info = transport->info();
     facts.add("can.interface", info.name);

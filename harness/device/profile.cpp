@@ -102,20 +102,30 @@ Dictionary dictionary_of(const Profile& profile) {
     added.claimed = true;
     dictionary.add(at_node(added, profile.node));
   }
+  for (const Entry& listed : profile.objects) {
+    if (listed.mux.index.value() >= 0x2000) dictionary.find(listed.mux)->open_to_writes = false;
+  }
   for (const Multiplexer mux : profile.safe_objects) {
-    if (Entry* entry = dictionary.find(mux)) entry->safe = !profile.is_untouchable(mux);
+    Entry* entry = dictionary.find(mux);
+    if (entry == nullptr) continue;
+    entry->open_to_writes = true;
+    entry->safe = entry->writable() && !profile.is_untouchable(mux);
   }
   if (profile.writes_described) {
     for (const Entry& listed : profile.objects) {
       Entry* entry = dictionary.find(listed.mux);
       const auto index = listed.mux.index.value();
-      if (!entry->declared_at.empty() && index >= 0x2000 && index <= 0x9FFF)
-        entry->safe = entry->writable() && !entry->access_open && !entry->command &&
-                      !profile.is_untouchable(listed.mux);
+      if (entry->declared_at.empty() || index < 0x2000 || index > 0x9FFF) continue;
+      entry->open_to_writes = !entry->command;
+      entry->safe =
+          entry->writable() && !entry->access_open && !entry->command && !profile.is_untouchable(listed.mux);
     }
   }
   for (const Multiplexer mux : profile.untouchable) {
-    if (Entry* entry = dictionary.find(mux)) entry->untouchable = true;
+    if (Entry* entry = dictionary.find(mux)) {
+      entry->untouchable = true;
+      entry->open_to_writes = false;
+    }
   }
   return dictionary;
 }

@@ -53,6 +53,7 @@ class Run {
         restarts_(facts_of(profile)) {
     session_.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder_.set_observer(*options.observer);
+    session_.allow(options.plan.allowed);
   }
 
   result::RunResult execute() {
@@ -143,6 +144,13 @@ class Run {
       out_.notes.push_back("requests for " + join(names, ", ") + " are not answered");
     }
     if (auto alone = note_restarts(); !alone) return alone;
+    const bool told_how =
+        std::ranges::any_of(profile_.errors, [](const auto& error) { return error.raise.has_value(); });
+    if (may(scenario::Risk::config) && !may(scenario::Risk::motion) && !told_how) {
+      out_.notes.push_back(
+          "no error was raised: the device profile tells no way (errors:), and the heartbeat of another node that stays "
+          "away needs --allow motion");
+    }
     auto properties = device_properties(session_);
     if (!properties) return std::unexpected(properties.error());
     out_.properties = std::move(*properties);

@@ -70,9 +70,9 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
       for (auto& planned : expand(scenario, dictionary, options)) {
         if (!options.selection.takes(scenario, planned.instance, catalogue)) continue;
         if (scenario.risk > options.allowed) {
-          planned.held_back = "held back: risk '" + std::string(to_string(scenario.risk)) +
+          planned.held_back = "held back: risk '" + std::string(steps::word_of(scenario.risk)) +
                               "' is not allowed in this run (--allow " +
-                              std::string(to_string(scenario.risk)) + ")";
+                              std::string(steps::word_of(scenario.risk)) + ")";
         }
         if (scenario.slow && !options.slow && planned.held_back.empty()) {
           planned.held_back = "held back: takes long on a real bus (--slow)";

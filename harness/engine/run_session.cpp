@@ -13,21 +13,6 @@ namespace conform::engine {
 namespace {
 constexpr Multiplexer emcy_entry{Index(0x1014), SubIndex(0)};
 
-/// Whether an SDO request may change something: downloads, expedited, segmented or by block. Commands that
-/// nothing defines change nothing in a server that heeds the standard, nor do frames too short to hold a
-/// request.
-bool is_sdo_write(const can::Frame& frame) {
-  if (frame.size() == 0) return false;
-  const auto specifier = frame.data[0] >> 5U;
-  return specifier == 0 || specifier == 1 || specifier == 6;
-}
-
-/// NMT commands to all nodes or to another one. Node-IDs beyond 127 are nobody's.
-bool commands_others(const can::Frame& frame, NodeId node) {
-  return !frame.extended && !frame.remote && !frame.error && frame.id == 0 && frame.size() >= 2 &&
-         frame.data[1] <= 127 && frame.data[1] != node.value();
-}
-
 /// 101x or 110x: initiate request of a block upload (its block size, no CRC) or download (its size).
 std::array<std::uint8_t, 8> block_initiate(std::uint8_t command, Multiplexer object, std::uint8_t size) {
   return {command,
@@ -52,6 +37,7 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
     : recorder_(recorder),
       profile_(profile),
       dictionary_(std::move(dictionary)),
+      guard_(profile, dictionary_),
       channel_(recorder, profile.node, profile.sdo_timeout, profile.quiet_time),
       others_(profile.node),
       emcy_can_id_(canopen::connection_set(profile.node).emcy),
@@ -172,10 +158,10 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   // The standard leaves rw or const open here: writing back what is there tells, and changes nothing. A
   // command is not tried.
   if (found != nullptr && found->command) return found->writable();
-  if (auto allowed = needs(scenario::Risk::config, "try whether " + to_string(object) + " is writable");
-      !allowed) {
+  if (!guard_.may_write(object)) return false;
+  const auto what = "try whether " + to_string(object) + " is writable";
+  if (auto allowed = guard_.needs({steps::Tier::config, what}); !allowed)
     return std::unexpected(allowed.error());
-  }
   auto value = peek(object);
   if (!value) return std::unexpected(value.error());
   const auto silent = [object] {
@@ -212,7 +198,7 @@ Result<bool> RunSession::offers_block_transfer(bool upload) {
 
 /// An entry that may be written: an access error of another one could not be told from "no block transfer".
 Result<bool> RunSession::try_block_download() {
-  if (auto allowed = needs(scenario::Risk::config, "try a block download"); !allowed)
+  if (auto allowed = guard_.needs({steps::Tier::config, "try a block download"}); !allowed)
     return std::unexpected(allowed.error());
   std::vector<Multiplexer> candidates{{Index(0x1017), SubIndex(0)}, {Index(0x100C), SubIndex(0)}};
   for (const auto& candidate : dictionary_.entries()) {
@@ -270,7 +256,8 @@ std::size_t RunSession::error_triggers() const {
   const auto consumer = present_.find({Index(0x1016), SubIndex(1)});
   const bool consumes = consumer != present_.end() && consumer->second;
   return static_cast<std::size_t>(std::ranges::count_if(
-      profile_.errors, [consumes](const auto& trigger) { return trigger.raise || consumes; }));
+      profile_.errors,
+      [this, consumes](const auto& trigger) { return trigger.raise || (consumes && may_play_nodes()); }));
 }
 
 void RunSession::note_sent(std::size_t index) {
@@ -348,15 +335,8 @@ Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, ca
 
 Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<steps::SdoJob>& jobs) {
   for (const auto& job : jobs) {
-    if (job.channel) {
-      // Which node listens there is not known.
-      if (auto allowed = needs(scenario::Risk::config, "use other SDO channels than the default one");
-          !allowed)
-        return std::unexpected(allowed.error());
-    }
+    if (auto allowed = guard_.judge(job); !allowed) return std::unexpected(allowed.error());
     if (job.request.upload) continue;
-    if (auto allowed = needs(scenario::Risk::config, "write to the device"); !allowed)
-      return std::unexpected(allowed.error());
     if (auto noted = will_change(job.request.object); !noted) return std::unexpected(noted.error());
   }
   if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
@@ -387,15 +367,16 @@ std::optional<Bytes> RunSession::before_last_write(Multiplexer object) const {
   return found == before_write_.end() ? std::nullopt : std::optional(found->second);
 }
 
-Result<void> RunSession::needs(scenario::Risk risk, std::string_view what) const {
-  if (risk_ >= risk) return {};
-  return fail("a scenario of risk '" + std::string(to_string(risk_)) + "' must not " + std::string(what),
-              "scenario", "give the scenario 'risk: " + std::string(to_string(risk)) + "'");
+Result<void> RunSession::nmt(canopen::NmtCommand what) {
+  if (auto allowed = guard_.judge(canopen::encode(what, node())); !allowed) return allowed;
+  return command(what);
 }
 
-Result<void> RunSession::nmt(canopen::NmtCommand what) {
-  if (auto allowed = needs(scenario::Risk::config, "send NMT commands"); !allowed) return allowed;
-  return command(what);
+Result<void> RunSession::play_heartbeat(NodeId other, canopen::NmtState state) {
+  if (!may_play_nodes())
+    return fail("the run does not allow to play node " + std::to_string(other.value()), "scenario",
+                "--allow motion, or name an error trigger in the device profile");
+  return send_unguarded(canopen::encode_heartbeat(other, state));
 }
 
 Result<void> RunSession::command(canopen::NmtCommand command) {
@@ -457,19 +438,18 @@ Result<void> RunSession::await_state() {
 }
 
 Result<void> RunSession::produce(steps::Production production) {
+  if (auto allowed = guard_.judge(production.frame); !allowed) return allowed;
   if (auto reached = await_state(); !reached) return reached;
   recorder_.produce(std::move(production));
   return {};
 }
 
 Result<void> RunSession::send(const can::Frame& frame) {
-  const bool reads = frame.is_data(canopen::connection_set(node()).sdo_request) && !is_sdo_write(frame);
-  if (!reads) {
-    if (auto allowed = needs(scenario::Risk::config, "send anything but uploads"); !allowed) return allowed;
-  }
-  if (commands_others(frame, node())) {
-    if (auto allowed = needs(scenario::Risk::motion, "command other nodes"); !allowed) return allowed;
-  }
+  if (auto allowed = guard_.judge(frame); !allowed) return allowed;
+  return send_unguarded(frame);
+}
+
+Result<void> RunSession::send_unguarded(const can::Frame& frame) {
   // A conversation must not take an answer that is late for the answer to its own request.
   if (channel_.expects_late_answers() && frame.is_data(canopen::connection_set(node()).sdo_request)) {
     if (auto idle = channel_.make_idle(); !idle) return idle;
@@ -529,7 +509,7 @@ void RunSession::device_was_reset(bool) {
 }
 
 void RunSession::begin_case(scenario::Risk risk) {
-  risk_ = risk;
+  guard_.begin_case(risk);
   names_.clear();
   labels_.clear();
   journal_.clear();

@@ -15,6 +15,7 @@
 #include "engine/others.hpp"
 #include "engine/recorder.hpp"
 #include "engine/sdo_channel.hpp"
+#include "engine/tier_guard.hpp"
 #include "scenario/scenario.hpp"
 #include "steps/session.hpp"
 #include "steps/step.hpp"
@@ -69,6 +70,8 @@ class RunSession final : public steps::Session {
       const std::vector<steps::SdoJob>& jobs) override;
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer object) const override;
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
+  [[nodiscard]] Result<void> play_heartbeat(NodeId node, canopen::NmtState state) override;
+  [[nodiscard]] bool may_play_nodes() const override { return guard_.run() >= steps::Tier::motion; }
   [[nodiscard]] Result<void> send(const can::Frame& frame) override;
   [[nodiscard]] Result<void> will_change(Multiplexer object) override;
   void sdo_channel_dirty() override { channel_.dirty(false); }
@@ -96,6 +99,8 @@ class RunSession final : public steps::Session {
   void device_was_reset(bool application_too) override;
 
   // For the engine
+  /// The highest tier of this run.
+  void allow(scenario::Risk risk) { guard_.allow(risk); }
   void begin_case(scenario::Risk risk);  ///< forgets names, labels, windows; the journal is empty
   void begin_step(const steps::Step& step);
   void end_step() { at_once_ = false; }
@@ -145,14 +150,15 @@ class RunSession final : public steps::Session {
   /// A frame with the CAN-ID 0 was sent.
   void note_command(std::size_t index);
   [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }
-  /// An error where the risk of the running scenario does not cover what it is about to do.
-  [[nodiscard]] Result<void> needs(scenario::Risk risk, std::string_view what) const;
+  /// send() without asking the guard.
+  [[nodiscard]] Result<void> send_unguarded(const can::Frame& frame);
   [[nodiscard]] Result<bool> try_block_download();
   void watch_emcy(Multiplexer object, const Bytes& value);
 
   Recorder& recorder_;
   device::Profile profile_;  ///< T_SDO and T_QUIET grow with the slowest answer
   device::Dictionary dictionary_;
+  TierGuard guard_;
   SdoChannel channel_;
   Others others_;
   std::map<std::string, steps::Value, std::less<>> names_;
@@ -177,7 +183,6 @@ class RunSession final : public steps::Session {
   std::optional<std::size_t> reset_;  ///< capture index of a reset command that was not looked after yet
   bool silence_seen_ = false;
   bool stopped_ = false;
-  scenario::Risk risk_ = scenario::Risk::read_only;
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;
   CanId home_emcy_can_id_;  ///< after a reset

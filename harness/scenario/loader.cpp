@@ -189,17 +189,19 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
     }
   }
 
-  if (out.risk == Risk::read_only) {
-    const steps::Step* change = steps::first_change(out.steps);
-    if (change == nullptr) change = steps::first_change(out.cleanup);
-    if (change != nullptr) {
-      context.diagnostics.error(change->position, change->length,
-                                "a read-only scenario may only upload from the device, and wait",
-                                "add risk: config to the scenario, or nvm or motion");
-    } else if (out.when && out.when->may_write()) {
-      item.error("the condition of a read-only scenario may write: '" + out.when->text() + "'",
-                 "add risk: config");
-    }
+  auto excess = steps::first_beyond(out.steps, out.risk);
+  if (!excess) excess = steps::first_beyond(out.cleanup, out.risk);
+  if (excess) {
+    const auto tier = std::string(steps::word_of(excess->need.tier));
+    context.diagnostics.error(
+        excess->step->position, excess->step->length,
+        out.risk == Risk::read_only ? "a read-only scenario may only upload from the device, and wait"
+                                    : "a scenario of risk '" + std::string(steps::word_of(out.risk)) +
+                                          "' must not " + std::string(excess->need.what),
+        "give the scenario 'risk: " + tier + "'; 'canopen-conform explain tiers' says what may be sent when");
+  } else if (out.risk == Risk::read_only && out.when && out.when->may_write()) {
+    item.error("the condition of a read-only scenario may write: '" + out.when->text() + "'",
+               "add risk: config");
   }
   collect_channels(out.steps, out.rests_on);
   // What judges a channel cannot rest on it, nor on one that is judged behind it.

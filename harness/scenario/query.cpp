@@ -98,6 +98,7 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
        }},
       {"integer", [](const Entry& e) { return canopen::is_integer(e.type); }},
       {"safe", [](const Entry& e) { return e.safe; }},
+      {"open to writes", [](const Entry& e) { return e.open_to_writes; }},
       {"fixed size", [](const Entry& e) { return e.size().has_value(); }},
       {"changing", [](const Entry& e) { return e.may_change; }},
       {"open access", [](const Entry& e) { return e.access_open; }},

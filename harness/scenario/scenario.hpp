@@ -14,10 +14,8 @@
 
 namespace conform::scenario {
 
-/// How much harm a scenario may do, in rising order; a run allows everything up to one tier.
-enum class Risk : std::uint8_t { read_only, config, nvm, motion };
-[[nodiscard]] std::string_view to_string(Risk risk);
-[[nodiscard]] std::optional<Risk> parse_risk(std::string_view word);
+/// The tier of a scenario.
+using Risk = steps::Tier;
 
 /// The state a scenario needs beyond the usual baseline.
 enum class Fresh : std::uint8_t { none, communication, node };

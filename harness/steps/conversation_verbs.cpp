@@ -40,18 +40,16 @@ class Talk final : public Action {
     return std::ranges::any_of(lines_, [](const Line& line) { return line.kind == Line::Kind::send; });
   }
 
-  /// Requests of uploads (initiate, segment, block) and aborts on the device's own request channel, and
-  /// nothing else.
-  bool reads_only() const override {
-    return std::ranges::all_of(lines_, [](const Line& line) {
-      if (line.kind != Line::Kind::send) return true;
-      if (line.id != 0x600 || !line.add_node || line.remote || line.extended || line.bytes.empty())
-        return false;
-      const auto& first = line.bytes.front();
-      if (first.kind != BytePattern::Kind::exact || first.mask != 0xFF) return false;
-      const auto command = first.value & 0xE0U;
-      return command == 0x40 || command == 0x60 || command == 0x80 || command == 0xA0;
-    });
+  /// What the lines to send need, as far as they are written out.
+  Need need() const override {
+    Need most;
+    for (const auto& line : lines_) {
+      if (line.kind != Line::Kind::send) continue;
+      // Without a node-ID of its own the line is meant for another node, whatever its number.
+      const NodeId node(line.add_node ? 1 : 127);
+      if (const auto need = need_of(outline(line, node), node); !need.covered_by(most.tier)) most = need;
+    }
+    return most;
   }
 
   Result<bool> begins(Session& session) const override {
@@ -139,6 +137,32 @@ class Talk final : public Action {
         }
       }
     }
+  }
+
+  /// The frame of a line with 00 for what is not known yet; a command that is not known counts as a write.
+  can::Frame outline(const Line& line, NodeId node) const {
+    Bytes bytes;
+    for (const auto& pattern : line.bytes) {
+      if (pattern.kind == BytePattern::Kind::multiplexer) {
+        const auto object = object_ ? object_->literal() : std::nullopt;
+        const auto index = to_le(object ? object->index.value() : 0U, 2);
+        bytes.insert(bytes.end(), index.begin(), index.end());
+        bytes.push_back(object ? object->sub.value() : std::uint8_t{0});
+      } else {
+        const auto width = pattern.width().value_or(bytes.size() < 8 ? 8 - bytes.size() : 0);
+        const bool known = pattern.kind == BytePattern::Kind::exact;
+        const auto byte = pattern.kind == BytePattern::Kind::node ? node.value()
+                          : known                                 ? pattern.value
+                                                                  : std::uint8_t{0};
+        bytes.insert(bytes.end(), width, byte);
+      }
+    }
+    bytes.resize(std::min<std::size_t>(bytes.size(), 8));
+    auto frame = can::data_frame(line.can_id(node), bytes);
+    frame.remote = line.remote;
+    frame.extended = line.extended;
+    if (line.dlc) frame.dlc = *line.dlc;
+    return frame;
   }
 
   Result<std::optional<Multiplexer>> resolve(Session& session) const {

@@ -44,7 +44,7 @@ Result<std::vector<device::ErrorTrigger>> usable_triggers(Session& session) {
   if (!consumes) return std::unexpected(consumes.error());
   std::vector<device::ErrorTrigger> out;
   for (const auto& trigger : session.profile().errors) {
-    if (trigger.raise || *consumes) out.push_back(trigger);
+    if (trigger.raise || (*consumes && session.may_play_nodes())) out.push_back(trigger);
   }
   return out;
 }
@@ -94,7 +94,7 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
   }
   delay = 2 * time;
   if (!set || set->kind != Actual::Kind::matched) return set;
-  auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
+  auto sent = session.play_heartbeat(node, canopen::NmtState::operational);
   if (!sent) return std::unexpected(sent.error());
   // What comes next may count on the usual time.
   if (time > heartbeat_time) {
@@ -107,7 +107,7 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
 Result<Actual> clear(Session& session, const device::ErrorTrigger& trigger) {
   if (trigger.clear) return write(session, trigger.clear->object, trigger.clear->bytes);
   const auto node = missed_node(session, trigger);
-  auto sent = session.send(canopen::encode_heartbeat(node, canopen::NmtState::operational));
+  auto sent = session.play_heartbeat(node, canopen::NmtState::operational);
   if (!sent) return std::unexpected(sent.error());
   // The heartbeat is back; give the device its loop time to notice, then switch the consumer off again.
   auto waited = session.wait_until(session.now() + 20ms);

@@ -17,7 +17,9 @@ class Require final : public Action {
     out->condition_ = *condition;
     return out;
   }
-  bool reads_only() const override { return !condition_.may_write(); }
+  Need need() const override {
+    return condition_.may_write() ? Need{Tier::config, "try what a condition asks for"} : Need{};
+  }
   std::vector<ObjectReference> concerns() const override { return condition_.objects(); }
   std::string words(Session&) const override { return "require " + condition_.text(); }
   Result<Actual> run(Session& session) const override {

@@ -177,6 +177,26 @@ class Send final : public Action {
     if (const auto dlc = fields.optional("dlc")) out->dlc_ = dlc.number(0, 15);
     return id && out->data_.size() <= 8 ? std::move(out) : nullptr;
   }
+  Need need() const override {
+    const Need unknown{Tier::config, "send anything but uploads"};
+    // A node-ID that no scenario writes out: an id without N is meant for another node.
+    constexpr NodeId node(99);
+    struct Nothing final : Scope {
+      [[nodiscard]] const Value* find(std::string_view) const override { return nullptr; }
+      [[nodiscard]] NodeId node() const override { return NodeId(99); }
+      [[nodiscard]] Result<Value> current() override { return fail("not known before the run"); }
+      [[nodiscard]] Result<Value> read(Multiplexer) override { return fail("not known before the run"); }
+    } nothing;
+    const auto id = id_.number(nothing);
+    if (!id || (!named_data_.empty() && (*id == 0 || *id == 0x600U + node.value()))) return unknown;
+    auto frame = can::data_frame(CanId(static_cast<std::uint32_t>(*id)), data_);
+    frame.remote = remote_;
+    frame.extended = extended_ || *id > 0x7FF;
+    if (dlc_) frame.dlc = static_cast<std::uint8_t>(*dlc_);
+    // The node-ID in the data of a command is only known when it runs.
+    if (frame.id == 0 && !frame.remote && !frame.extended && frame.dlc == 2) return unknown;
+    return need_of(frame, node);
+  }
   std::string words(Session& session) const override {
     const auto frame = build(session);
     return "send " + (frame ? frame_words({*frame, {}, {}, {}}) : id_.text());

@@ -31,6 +31,13 @@ class Interleave final : public Action {
     return "at the same time: " + join(parts, "; ");
   }
   const ObjectReference* object() const override { return &transfers_.front().object(); }
+  Need need() const override {
+    Need most;
+    for (const auto& transfer : transfers_) {
+      if (const auto need = transfer.need(); !need.covered_by(most.tier)) most = need;
+    }
+    return most;
+  }
 
   Measures measures() const override { return {"count"}; }
   Channels rests_on() const override {

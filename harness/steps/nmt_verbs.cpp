@@ -54,6 +54,10 @@ class Nmt final : public Action {
     const bool resets = command_ == NmtCommand::reset_node || command_ == NmtCommand::reset_communication;
     return {resets ? channel::boot_up : channel::nmt_commands};
   }
+  Need need() const override {
+    // The node-ID makes no difference: the command goes to the device under test.
+    return need_of(canopen::encode(command_, NodeId(1)), NodeId(1));
+  }
   Result<Actual> run(Session& session) const override {
     const auto index = session.capture().size();
     auto sent = session.nmt(command_);
@@ -159,6 +163,7 @@ class Produce final : public Action {
     context.know("heartbeat");
     return out->node_ == 0 ? nullptr : std::move(out);
   }
+  Need need() const override { return {Tier::motion, "play other nodes"}; }
   std::string words(Session&) const override {
     return "produce heartbeat of node " + std::to_string(node_) +
            (cyclic_ ? " every " + every_.text() : ", once");

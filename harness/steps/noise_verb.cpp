@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint64_t most_frames = 100'000;
 
 /// Nothing in the frame may write to an entry that exists, not even where a server completes a short frame
-/// from the one before: requests that begin a download are long enough for their multiplexer, and that is in
-/// C0C0h-FFFFh, which CiA 301 (7.4.2) reserves. Both bytes of the index are C0h or more, so that a server
-/// that swaps them errs in the same area.
+/// from the one before: requests that begin a download are long enough for their multiplexer, and that is
+/// below 1000h, where CiA 301 (7.4.2) has data types and reserved indices. Both bytes of the index are below
+/// 10h, so that a server that swaps them errs in the same area.
 can::Frame random_request(std::uint64_t& state, CanId id) {
   const std::uint64_t content = next_random(state);
   const std::uint64_t form = next_random(state);
@@ -25,8 +25,8 @@ can::Frame random_request(std::uint64_t& state, CanId id) {
   const bool download = command == 1 || command == 6;  // initiate, block initiate or end
   if (download) {
     length = std::max<std::size_t>(length, 4);
-    bytes[1] |= 0xC0U;
-    bytes[2] |= 0xC0U;
+    bytes[1] &= 0x0FU;
+    bytes[2] &= 0x0FU;
   }
   bytes.resize(length);
   return can::data_frame(id, bytes);

@@ -334,7 +334,7 @@ class PdoMapping final : public Action {
     return pdo ? std::move(out) : nullptr;
   }
   Measures measures() const override { return {"count", "bits", "absent", "longer", "shorter"}; }
-  bool reads_only() const override { return true; }
+  Need need() const override { return {}; }
   std::vector<ObjectReference> concerns() const override { return {pdo_}; }
   std::string words(Session& session) const override {
     return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);
@@ -386,6 +386,7 @@ class SendSync final : public Action {
     }
     return every ? std::move(out) : nullptr;
   }
+  Need need() const override { return {Tier::motion, "send SYNC"}; }
   std::string words(Session&) const override {
     return count_ ? "send " + std::to_string(*count_) + " SYNC, one every " + every_.text() : "send SYNC";
   }

@@ -334,6 +334,16 @@ Result<Bytes> SdoStep::encode(Session& session, Multiplexer object) const {
   return to_le(*value->number, *size);
 }
 
+Need SdoStep::need() const {
+  if (channel_) return {Tier::motion, "use other SDO channels than the default one"};
+  const bool shortens = std::ranges::any_of(faults_, [](const auto& fault) {
+    return fault.text().starts_with("short") || fault.text().starts_with('$');
+  });
+  if (upload_) return shortens ? Need{Tier::config, "send broken SDO requests"} : Need{};
+  const auto object = object_.literal();
+  return object ? need_of_download(*object) : Need{Tier::config, "write to the device"};
+}
+
 std::string SdoStep::words(Session& session) const {
   const auto object = object_.resolve(session);
   std::string out = (upload_ ? "upload " : "download ") + (object ? to_string(*object) : object_.text());

@@ -39,8 +39,8 @@ class SdoStep {
   static std::optional<SdoStep> parse_download(const yaml::Field& value, ParseContext& context);
 
   [[nodiscard]] bool is_upload() const { return upload_; }
-  /// Whether it is an upload on the default channel.
-  [[nodiscard]] bool reads_only() const { return upload_ && !channel_; }
+  /// The lowest tier it may run at, as far as its words tell.
+  [[nodiscard]] Need need() const;
   [[nodiscard]] const ObjectReference& object() const { return object_; }
   [[nodiscard]] std::string words(Session& session) const;
   [[nodiscard]] Measures measures() const;

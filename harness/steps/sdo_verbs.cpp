@@ -23,7 +23,7 @@ class Transfer final : public Action {
   explicit Transfer(SdoStep step) : step_(std::move(step)) {}
 
   std::string words(Session& session) const override { return step_.words(session); }
-  bool reads_only() const override { return step_.reads_only(); }
+  Need need() const override { return step_.need(); }
   const ObjectReference* object() const override { return &step_.object(); }
   Measures measures() const override { return step_.measures(); }
   Channels rests_on() const override { return step_.rests_on(); }

@@ -41,7 +41,7 @@ class Segments final : public Action {
   Measures measures() const override {
     return {"segments", "wrong_toggles", "difference", "unmarked", "empty_last"};
   }
-  bool reads_only() const override { return true; }
+  Need need() const override { return {}; }
   Channels rests_on() const override { return {channel::segmented_upload}; }
   const ObjectReference* object() const override { return &object_; }
 

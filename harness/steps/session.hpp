@@ -89,6 +89,12 @@ class Session : public Facts {
   /// readable.
   [[nodiscard]] virtual std::optional<Bytes> before_last_write(Multiplexer object) const = 0;
   [[nodiscard]] virtual Result<void> nmt(canopen::NmtCommand command) = 0;
+  /// A heartbeat of a node that is played because an error trigger of the device needs it. Which trigger that
+  /// is, the profile says and not the scenario, so it is the run that must allow it and not the scenario's
+  /// risk.
+  [[nodiscard]] virtual Result<void> play_heartbeat(NodeId node, canopen::NmtState state) = 0;
+  /// Whether the run allows that.
+  [[nodiscard]] virtual bool may_play_nodes() const = 0;
   /// Any frame. A download hidden in it must have been announced with will_change() before.
   [[nodiscard]] virtual Result<void> send(const can::Frame& frame) = 0;
   [[nodiscard]] virtual Result<void> will_change(Multiplexer object) = 0;

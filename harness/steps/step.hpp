@@ -14,6 +14,7 @@
 #include "steps/condition.hpp"
 #include "steps/outcome.hpp"
 #include "steps/session.hpp"
+#include "steps/tier.hpp"
 #include "yaml/node.hpp"
 
 namespace conform::steps {
@@ -36,9 +37,11 @@ class Action {
   [[nodiscard]] virtual bool acts() const { return true; }
   /// Where its label (`as`) sits: on what it sent, or on what it waited for.
   [[nodiscard]] virtual bool label_is_on_request() const { return acts(); }
-  /// Whether it cannot change anything: waits, and SDO uploads from the device under test. The tier
-  /// `read-only` rests on it.
-  [[nodiscard]] virtual bool reads_only() const { return !acts(); }
+  /// The lowest tier it may run at, as far as that can be told before it runs: lint compares it with the risk
+  /// of the scenario. What only the run knows is judged there, frame by frame.
+  [[nodiscard]] virtual Need need() const {
+    return acts() ? Need{Tier::config, "change the device"} : Need{};
+  }
   /// The entry it is about, for `current` and for printing values.
   [[nodiscard]] virtual const ObjectReference* object() const { return nullptr; }
   /// Where object() is none: the entries that it looks at or configures, the one that tells most first. For
@@ -118,9 +121,13 @@ struct Verb {
 /// Reads a list of steps. All mistakes go to the diagnostics; unusable steps are left out.
 [[nodiscard]] std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context);
 
-/// The first step (walks, branches and conditions included) that may change or command something; nullptr
-/// when none.
-[[nodiscard]] const Step* first_change(const std::vector<Step>& list);
+/// A step that needs more than a tier allows.
+struct Excess {
+  const Step* step;
+  Need need;
+};
+/// The first one (walks, branches and conditions included).
+[[nodiscard]] std::optional<Excess> first_beyond(const std::vector<Step>& list, Tier allowed);
 
 /// Ids at `checks`; "$name" stands for a word of the instance's row.
 [[nodiscard]] std::vector<std::string> parse_checks(const yaml::Field& field, const ParseContext& context);

@@ -226,20 +226,23 @@ std::vector<std::string> parse_checks(const yaml::Field& field, const ParseConte
 
 std::span<const std::string_view> common_step_keys() { return common_keys; }
 
-const Step* first_change(const std::vector<Step>& list) {
+std::optional<Excess> first_beyond(const std::vector<Step>& list, Tier allowed) {
   for (const auto& step : list) {
-    if (step.action != nullptr && !step.action->reads_only()) return &step;
+    if (step.action != nullptr) {
+      if (const auto need = step.action->need(); !need.covered_by(allowed)) return Excess{&step, need};
+    }
     for (const auto* condition : {&step.when, &step.unless}) {
-      if (*condition && (*condition)->may_write()) return &step;
+      const Need need{Tier::config, "try what a condition asks for"};
+      if (*condition && (*condition)->may_write() && !need.covered_by(allowed)) return Excess{&step, need};
     }
     if (step.walk) {
-      if (const auto* inner = first_change(step.walk->steps)) return inner;
+      if (const auto inner = first_beyond(step.walk->steps, allowed)) return inner;
     }
     for (const auto& branch : step.branches) {
-      if (const auto* inner = first_change(branch.steps)) return inner;
+      if (const auto inner = first_beyond(branch.steps, allowed)) return inner;
     }
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 std::vector<Step> parse_steps(const yaml::Field& list, ParseContext& context) {

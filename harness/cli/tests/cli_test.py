@@ -323,6 +323,27 @@ class CommandLine(unittest.TestCase):
                 self.assertIn(word, explained, topic)
         self.assertIn("did you mean 'monitor/sdo-toggle'", run("explain", "monitor/sdo-togle").stderr)
 
+    def test_a_case_of_cias_tool_that_only_a_rule_names_has_the_scenarios_of_the_rule(self):
+        page = run("list", "--cct").stdout
+        without = page[page.index("without a scenario here"):]
+        for number, scenario in (("5.1", "cia301/cob-id/defaults/"), ("6.4", "cia301/sync/consumer/period-watched")):
+            self.assertNotRegex(without, rf"\n  {number} ")
+            self.assertRegex(page, rf"\n  {number} .*\n +{scenario}")
+
+    def test_the_table_of_tiers_in_the_documentation_is_that_of_the_program(self):
+        rows = run("explain", "tiers").stdout.splitlines()[1:]
+        with open(os.path.join(SUITES, "../docs/live-devices.md"), encoding="utf-8") as page:
+            lines = page.read()
+        told = [line for line in lines.splitlines() if line.startswith(("| `read-only`", "| `config`", "| `nvm`", "| `motion`", "| never"))]
+        self.assertEqual([line.replace("`", "").strip("| ").split(" | ") for line in told], [row.split(None, 1) for row in rows])
+
+    def test_several_things_are_explained_at_once(self):
+        done = run("explain", "OD-1003-06", "download", "OD-1003-6", "tiers")
+        self.assertEqual(done.returncode, 2)
+        for words in ("7.5.2.4", "Write an entry by SDO", "NMT start"):
+            self.assertIn(words, done.stdout)
+        self.assertIn("did you mean", done.stderr)
+
     def test_the_suites_have_no_mistakes(self):
         done = run("lint")
         self.assertEqual(done.returncode, 0, done.stdout)

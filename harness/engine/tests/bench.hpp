@@ -161,10 +161,16 @@ struct Outcome {
   }
 };
 
+/// Tests write to these application objects; nothing else from 2000h on may be written.
+inline device::Profile writing_profile() {
+  auto profile = device::default_profile(NodeId(1));
+  profile.safe_objects = {{Index(0x2000), SubIndex(0)}, {Index(0x2010), SubIndex(0)}};
+  return profile;
+}
+
 /// Runs `scenarios` against the device with node-ID 1 and short time-outs.
 inline Outcome play(can::SimulatedBus& bus, ScriptedDevice& device, const std::string& scenarios,
-                    RunOptions options = {},
-                    const device::Profile& profile = device::default_profile(NodeId(1))) {
+                    RunOptions options = {}, const device::Profile& profile = writing_profile()) {
   bus.attach(device, "scripted device");
   const auto suite = suite_of(scenarios);
   Outcome out;

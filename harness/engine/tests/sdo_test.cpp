@@ -56,7 +56,7 @@ class SecondServer final : public can::Participant {
 };
 
 std::string steps_of(const std::string& steps) {
-  return "  - id: a\n    title: t\n    risk: config\n    steps:\n" + steps;
+  return "  - id: a\n    title: t\n    risk: motion\n    steps:\n" + steps;
 }
 
 std::size_t requests(const can::Capture& capture, std::uint8_t command) {
@@ -68,7 +68,7 @@ std::size_t requests(const can::Capture& capture, std::uint8_t command) {
 /// A session without a run around it.
 struct Bench {
   can::SimulatedBus bus;
-  device::Profile profile = device::default_profile(NodeId(1));
+  device::Profile profile = writing_profile();
   std::optional<Recorder> recorder;
   std::optional<RunSession> session;
   explicit Bench(const can::SimulatedBus::Options& options = {}) : bus(options) {}
@@ -76,7 +76,7 @@ struct Bench {
     bus.attach(participant, "device");
     recorder.emplace(bus.transport(), nullptr);
     session.emplace(*recorder, profile, device::dictionary_of(profile));
-    session->begin_case(scenario::Risk::config);
+    session->begin_case(scenario::Risk::motion);
   }
 };
 

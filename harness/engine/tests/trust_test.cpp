@@ -251,26 +251,68 @@ TEST_CASE("a conversation does not take a late answer for its own") {
   CHECK(out.verdict_of("T-OTHER") == Verdict::pass);
 }
 
-TEST_CASE("other nodes are commanded by scenarios of the highest risk only") {
-  const auto commands_others = [](const can::CapturedFrame& captured) {
-    return captured.frame.id == 0 && captured.direction == can::Direction::transmitted &&
-           captured.frame.data[1] != 1;
-  };
-  const std::string broadcast = R"(
-    steps:
-      - talk: |
-          > 000: 01 00
-      - upload: {object: 1000h:00}
-        checks: T-MUST
-)";
+TEST_CASE("up to the tier nvm a session sends nothing that is not for the device alone") {
+  can::SimulatedBus bus;
   ScriptedDevice device;
-  const auto refused = play(device, "  - id: a\n    title: t\n    risk: nvm" + broadcast);
-  CHECK(refused.only().verdict == Verdict::inconclusive);
-  CHECK(count_of(refused.capture, commands_others) == 0);
-  ScriptedDevice other;
-  const auto sent = play(other, "  - id: a\n    title: t\n    risk: motion" + broadcast);
-  CHECK(sent.only().verdict == Verdict::pass);
-  CHECK(count_of(sent.capture, commands_others) == 1);
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  auto profile = writing_profile();
+  RunSession session(recorder, profile, device::dictionary_of(profile));
+  const auto frame = [](std::uint32_t id, std::initializer_list<std::uint8_t> bytes) {
+    return can::data_frame(CanId(id), bytes);
+  };
+  const can::Frame for_others[] = {
+      frame(0x000, {0x01, 1}),  // start: outputs may move
+      frame(0x000, {0x81, 0}),
+      frame(0x000, {0x81, 2}),
+      frame(0x000, {0x81}),
+      frame(0x000, {0x07, 1}),
+      frame(0x080, {}),
+      frame(0x100, {0, 0, 0, 0, 0, 0}),
+      frame(0x201, {1}),
+      frame(0x77E, {5}),
+      frame(0x602, {0x40, 0, 0x10, 0, 0, 0, 0, 0}),
+      frame(0x6C0, {0x40, 0, 0x10, 0, 0, 0, 0, 0}),
+      can::remote_frame(CanId(0x702), 1),
+  };
+  for (const auto risk : {scenario::Risk::config, scenario::Risk::nvm}) {
+    session.begin_case(risk);
+    const auto before = recorder.capture().size();
+    for (const auto& each : for_others) {
+      INFO(each.id << " " << hex_bytes(each.bytes()));
+      CHECK_FALSE(session.send(each).has_value());
+      CHECK_FALSE(session.produce({"x", each, std::chrono::milliseconds(10), 1}).has_value());
+    }
+    CHECK_FALSE(session.nmt(canopen::NmtCommand::start).has_value());
+    CHECK(recorder.capture().size() == before);
+    CHECK(session.send(can::remote_frame(CanId(0x701), 1)).has_value());
+    CHECK(session.nmt(canopen::NmtCommand::stop).has_value());
+  }
+  session.begin_case(scenario::Risk::motion);
+  for (const auto& each : for_others) CHECK(session.send(each).has_value());
+}
+
+TEST_CASE("from 2000h on only what the profile names is written, whatever the frame looks like") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  const auto profile = writing_profile();
+  RunSession session(recorder, profile, device::dictionary_of(profile));
+  session.begin_case(scenario::Risk::motion);
+  const auto sends = [&session](std::initializer_list<std::uint8_t> bytes) {
+    return session.send(can::data_frame(CanId(0x601), bytes)).has_value();
+  };
+  CHECK(sends({0x2F, 0x00, 0x20, 0, 9, 0, 0, 0}));
+  CHECK_FALSE(sends({0x2F, 0x01, 0x20, 0, 9, 0, 0, 0}));
+  CHECK_FALSE(sends({0x21, 0xFC, 0x4F, 0, 9, 0, 0, 0}));
+  CHECK_FALSE(sends({0xC2, 0xFF, 0xFF, 0, 9, 0, 0, 0}));
+  CHECK_FALSE(sends({0x2F, 0x01, 0x20}));
+  CHECK(sends({0x40, 0x01, 0x20, 0, 0, 0, 0, 0}));
+  CHECK_FALSE(
+      session.download({Index(0x4FFC), SubIndex(0)}, {0}, canopen::SdoDownload::Mode::automatic, std::nullopt)
+          .has_value());
+  CHECK(session.is_writable({Index(0x4FFC), SubIndex(0)}).value_or(true) == false);
 }
 
 TEST_CASE("a session of read-only risk uploads and sends nothing else") {

@@ -102,8 +102,8 @@ TEST_CASE("Every key of a scenario arrives in the model") {
 
 TEST_CASE("Tiers of risk are words and back") {
   for (const auto risk : {Risk::read_only, Risk::config, Risk::nvm, Risk::motion})
-    CHECK(parse_risk(to_string(risk)) == risk);
-  CHECK_FALSE(parse_risk("harmless"));
+    CHECK(steps::parse_tier(steps::word_of(risk)) == risk);
+  CHECK_FALSE(steps::parse_tier("harmless"));
 }
 
 TEST_CASE("A pattern takes whole ids, leading paths and file names") {

@@ -101,6 +101,10 @@ class FakeSession final : public Session {
     sent.push_back(frame);
     return {};
   }
+  [[nodiscard]] Result<void> play_heartbeat(NodeId node, canopen::NmtState state) override {
+    return send(canopen::encode_heartbeat(node, state));
+  }
+  [[nodiscard]] bool may_play_nodes() const override { return true; }
   [[nodiscard]] Result<void> will_change(Multiplexer) override { return {}; }
   void sdo_channel_dirty() override {}
   void sdo_answer_may_be_late() override {}
