@@ -355,6 +355,8 @@ class Run {
       };
       auto found = case_at(index);
       if (found == out_.cases.end() && stimulus) found = case_at(stimulus->last);
+      // Since then the engine may have asked whether the device is still there.
+      if (found == out_.cases.end() && stimulus) found = case_at(stimulus->first);
       where.push_back("frame " + std::to_string(index + 1) +
                       (found == out_.cases.end() ? ", between cases" : ", in " + found->name()));
     }

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/sdo_initiate.hpp"
 
 namespace conform::engine {
 namespace {
@@ -280,7 +281,9 @@ Result<std::optional<std::size_t>> RunSession::find_answer(const Match& match,
   const auto& captured = recorder_.capture().frames()[**found];
   const bool answers = captured.frame.is_data(canopen::connection_set(node()).sdo_response);
   // A server's own time-out is no answer, and what a line gives a time of its own is known to be slow.
-  if (answers && !within) {
+  const auto abort = canopen::decode_abort(captured.frame.bytes());
+  const bool times_out = abort && abort->code == canopen::abort::timed_out;
+  if (answers && !within && !times_out) {
     channel_.note_latency(std::max(Duration(0), captured.time - window_.anchor));
     adapt();
   }

@@ -163,7 +163,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     auto& result = runs[i].result;
     auto& line = *lines[i];
     // What a step gives a time of its own is known to be slow: it says nothing about other answers.
-    if (!jobs[i].timeout && runs[i].heard > 0) {
+    if (!jobs[i].timeout && runs[i].slowest > Duration(0)) {
       note_latency(runs[i].slowest);
       latest_ = runs[i].latest;
     }

@@ -157,8 +157,12 @@ class Runner {
       if (run.in_flight > 0) run.overtook = index;
       return;
     }
-    run.latest = std::max(Duration(0), captured.time - run.since);
-    run.slowest = std::max(run.slowest, run.latest);
+    // The server's own time-out answers nothing, and says nothing about how quick it is.
+    const auto abort = canopen::decode_abort(bytes);
+    if (!abort || abort->code != canopen::abort::timed_out) {
+      run.latest = std::max(Duration(0), captured.time - run.since);
+      run.slowest = std::max(run.slowest, run.latest);
+    }
     run.stretched = false;
     run.since = std::max(run.since, captured.time);
     ++run.heard;
