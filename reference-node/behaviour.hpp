@@ -146,6 +146,7 @@ struct Behaviour {
   bool consumer_node_id_unchecked = false;
   bool consumer_timer_not_restarted = false;
   bool consumer_error_never_resolved = false;
+  bool errors_never_clear = false;  ///< none of them, until a reset
   bool consumer_loss_not_detected = false;
   bool consumer_wrong_code = false;
   bool consumer_only_first_entry = false;

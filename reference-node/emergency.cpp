@@ -96,6 +96,7 @@ void Emergency::raise(const ErrorCause& cause, std::uint8_t detail) {
 }
 
 void Emergency::clear(const ErrorCause& cause) {
+  if (device_->behaviour.errors_never_clear) return;
   const auto found = std::find(causes_.begin(), causes_.end(), cause);
   if (found == causes_.end()) return;
   causes_.erase(found);

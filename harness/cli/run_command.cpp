@@ -21,6 +21,7 @@
 #include "cli/run_reports.hpp"
 #include "cli/run_watch.hpp"
 #include "cli/selftest.hpp"
+#include "cli/shell.hpp"
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
 #include "cli/variant_profile.hpp"
@@ -153,6 +154,9 @@ int run(const RunCommand& options, RunReports& reports) {
   engine::RunOptions run_options;
   run_options.strict = options.strict;
   run_options.stop = &stop_signal;
+  constexpr Duration power_limit = std::chrono::seconds(60);
+  if (!options.simulate && !profile->power_cycle.empty())
+    run_options.power_cycle = [profile, power_limit] { return run_shell(profile->power_cycle, power_limit); };
   run_options.plan.selection = {options.select, options.requirements, options.exclude};
   run_options.plan.seed = options.seed;
   run_options.plan.all_objects = options.all_objects;

@@ -98,7 +98,9 @@ struct Profile {
   std::vector<Multiplexer> safe_objects;  ///< entries that tests may write
   std::vector<Multiplexer> untouchable;   ///< entries no test may write
   bool writes_described =
-      false;  ///< tests may write every application entry that the description calls writable
+      false;                ///< tests may write every application entry that the description calls writable
+  std::string power_cycle;  ///< shell command that takes the power of the device away and gives it back;
+                            ///< empty: by hand
   bool factory_defaults = false;  ///< nothing is stored: values after a reset are the defaults
   std::string described_in;       ///< file of the device description, as the user wrote it; empty: none
   DescribedPlaces described_places;

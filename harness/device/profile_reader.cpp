@@ -138,6 +138,7 @@ class Reader {
     read_store_fault();
     profile_.safe_objects = read_entries("safe_objects");
     profile_.untouchable = read_entries("untouchable");
+    profile_.power_cycle = fields_.optional("power_cycle").text().value_or("");
     profile_.factory_defaults = fields_.optional("factory_defaults").boolean().value_or(false);
     read_identity();
     read_deviations();

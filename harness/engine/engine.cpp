@@ -160,6 +160,9 @@ class Run {
     auto values = snapshot(session_);
     if (!values) return std::unexpected(values.error());
     snapshot_ = std::move(*values);
+    auto errors = has_errors();
+    if (!errors) return std::unexpected(errors.error());
+    free_of_errors_ = !*errors;
     auto stores = stores_by_itself();
     if (!stores) return std::unexpected(stores.error());
     stores_by_itself_ = *stores;
@@ -438,7 +441,7 @@ class Run {
     }
     if (auto judged = judge_restarts(out); !judged) return judged;
     auto changes = take_changes();
-    if (changes.empty()) return let_emcy_end(out.first_frame);
+    if (changes.empty()) return let_errors_end(out);
     // A stop request waits until everything is back: half a restore is the worst of all.
     const StopHeld held(recorder_);
     if (auto ready = enter_pre_operational(); !ready) return ready;
@@ -455,7 +458,56 @@ class Run {
     for (const auto& left : report->left)
       out_.notes.push_back(out.name() + ": could not be put back: " + left);
     if (!report->left.empty()) session_.note_left_changed();
-    return let_emcy_end(out.first_frame);
+    return let_errors_end(out);
+  }
+
+  Result<void> let_errors_end(const CaseResult& out) {
+    if (auto done = let_emcy_end(out.first_frame); !done) return done;
+    return clear_what_stays(out);
+  }
+
+  /// An error that stays would make the next trigger silent: it is there already. Where the device knew of no
+  /// error at first, a reset ends those of the case that did not end by themselves.
+  Result<void> clear_what_stays(const CaseResult& out) {
+    if (!free_of_errors_ || !may(scenario::Risk::config) || !has_raised_errors(out.first_frame)) return {};
+    auto stays = has_errors();
+    if (!stays) return std::unexpected(stays.error());
+    if (!*stays) return {};
+    // Perhaps it has not noticed yet.
+    if (auto waited = session_.wait_until(session_.now() + std::chrono::milliseconds(200)); !waited)
+      return waited;
+    stays = has_errors();
+    if (!stays) return std::unexpected(stays.error());
+    if (!*stays) return {};
+    if (auto booted = reset(canopen::NmtCommand::reset_node); !booted) return std::unexpected(booted.error());
+    if (auto ready = enter_pre_operational(); !ready) return ready;
+    stays = has_errors();
+    if (!stays) return std::unexpected(stays.error());
+    if (*stays) {
+      free_of_errors_ = false;
+      out_.notes.push_back("since " + out.name() +
+                           " the device tells of an error (1001h) that nothing ends, not even a reset");
+    }
+    return {};
+  }
+
+  /// By a trigger of the profile, or in any other way that it sends an EMCY about.
+  [[nodiscard]] bool has_raised_errors(std::size_t from) const {
+    if (session_.find("trigger_delay") != nullptr) return true;
+    const auto& frames = recorder_.capture().frames();
+    return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
+                       [this](const can::CapturedFrame& captured) {
+                         const auto& frame = captured.frame;
+                         return captured.direction == can::Direction::received &&
+                                frame.is_data(session_.emcy_can_id()) && frame.size() == 8 &&
+                                (frame.data[0] != 0 || frame.data[1] != 0);
+                       });
+  }
+
+  Result<bool> has_errors() {
+    const auto held = session_.peek({Index(0x1001), SubIndex(0)});
+    if (!held) return std::unexpected(held.error());
+    return held->kind == steps::SdoAnswer::Kind::confirmed && load_le(held->data) != 0;
   }
 
   /// What the inhibit time (1015h) still holds back would be taken for an EMCY of the next case.
@@ -717,6 +769,7 @@ class Run {
   std::set<std::string> left_;     ///< what the notes say of values that a reset brought back
   bool stores_by_itself_ = false;
   std::size_t resets_looked_at_ = 0;  ///< of session_.resets(): what came back after them has been put right
+  bool free_of_errors_ = false;       ///< 1001h was 0 before the first case, and a reset makes it 0 again
   Duration emcy_inhibit_{};           ///< 1015h, as found
   result::RunResult out_;
 };

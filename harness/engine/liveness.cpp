@@ -58,6 +58,16 @@ Result<std::vector<Bytes>> answers_to(RunSession& session, Multiplexer object, D
   return out;
 }
 
+/// It answers nothing; whether it is there all the same.
+Revival heard_since(const RunSession& session, std::size_t from, Revival out) {
+  const auto& frames = session.capture().frames();
+  const bool heard =
+      std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
+                  [&session](const can::CapturedFrame& each) { return is_from_node(session, each); });
+  out.life = heard ? Life::there : Life::gone;
+  return out;
+}
+
 std::size_t boot_ups_since(const RunSession& session, std::size_t from) {
   const auto& frames = session.capture().frames();
   return static_cast<std::size_t>(std::count_if(frames.begin() + static_cast<std::ptrdiff_t>(from),
@@ -156,7 +166,11 @@ Result<Revival> look_for_life(RunSession& session, const Means& means) {
   }
   if (means.power_cycle) {
     const auto off = session.capture().size();
-    if (auto switched = means.power_cycle(); !switched) return std::unexpected(switched.error());
+    if (auto switched = means.power_cycle(); !switched) {
+      if (session.recorder().fault()) return std::unexpected(switched.error());
+      out.tried += "; its power could not be switched, " + switched.error().what;
+      return heard_since(session, from, std::move(out));
+    }
     session.device_restarted();
     out.power_was_switched = true;
     auto booted = session.recorder().find(off, is_boot_up_of(session.node()),
@@ -166,12 +180,7 @@ Result<Revival> look_for_life(RunSession& session, const Means& means) {
     auto done = try_again(answers);
     if (!done || *done) return done ? Result<Revival>(out) : std::unexpected(done.error());
   }
-  const auto& frames = session.capture().frames();
-  const bool heard =
-      std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
-                  [&session](const can::CapturedFrame& each) { return is_from_node(session, each); });
-  out.life = heard ? Life::there : Life::gone;
-  return out;
+  return heard_since(session, from, std::move(out));
 }
 
 Result<bool> answers_twice(RunSession& session, Duration listen) {

@@ -69,6 +69,12 @@ Result<void> keep_from_stopping(Session& session) {
   return {};
 }
 
+/// 1001h; nothing where it cannot be read.
+std::optional<std::uint64_t> error_register(Session& session) {
+  const auto read = session.read({Index(0x1001), SubIndex(0)});
+  return read ? read->number : std::nullopt;
+}
+
 /// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed
 /// away.
 /// `delay`: how long after raising the effect may be due, beside the caller's own time.
@@ -154,6 +160,7 @@ class RaiseError final : public Action {
                   "name one under errors: in the device profile");
     }
     const auto& trigger = (*triggers)[number_ - 1];
+    if (auto ready = take_note(session); !ready) return std::unexpected(ready.error());
     Duration delay{};
     auto out = clear_ ? clear(session, trigger) : raise(session, trigger, delay);
     if (out && !clear_) {
@@ -164,6 +171,27 @@ class RaiseError final : public Action {
   }
 
  private:
+  /// An error that was cleared and is still there is not raised again by its trigger: what does not come then
+  /// shows nothing.
+  Result<void> take_note(Session& session) const {
+    const auto name = "error trigger " + std::to_string(number_);
+    const auto before = name + ", register before", cleared = name + ", cleared";
+    if (clear_) {
+      session.set(cleared, Value::of_number(1));
+      return {};
+    }
+    const auto now = error_register(session);
+    const auto* was = session.find(before);
+    if (was == nullptr) {
+      if (now) session.set(before, Value::of_number(*now));
+      return {};
+    }
+    if (session.find(cleared) == nullptr || !now || !was->number || (*now & ~*was->number) == 0) return {};
+    return fail("the error of trigger " + std::to_string(number_) + " did not clear: 1001h is " +
+                    hex(*now, 2) + ", and was " + hex(*was->number, 2) + " before it was raised",
+                "scenario");
+  }
+
   std::uint64_t number_ = 0;
   bool clear_ = false;
   std::string save_;
@@ -325,6 +353,7 @@ class FillHistory final : public Action {
     constexpr int most = 254 + 1;  // 1003h holds at most 254 errors (7.5.2.4)
     std::uint64_t count = 0;
     std::uint16_t newest = 0;
+    const auto before = error_register(session);
     for (int i = 0; i < most; ++i) {
       const auto& trigger = (*triggers)[static_cast<std::size_t>(i) % triggers->size()];
       Duration delay{};
@@ -344,6 +373,11 @@ class FillHistory final : public Action {
         return out;
       }
       if (answer->data[0] <= count) {
+        const auto now = error_register(session);
+        if (before && now && (*now & ~*before) != 0)
+          return fail("errors do not clear: 1001h is " + hex(*now, 2) + ", and was " + hex(*before, 2) +
+                          " before they were raised",
+                      "scenario");
         session.set(depth_, Value::of_number(count));
         session.set(newest_, Value::of_number(trigger.code));
         session.set(previous_, Value::of_number(newest));

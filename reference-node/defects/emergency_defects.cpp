@@ -11,6 +11,10 @@ using namespace defect;
 DefectTable emergency_defects() {
   using B = Behaviour;
   return {
+      {"errors-never-clear",
+       "An error stays until the next reset, whatever becomes of its cause",
+       {"EMCY-SEQ-02", "OD-1001-06", "EC-HBC-07"},
+       behave(&Behaviour::errors_never_clear)},
       {"1001-not-set-on-error",
        "1001h stays 00h while errors are present",
        {"OD-1001-05", "EMCY-FMT-04"},

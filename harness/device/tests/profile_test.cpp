@@ -88,6 +88,7 @@ errors:
 store_fault: {arm: {object: 2000h:05, value: 1}, disarm: {object: 2000h:05, value: 0}}
 safe_objects: [2000h:05, 1016h:01..02]
 untouchable: [1F50h:01]
+power_cycle: relay 3 cycle
 factory_defaults: true
 identity: {vendor: 5AFEh, serial: 17}
 known_deviations:
@@ -96,6 +97,7 @@ known_deviations:
 )");
   CHECK(profile.interface == "can0");
   CHECK(profile.eds == "pump.eds");
+  CHECK(profile.power_cycle == "relay 3 cycle");
   CHECK(profile.duration("boot_time") == Duration{2s});
   CHECK(profile.duration("T_SDO") == Duration{250ms});
   CHECK_FALSE(profile.duration("T_NONE").has_value());

@@ -269,3 +269,51 @@ TEST_CASE("a value that kills the device ends the walk at once and is named") {
   CHECK_THAT(finding.actual,
              Catch::Contains("behind 03h the device does not answer any more; 97 further values"));
 }
+
+TEST_CASE("an error that does not clear is ended by a reset, so that the next one can be seen") {
+  ScriptedDevice device;
+  device.entries[0x200000] = {0};
+  device.on_reset = [](ScriptedDevice& self) { self.entries[0x100100] = {0}; };
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    // A write of 1 to 2000h raises an error, once; 0 should clear it.
+    if (frame.data[0] != 0x2F || frame.data[4] != 1 || self.entries[0x100100].front() != 0) return false;
+    self.entries[0x100100] = {1};
+    self.send(can::data_frame(CanId(0x81), {0x00, 0x10, 1, 0, 0, 0, 0, 0}));
+    return false;
+  };
+  auto profile = device::default_profile(NodeId(1));
+  device::TriggerWrite raise, clear;
+  raise.object = clear.object = {Index(0x2000), SubIndex(0)};
+  raise.bytes = {1};
+  clear.bytes = {0};
+  profile.errors.resize(1);
+  profile.errors[0].code = 0x1000;
+  profile.errors[0].raise = raise;
+  profile.errors[0].clear = clear;
+  profile.errors[0].heartbeat_node.reset();
+  can::SimulatedBus bus;
+  const auto out = play(bus, device, R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - raise_error: {trigger: 1}
+      - emcy: {within: 1 s}
+        checks: T-MUST
+      - clear_error: 1
+      - raise_error: {trigger: 1}
+      - emcy: {within: 1 s}
+        checks: T-OTHER
+  - id: b
+    title: t
+    risk: config
+    steps:
+      - raise_error: {trigger: 1}
+      - emcy: {within: 1 s}
+        checks: T-MUST
+)",
+                        {}, profile);
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::inconclusive);
+  CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
+}

@@ -205,10 +205,10 @@ TEST_CASE(
 TEST_CASE("when the device vanishes half-way what was judged stays and the rest neither passes nor fails") {
   ScriptedDevice device;
   device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    // Gone with the second read of 1001h:00: discovery made the first.
+    // Gone with the third read of 1001h:00: the preparation made two.
     const bool reads_1001 =
         frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && frame.data[3] == 0;
-    if (reads_1001 && !self.writes.empty()) self.dead = true;
+    if (reads_1001 && self.writes.size() > 1) self.dead = true;
     if (reads_1001) self.writes.emplace_back("1001h was read");
     return self.dead;
   };

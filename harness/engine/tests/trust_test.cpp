@@ -465,7 +465,7 @@ TEST_CASE("a failure seen before the device vanished stays, what its silence see
   ScriptedDevice device;
   int reads = 0;
   device.before = [&reads](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 2)
+    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 3)
       self.dead = true;
     return self.dead;
   };
@@ -492,7 +492,7 @@ TEST_CASE("a device whose heartbeats go on has not vanished when its SDO server 
   bool hung = false;
   int reads = 0;
   device.before = [&](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 2) hung = true;
+    if (frame.data[0] == 0x40 && frame.data[1] == 0x01 && frame.data[2] == 0x10 && ++reads == 3) hung = true;
     if (hung) self.send(can::data_frame(CanId(0x701), {0x7F}));
     return hung;
   };
