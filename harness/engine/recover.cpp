@@ -2,7 +2,7 @@
 #include "engine/recover.hpp"
 
 #include "canopen/nmt.hpp"
-#include "engine/discovery.hpp"
+#include "engine/liveness.hpp"
 
 namespace conform::engine {
 
@@ -14,7 +14,7 @@ Result<RestoreReport> recover(can::Transport& transport, const device::Profile& 
   session.begin_case(scenario::Risk::config);
   // A transfer may be open, and its answer still on its way.
   session.sdo_channel_dirty();
-  const auto liveness = probe(session, true);
+  const auto liveness = probe(session, Means{.may_command = true});
   if (!liveness) return std::unexpected(liveness.error());
   if (!liveness->answers) {
     return fail("node " + std::to_string(profile.node.value()) + " does not answer", transport.info().name,
