@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <vector>
 
@@ -252,15 +253,30 @@ void write_unjudged(Page& page, const RunResult& run) {
 }
 
 void write_not_applicable(Page& page, const RunResult& run) {
-  const auto groups = group_by_reason(run, Verdict::not_applicable);
+  auto groups = group_by_reason(run, Verdict::not_applicable);
   if (groups.empty()) return;
+  std::ranges::stable_sort(groups, std::greater{},
+                           [](const ReasonGroup& group) { return group.cases.size(); });
   page.heading(fmt::format("Not applicable ({})", counted(run.counts().not_applicable, "case")));
   constexpr std::size_t most = 12;
   for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
-    page.item(fmt::format("{}: {}", counted(groups[i].cases.size(), "case"), prose(groups[i].reason)));
+    page.item(fmt::format("{}: {}{}", counted(groups[i].cases.size(), "case"), prose(groups[i].reason),
+                          groups[i].varies ? ", and the like" : ""));
   }
   if (groups.size() > most)
     page.item(fmt::format("and {} more reasons, listed in the report files", groups.size() - most));
+}
+
+/// What the user could give: the shortest way to more verdicts, so it stands where it is seen.
+void write_wants(Page& page, const RunResult& run) {
+  const auto wants = tally_wants(run);
+  if (wants.empty()) return;
+  page.heading("To have more judged");
+  constexpr std::size_t most = 10;
+  for (std::size_t i = 0; i < std::min(wants.size(), most); ++i)
+    page.item(fmt::format("{}: {}", counted(wants[i].cases, "case"), prose(wants[i].want.text)));
+  if (wants.size() > most)
+    page.item(fmt::format("and {} more, listed in the report files", wants.size() - most));
 }
 
 /// What the exit code says, for a person who does not know the table.
@@ -336,6 +352,7 @@ std::string summary(const RunResult& run, const Style& style) {
   const auto causes = result::causes_of(run);
   write_causes(page, run, causes, Verdict::warn, "Warnings");
   write_causes(page, run, causes, Verdict::fail, "Failures");
+  write_wants(page, run);
   write_totals(page, run);
   return page.take();
 }

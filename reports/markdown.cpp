@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -208,6 +209,28 @@ std::vector<std::string> unjudged_text(const RunResult& run) {
   return items;
 }
 
+/// What is not judged, and what would change that: reasons with their numbers of cases, most first.
+std::string not_applicable_text(const RunResult& run) {
+  std::string text;
+  for (const WantTally& each : tally_wants(run))
+    text += fmt::format("- {}: {}\n", counted(each.cases, "case"), escaped(each.want.text));
+  if (!text.empty()) text.insert(0, "\n### To have more judged\n\n");
+  auto groups = group_by_reason(run, Verdict::not_applicable);
+  if (groups.empty()) return text;
+  std::ranges::stable_sort(groups, std::greater{},
+                           [](const ReasonGroup& group) { return group.cases.size(); });
+  text += fmt::format("\n<details><summary>not applicable: {}</summary>\n\n",
+                      counted(run.counts().not_applicable, "case"));
+  constexpr std::size_t most = 60;
+  for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
+    const ReasonGroup& group = groups[i];
+    text += fmt::format("- {}: {}{}\n", counted(group.cases.size(), "case"), escaped(group.reason),
+                        group.varies ? ", and the like" : "");
+  }
+  if (groups.size() > most) text += fmt::format("- and {} more reasons\n", groups.size() - most);
+  return text + "\n</details>\n";
+}
+
 std::string facts_text(const RunResult& run) {
   if (run.properties.empty()) return {};
   std::string text = "\n<details><summary>device, bus and run</summary>\n\n| | |\n|---|---|\n";
@@ -231,6 +254,7 @@ std::string markdown(const RunResult& run, const MarkdownOptions& options) {
   const auto causes = result::causes_of(run);
   document.add(causes_text(causes));
   document.add(areas_text(run));
+  document.add(not_applicable_text(run));
   document.add(facts_text(run));
   for (std::size_t i = 0; i < run.notes.size(); ++i) {
     document.add(fmt::format("{}- {}\n", i == 0 ? "\n" : "", escaped(run.notes[i])));

@@ -34,11 +34,21 @@ struct AreaTally {
 /// Adds one to the counter of `verdict`.
 void count(result::Counts& counts, result::Verdict verdict);
 
-/// Cases of one verdict that have the same reason, in the order of their first case.
+/// Cases of one verdict that have the same reason, in the order of their first case. Reasons of cases that
+/// are not applicable are the same when they differ in numbers only: "1401h:00 is absent", "1402h:00 is
+/// absent".
 struct ReasonGroup {
-  std::string reason;
+  std::string reason;  ///< of the first case
+  bool varies = false;
   std::vector<const result::CaseResult*> cases;
 };
 [[nodiscard]] std::vector<ReasonGroup> group_by_reason(const result::RunResult& run, result::Verdict verdict);
+
+/// What the user could give, and how many cases that were not applicable want it. Most cases first.
+struct WantTally {
+  result::Want want;
+  std::size_t cases = 0;
+};
+[[nodiscard]] std::vector<WantTally> tally_wants(const result::RunResult& run);
 
 }  // namespace conform::reports

@@ -103,6 +103,8 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   walk_value_.clear();
   walk_end_.clear();
   stopped_because_.clear();
+  skipped_.clear();
+  empty_walks_.clear();
   entered_steps_ = false;
   outermost_ = nullptr;
   session_.begin_case(planned.scenario->risk);
@@ -122,12 +124,13 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
       conclude();
       return {};
     }
-    if (!*entry) {
+    if (!entry->object) {
       out.verdict = Verdict::not_applicable;
-      out.reason = "the device has no " + given.query;
+      out.reason = std::move(entry->why_not);
+      out.wants = std::move(entry->wants);
       return {};
     }
-    session_.set(given.name, steps::Value::of_object(**entry));
+    session_.set(given.name, steps::Value::of_object(*entry->object));
   }
   if (scenario.when) {
     auto holds = scenario.when->evaluate(session_);
@@ -139,8 +142,11 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
       return {};
     }
     if (!*holds) {
+      auto why = scenario.when->why_not(session_);
+      if (session_.recorder().fault()) return std::unexpected(*session_.recorder().fault());
       out.verdict = Verdict::not_applicable;
-      out.reason = "not so: " + scenario.when->text();
+      out.reason = std::move(why.text);
+      out.wants = std::move(why.wants);
       return {};
     }
   }
@@ -187,7 +193,9 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
     if (!*condition) continue;
     auto holds = (*condition)->evaluate(session_);
     if (!holds) return cannot_go_on(step, holds.error());
-    if (*holds != (condition == &step.when)) return Flow::go_on;
+    if (*holds == (condition == &step.when)) continue;
+    if (step.walk || !step.expectation.checks.empty()) skipped_.emplace_back(&**condition, *holds);
+    return Flow::go_on;
   }
   if (step.walk) return run_walk(step);
   step_begin_ = session_.capture().size();
@@ -235,6 +243,13 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     for (const auto& range : canopen::restricted_ranges()) {
       for (auto id = range.first; id <= range.last; ++id) values.push_back(steps::Value::of_number(id));
     }
+  }
+  if (values.empty()) {
+    std::string what = "value for $" + walk.name;
+    if (!walk.sets.empty()) {
+      if (const auto query = scenario::Query::parse(walk.sets.front())) what = query->words();
+    }
+    empty_walks_.push_back("the device has no " + what);
   }
   const bool outermost = walk_value_.empty();
   std::size_t tried = 0;
@@ -287,7 +302,8 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
         for (const auto& requirement : checks_of(branch.steps.front()))
           record(step, requirement, grade_of(branch, requirement), actual);
         if (branch.verdict == Verdict::not_applicable)
-          return not_applicable(step, "does not concern this device");
+          return not_applicable(step, "does not concern this device: it went the way '" +
+                                          branch.steps.front().action->words(session_) + "'");
       }
       return run_steps(branch.steps);
     }
@@ -298,7 +314,8 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
       for (const auto& requirement : checks_of(step))
         record(step, requirement, grade_of(branch, requirement), actual);
       if (branch.verdict == Verdict::not_applicable)
-        return not_applicable(step, "does not concern this device: " + actual.words());
+        return not_applicable(step, "does not concern this device: " + step.action->words(session_) +
+                                        " gave " + actual.words());
       return run_steps(branch.steps);
     }
   }
@@ -686,12 +703,29 @@ void CaseRunner::conclude() {
   if (!stopped_because_.empty()) {
     out_->reason = stopped_because_;
   } else if (verdict == Verdict::not_applicable && !out_->judgements.empty()) {
-    if (out_->reason == "not run") out_->reason = "no expectation applies to this device";
+    if (out_->reason == "not run") explain_nothing_judged();
   } else if (verdict == Verdict::not_applicable) {
-    out_->reason = "no expectation applies to this device";
+    explain_nothing_judged();
   } else {
     out_->reason.clear();
   }
+}
+
+/// Every step that decides something was left out: says by which conditions.
+void CaseRunner::explain_nothing_judged() {
+  constexpr std::size_t most = 3;
+  auto texts = empty_walks_;
+  for (const auto& [condition, held] : skipped_) {
+    // A look at the device would disturb what a conversation has left open.
+    auto why = session_.channel().is_open() ? steps::Why{(held ? "" : "not so: ") + condition->text(), {}}
+                                            : condition->why(session_, held);
+    if (texts.size() == most || std::ranges::find(texts, why.text) != texts.end()) continue;
+    texts.push_back(std::move(why.text));
+    for (auto& want : why.wants) {
+      if (std::ranges::find(out_->wants, want) == out_->wants.end()) out_->wants.push_back(std::move(want));
+    }
+  }
+  out_->reason = texts.empty() ? "nothing to judge: there is no value to try it with" : join(texts, "; ");
 }
 
 }  // namespace conform::engine

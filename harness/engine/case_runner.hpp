@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/attribution.hpp"
@@ -19,10 +20,11 @@ namespace conform::engine {
 
 class CaseRunner {
  public:
-  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, Attribution& attribution, bool strict)
+  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, Attribution& attribution, bool strict,
+             bool may_write)
       : session_(session),
         catalogue_(catalogue),
-        givens_(session),
+        givens_(session, may_write),
         attribution_(attribution),
         strict_(strict) {}
 
@@ -94,6 +96,7 @@ class CaseRunner {
   /// How much was found wrong with the values of an `over` so far.
   [[nodiscard]] std::size_t offences() const;
   void conclude();
+  void explain_nothing_judged();
 
   RunSession& session_;
   const scenario::Catalogue& catalogue_;
@@ -109,6 +112,8 @@ class CaseRunner {
       offenders_;  ///< in the order of the first judgement: addresses must not decide any order
   std::optional<Multiplexer> instance_object_;  ///< the object a case of for_each is about
   std::string stopped_because_;
+  std::vector<std::pair<const steps::Condition*, bool>> skipped_;  ///< of deciding steps that were left out
+  std::vector<std::string> empty_walks_;  ///< each `over` that had nothing to walk over, in words
   bool entered_steps_ = false;
   const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs
   const Steps* list_ = nullptr;             ///< that list

@@ -68,11 +68,14 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& mean
     if (!answer) return std::unexpected(answer.error());
     if (answer->kind == Kind::silence) silent.push_back(first);
     const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
-    session.note_present(first, !says_absent(*answer));
+    const auto why = [](const steps::SdoAnswer& each) {
+      return says_absent(each) ? "abort " + canopen::describe(each.code) : std::string();
+    };
+    session.note_present(first, !says_absent(*answer), why(*answer));
     if (absent) {
       for (const auto& entry :
            std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
-        session.note_present(entry.mux, false);
+        session.note_present(entry.mux, false, why(*answer));
         if (entry.presence() != device::Presence::claimed) known.remove(entry.mux);
       }
       continue;
@@ -88,7 +91,7 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& mean
       if (!each) return std::unexpected(each.error());
       if (each->kind == Kind::silence) silent.push_back(entry.mux);
       const bool gone = says_absent(*each);
-      session.note_present(entry.mux, !gone);
+      session.note_present(entry.mux, !gone, why(*each));
       if (gone && entry.presence() != device::Presence::claimed) known.remove(entry.mux);
     }
   }

@@ -49,7 +49,8 @@ class Run {
         recorder_(transport, options.stop),
         session_(recorder_, profile_, device::dictionary_of(profile_)),
         attribution_(facts_of(profile)),
-        runner_(session_, catalogue_, attribution_, options.strict),
+        runner_(session_, catalogue_, attribution_, options.strict,
+                options.plan.allowed >= scenario::Risk::config),
         restarts_(facts_of(profile)) {
     session_.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder_.set_observer(*options.observer);
@@ -210,6 +211,7 @@ class Run {
       if (!plan_[i].held_back.empty() || !plan_[i].not_applicable.empty()) {
         result.verdict = Verdict::not_applicable;
         result.reason = plan_[i].held_back.empty() ? plan_[i].not_applicable : plan_[i].held_back;
+        result.wants = plan_[i].wants;
         result.finished = true;
         result.begin = result.end = recorder_.now();
         recorder_.observer().case_ended(out_, i);

@@ -7,6 +7,7 @@
 
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "engine/given.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {
@@ -51,7 +52,11 @@ std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device
         return entry != nullptr && entry->untouchable;
       });
     }
-    if (objects.empty()) add("").not_applicable = "the device has no " + scenario.for_each->query;
+    if (objects.empty()) {
+      auto& none = add("");
+      none.not_applicable = "the device has no " + (query ? query->words() : scenario.for_each->query);
+      if (query) none.wants = wants_of(*query);
+    }
     if (scenario.sample > 0 && !options.all_objects)
       objects = sample(std::move(objects), scenario.sample, options.seed);
     for (const auto object : objects)
@@ -73,9 +78,11 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
           planned.held_back = "held back: risk '" + std::string(steps::word_of(scenario.risk)) +
                               "' is not allowed in this run (--allow " +
                               std::string(steps::word_of(scenario.risk)) + ")";
+          planned.wants = {{"option", "--allow " + std::string(steps::word_of(scenario.risk))}};
         }
         if (scenario.slow && !options.slow && planned.held_back.empty()) {
           planned.held_back = "held back: takes long on a real bus (--slow)";
+          planned.wants = {{"option", "--slow"}};
         }
         out.push_back(std::move(planned));
       }

@@ -20,6 +20,7 @@ struct PlannedCase {
   std::map<std::string, std::string, std::less<>> names;  ///< bound by for_each, as written
   std::string held_back;                                  ///< why it will not be run, or empty
   std::string not_applicable;                             ///< a query that found nothing
+  std::vector<result::Want> wants;                        ///< what would make it run
 };
 
 struct PlanOptions {

@@ -32,6 +32,11 @@ bool refuses_block_transfer(const std::array<std::uint8_t, 8>& answer) {
   const auto code = load_le(ByteView(answer).subspan(4));
   return code == 0x0504'0001 || code == 0x0800'0000 || code == 0x0601'0000;
 }
+
+std::string refusal_words(const std::array<std::uint8_t, 8>& answer, Multiplexer object) {
+  const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(answer).subspan(4))));
+  return "abort " + canopen::describe(code) + " when tried with " + to_string(object);
+}
 }  // namespace
 
 RunSession::RunSession(Recorder& recorder, const device::Profile& profile, device::Dictionary dictionary)
@@ -129,8 +134,46 @@ Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
     return fail("no answer when " + to_string(object) + " was looked for", "scenario");
   const bool present = answer->kind != Kind::aborted || (answer->code != canopen::abort::no_object &&
                                                          answer->code != canopen::abort::no_sub_index);
-  present_[object] = present;
+  note_present(object, present, present ? "" : "abort " + canopen::describe(answer->code));
   return present;
+}
+
+void RunSession::note_present(Multiplexer object, bool present, std::string why) {
+  present_[object] = present;
+  grounds_[{steps::Asked::presence, object}] = std::move(why);
+}
+
+std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
+  using steps::Asked;
+  const auto noted = [this](Asked what, Multiplexer about) {
+    const auto found = grounds_.find({what, about});
+    return found == grounds_.end() ? std::string() : found->second;
+  };
+  const auto absent = [&] {
+    const auto known = present_.find(object);
+    return known != present_.end() && !known->second;
+  };
+  const auto access = [&] {
+    const auto* found = entry(object);
+    if (found == nullptr) return std::string();
+    return std::string(device::to_string(found->access)) +
+           (found->declared_at.empty() ? "" : ", " + found->declared_at);
+  };
+  switch (asked) {
+    case Asked::presence: return noted(asked, object);
+    case Asked::reading: return absent() ? noted(Asked::presence, object) : access();
+    case Asked::writing: {
+      if (profile_.is_untouchable(object)) return "untouchable in the profile";
+      if (absent()) return noted(Asked::presence, object);
+      const auto tried = noted(asked, object);
+      return tried.empty() ? access() : tried;
+    }
+    case Asked::factory_defaults:
+      return left_changed_ && profile_.factory_defaults
+                 ? "the run could not put back every value, so factory defaults may not be active any more"
+                 : "";
+    default: return noted(asked, Multiplexer{});
+  }
 }
 
 bool RunSession::is_claimed(Multiplexer object, bool whole_object) const {
@@ -169,12 +212,25 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
     return fail("no answer when " + to_string(object) + " was tried", "scenario");
   };
   if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
-  if (value->kind != steps::SdoAnswer::Kind::confirmed) return false;
+  // An entry that cannot be read, or is answered against the protocol, was not tried.
+  const auto not_tried = [object](std::string_view what, const steps::SdoAnswer& came) {
+    const bool aborted = came.kind == steps::SdoAnswer::Kind::aborted;
+    return fail("whether " + to_string(object) + " is writable cannot be tried: its value was not " +
+                    std::string(what) + ": " +
+                    (aborted ? "abort " + canopen::describe(came.code) : came.detail),
+                "scenario");
+  };
+  if (value->kind != steps::SdoAnswer::Kind::confirmed) return not_tried("read", *value);
   auto answer = channel_.download(object, value->data, canopen::SdoDownload::Mode::automatic, std::nullopt);
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind == steps::SdoAnswer::Kind::silence) return silent();
-  const bool refused =
-      answer->kind == steps::SdoAnswer::Kind::aborted && answer->code == canopen::abort::read_only;
+  const bool aborted = answer->kind == steps::SdoAnswer::Kind::aborted;
+  if (!aborted && answer->kind != steps::SdoAnswer::Kind::confirmed)
+    return not_tried("written back", *answer);
+  const bool refused = aborted && answer->code == canopen::abort::read_only;
+  if (refused)
+    grounds_[{steps::Asked::writing, object}] =
+        "its own value was refused: abort " + canopen::describe(answer->code);
   writable_[object] = !refused;
   if (refused) {
     if (auto* known = dictionary_.find(object)) known->access = device::Access::constant;
@@ -194,6 +250,8 @@ Result<bool> RunSession::offers_block_transfer(bool upload) {
   if (!answer) return std::unexpected(answer.error());
   if (!*answer) return fail("no answer when a block upload was tried", "scenario");
   known = !refuses_block_transfer(**answer);
+  if (!*known)
+    grounds_[{steps::Asked::block_upload, {}}] = refusal_words(**answer, {Index(0x1000), SubIndex(0)});
   return *known;
 }
 
@@ -221,8 +279,12 @@ Result<bool> RunSession::try_block_download() {
     const auto& data = **answer;
     const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(data).subspan(4))));
     if (data[0] == 0x80 && code == canopen::abort::read_only) continue;
-    return !refuses_block_transfer(data);
+    const bool refused = refuses_block_transfer(data);
+    if (refused) grounds_[{steps::Asked::block_download, {}}] = refusal_words(data, object);
+    return !refused;
   }
+  grounds_[{steps::Asked::block_download, {}}] =
+      "there is nothing to try it with: 1017h and 100Ch cannot be written, and no other number is in safe_objects";
   return false;
 }
 
@@ -334,6 +396,11 @@ Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, ca
                  .timeout = timeout}});
   if (!answers) return std::unexpected(answers.error());
   return std::move(answers->front());
+}
+
+Result<steps::SdoAnswer> RunSession::prepare(Multiplexer object, Bytes data) {
+  if (auto noted = will_change(object); !noted) return std::unexpected(noted.error());
+  return channel_.download(object, std::move(data), canopen::SdoDownload::Mode::automatic, std::nullopt);
 }
 
 Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<steps::SdoJob>& jobs) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "device/dictionary.hpp"
@@ -55,6 +56,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<bool> offers_block_transfer(bool upload) override;
   [[nodiscard]] bool tries_all_objects() const override { return all_objects_; }
   [[nodiscard]] Result<std::string> others_heard() override;
+  [[nodiscard]] std::string grounds(steps::Asked asked, Multiplexer object) const override;
   void try_all_objects(bool all) { all_objects_ = all; }
 
   // Session
@@ -101,6 +103,8 @@ class RunSession final : public steps::Session {
   // For the engine
   /// The highest tier of this run.
   void allow(scenario::Risk risk) { guard_.allow(risk); }
+  /// A download that prepares what a case needs, whatever the risk of its scenario; put back after it.
+  [[nodiscard]] Result<steps::SdoAnswer> prepare(Multiplexer object, Bytes data);
   void begin_case(scenario::Risk risk);  ///< forgets names, labels, windows; the journal is empty
   void begin_step(const steps::Step& step);
   void end_step() { at_once_ = false; }
@@ -115,7 +119,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::vector<Change> take_journal();
   /// CAN-ID of EMCY as found after power-on.
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
-  void note_present(Multiplexer object, bool present) { present_[object] = present; }
+  /// `why`: what the device answered, where it is not there.
+  void note_present(Multiplexer object, bool present, std::string why = {});
   void forget_presence() { present_.clear(); }
   /// Its last NMT command was stop: it answers no SDO request, and legally so.
   [[nodiscard]] bool is_stopped() const { return stopped_; }
@@ -166,6 +171,7 @@ class RunSession final : public steps::Session {
   std::map<std::string, steps::Window, std::less<>> labels_;
   std::map<Multiplexer, bool> present_;
   std::map<Multiplexer, bool> writable_;
+  std::map<std::pair<steps::Asked, Multiplexer>, std::string> grounds_;
   std::vector<Change> journal_;
   std::size_t resets_ = 0;
   bool left_changed_ = false;

@@ -83,6 +83,13 @@ struct Judgement {
   std::string waived{};
 };
 
+/// What the user could give so that a case is judged.
+struct Want {
+  std::string kind;  ///< "object", "profile", "claim", "description", "option", "bench"
+  std::string text;  ///< "a writable string or DOMAIN of 29 bytes or more"
+  friend auto operator<=>(const Want&, const Want&) = default;
+};
+
 /// One scenario instance, planned or run.
 struct CaseResult {
   std::string id;        ///< "cia301/dictionary/1003-error-history/non-zero-write"
@@ -97,6 +104,7 @@ struct CaseResult {
   Verdict verdict = Verdict::error;     ///< planned cases start as "not run", an error
   std::string reason = "not run";       ///< for not_applicable, inconclusive, error
   std::string rests_on{};  ///< of an inconclusive case: the requirement whose failure left it without ground
+  std::vector<Want> wants{};  ///< of a case that is not applicable for want of something; all are needed
   bool finished = false;
   BusTime begin;
   BusTime end;

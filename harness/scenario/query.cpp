@@ -135,6 +135,7 @@ Result<Query> Query::parse(std::string_view text) {
   Query out;
   if (words.empty()) return fail("an empty query");
   const auto kind = words.front();
+  out.kind_ = kind;
   const auto in_range = [&out](std::uint16_t low, std::uint16_t high) {
     out.whole_objects_ = true;
     out.clauses_.emplace_back([low, high](const Entry& entry) {
@@ -158,6 +159,9 @@ Result<Query> Query::parse(std::string_view text) {
       clause.push_back(words[i]);
       continue;
     }
+    std::string words_text;
+    for (const auto word : clause) words_text += (words_text.empty() ? "" : " ") + std::string(word);
+    out.texts_.push_back(std::move(words_text));
     if (!clause.empty() && clause.front() == "holding") {
       auto holding = parse_holding(clause);
       if (!holding) return std::unexpected(holding.error());
@@ -171,6 +175,45 @@ Result<Query> Query::parse(std::string_view text) {
     clause.clear();
   }
   return out;
+}
+
+bool Query::says(std::string_view clause) const { return std::ranges::find(texts_, clause) != texts_.end(); }
+
+std::string Query::words() const {
+  std::string noun = kind_ == "rpdos"     ? "RPDO"
+                     : kind_ == "tpdos"   ? "TPDO"
+                     : kind_ == "objects" ? "object"
+                     : holding_           ? "string or DOMAIN"
+                                          : "entry";
+  std::string length;
+  std::vector<std::string> others;
+  const bool safe = says("safe");
+  // What every scenario asks for, and a user need not be told.
+  static constexpr std::string_view usual[] = {"fixed size",  "not fixed size", "not changing",
+                                               "not command", "safe",           "readable",
+                                               "access rw",   "claimed",        "not command"};
+  for (const auto& text : texts_) {
+    if (text == "domain") {
+      noun = "DOMAIN";
+    } else if (text == "integer") {
+      noun = "integer";
+    } else if (text.starts_with("type ")) {
+      noun = text.substr(5);
+    } else if (text.starts_with("size ")) {
+      length = " of " + text.substr(5) + " bytes";
+    } else if (!text.starts_with("holding ") && std::ranges::find(usual, text) == std::end(usual)) {
+      others.push_back(text);
+    }
+  }
+  if (holding_) {
+    const auto& [least, most] = *holding_;
+    length = most == 0                   ? " without content"
+             : most == ~std::uint64_t{0} ? " of " + std::to_string(least) + " bytes or more"
+             : least == most             ? " of " + std::to_string(least) + " bytes"
+                             : " of " + std::to_string(least) + " to " + std::to_string(most) + " bytes";
+  }
+  const char* adjective = safe ? "writable " : says("readable") ? "readable " : "";
+  return adjective + noun + length + (others.empty() ? "" : " with " + join(others, " and "));
 }
 
 std::vector<Multiplexer> Query::select(const device::Dictionary& dictionary) const {

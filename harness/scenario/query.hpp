@@ -30,10 +30,16 @@ class Query {
     std::uint64_t least = 0, most = 0;
   };
   [[nodiscard]] const std::optional<Holding>& holding() const { return holding_; }
+  /// Whether one of its clauses reads so.
+  [[nodiscard]] bool says(std::string_view clause) const;
+  /// What it looks for, as a person asks for it: "writable string or DOMAIN of 29 bytes or more".
+  [[nodiscard]] std::string words() const;
 
  private:
   bool whole_objects_ = false;
   std::optional<Holding> holding_;
+  std::string kind_;                ///< entries, objects, rpdos, tpdos
+  std::vector<std::string> texts_;  ///< of the clauses
   std::vector<std::function<bool(const device::Entry&)>> clauses_;
 };
 

@@ -7,48 +7,11 @@
 
 #include "base/text.hpp"
 #include "device/profile.hpp"
+#include "steps/condition_tree.hpp"
 #include "steps/expression_tree.hpp"
 #include "steps/tokens.hpp"
 
 namespace conform::steps {
-
-struct Condition::Tree {
-  enum class Kind {
-    all,
-    any,
-    negation,  // and, or, not
-    present,
-    claimed,
-    readable,
-    writable,
-    access,
-    changes,  // about an entry
-    has_default,
-    feature,
-    triggers,
-    remote,
-    factory,
-    described,
-    refused,
-    sweep,
-    alone,
-    store_fault,
-    block_upload,
-    block_download,  // about device and bench
-    equal,
-    at_least,
-    at_most,
-    above,
-    below  // two expressions
-  };
-  Kind kind = Kind::all;
-  std::vector<std::shared_ptr<const Tree>> parts;
-  ObjectReference object;
-  bool whole_object = false;
-  std::string word;
-  std::uint64_t count = 0;
-  Expression left, right;
-};
 
 namespace {
 
@@ -309,7 +272,9 @@ Result<bool> evaluate_comparison(const Tree& node, Facts& facts) {
   }
 }
 
-Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
+}  // namespace
+
+Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
   if (node.kind == Kind::all || node.kind == Kind::any) {
     for (const auto& part : node.parts) {
       auto value = evaluate_tree(*part, facts);
@@ -350,6 +315,8 @@ Result<bool> evaluate_tree(const Tree& node, Facts& facts) {
     default: return facts.may_change(*object);
   }
 }
+
+namespace {
 
 void collect_objects(const Tree& node, std::vector<ObjectReference>& out) {
   if (node.object.empty()) {

@@ -3,14 +3,26 @@
 // them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "result/run_result.hpp"
 #include "steps/expression.hpp"
 
 namespace conform::steps {
+
+/// A question whose answer has grounds beyond the answer itself.
+enum class Asked : std::uint8_t {
+  presence,
+  reading,
+  writing,
+  block_upload,
+  block_download,
+  factory_defaults
+};
 
 /// What conditions may ask of the device and the bench.
 class Facts : public Scope {
@@ -45,8 +57,18 @@ class Facts : public Scope {
   /// What was heard since the beginning of the run that neither we nor the device sent, in words; empty:
   /// nothing. Waits until there was some time to hear it.
   [[nodiscard]] virtual Result<std::string> others_heard() { return std::string(); }
+  /// On what the latest answer to a question about the entry (of presence, reading and writing) or the device
+  /// rests: "abort 0601 0002h (read-only)", "const, pump.eds:120". May be empty. Asks the device nothing.
+  [[nodiscard]] virtual std::string grounds(Asked /*asked*/, Multiplexer /*object*/) const { return {}; }
   /// The user wants full sweeps instead of samples.
   [[nodiscard]] virtual bool tries_all_objects() const { return false; }
+};
+
+/// Why a condition holds or does not, for a person: the parts that decided it, with the values of names, and
+/// what the user could give to change it.
+struct Why {
+  std::string text;
+  std::vector<result::Want> wants;
 };
 
 class Condition {
@@ -55,6 +77,9 @@ class Condition {
   static Result<Condition> parse(std::string_view text);
   [[nodiscard]] Result<bool> evaluate(Facts& facts) const;
   [[nodiscard]] const std::string& text() const { return text_; }
+  /// Explains an answer that evaluate() gave. Values that decided it are read again.
+  [[nodiscard]] Why why(Facts& facts, bool held) const;
+  [[nodiscard]] Why why_not(Facts& facts) const { return why(facts, false); }
   [[nodiscard]] std::vector<std::string> names() const;
   /// The entries it asks about ("is present", "is writable"), in the order of the text.
   [[nodiscard]] std::vector<ObjectReference> objects() const;

@@ -22,6 +22,44 @@ std::optional<Verdict> verdict_of(const RunResult& run, const std::string& id) {
 
 }  // namespace
 
+TEST_CASE("What the user could give is counted over the cases that want it, most first") {
+  result::RunResult run;
+  const auto add = [&run](result::Verdict verdict, const std::vector<std::string>& wants) {
+    result::CaseResult one;
+    one.verdict = verdict;
+    for (const auto& want : wants) one.wants.push_back({"object", want});
+    run.cases.push_back(one);
+  };
+  add(result::Verdict::not_applicable, {"a"});
+  add(result::Verdict::not_applicable, {"b", "a"});
+  add(result::Verdict::not_applicable, {"b"});
+  add(result::Verdict::not_applicable, {"b"});
+  add(result::Verdict::pass, {"a"});
+  const auto wants = reports::tally_wants(run);
+  REQUIRE(wants.size() == 2);
+  CHECK(wants[0].want.text == "b");
+  CHECK(wants[0].cases == 3);
+  CHECK(wants[1].cases == 2);
+}
+
+TEST_CASE("Reasons why cases do not apply are one when they differ in numbers only") {
+  result::RunResult run;
+  for (const char* reason : {"1401h:01 is absent: abort 0602 0000h", "1402h:02 is absent: abort 0609 0011h",
+                             "1402h:02 is not writable: const", "bit 31 of 1800h:01 is 1 (C000 0185h), not 0",
+                             "bit 30 of 1801h:01 is 0 (8000 0285h), not 1"}) {
+    result::CaseResult one;
+    one.verdict = result::Verdict::not_applicable;
+    one.reason = reason;
+    run.cases.push_back(one);
+  }
+  const auto groups = reports::group_by_reason(run, result::Verdict::not_applicable);
+  REQUIRE(groups.size() == 3);
+  CHECK(groups[0].cases.size() == 2);
+  CHECK(groups[0].varies);
+  CHECK_FALSE(groups[1].varies);
+  CHECK(groups[2].cases.size() == 2);
+}
+
 TEST_CASE("A requirement has the worst verdict of all its cases") {
   RunResult run = testing::sample_run();
   CHECK(verdict_of(run, "OD-1003-06") == Verdict::fail);

@@ -51,7 +51,8 @@ TEST_CASE("a way that does not concern the device withdraws what passed on it be
   CHECK(out.only().verdict == Verdict::not_applicable);
   CHECK(judgement_of(out, "T-MUST").verdict == Verdict::not_applicable);
   CHECK_FALSE(judgement_of(out, "T-MUST").decided_by);
-  CHECK(out.only().reason.starts_with("does not concern this device: abort 0601 0002h"));
+  CHECK(out.only().reason.starts_with(
+      "does not concern this device: download 1017h:00 = 03E8h gave abort 0601 0002h"));
 }
 
 TEST_CASE("what a later step would still have decided has not passed either, and what is decided stays") {

@@ -33,6 +33,102 @@ class Talker final : public can::Participant {
   std::optional<BusTime> due_;
 };
 
+/// A DOMAIN at 2001h:00 with segmented transfer, in front of the scripted device.
+struct Buffer {
+  std::vector<std::uint8_t> content;
+  std::size_t capacity = 64;
+  std::size_t window = 0;  ///< not 0: reads back so many bytes, whatever was written
+  std::vector<std::size_t> written;
+
+  bool serve(ScriptedDevice& device, const can::Frame& request) {
+    auto answer = request;
+    answer.id = 0x581;
+    answer.data.fill(0);
+    const auto reply = [&] {
+      device.send(answer);
+      return true;
+    };
+    const auto command = request.data[0];
+    if ((command & 0xE0U) == 0x60 && reading_) {
+      const auto n = std::min<std::size_t>(7, content.size() - at_);
+      std::copy_n(content.begin() + static_cast<std::ptrdiff_t>(at_), n, answer.data.begin() + 1);
+      at_ += n;
+      reading_ = at_ < content.size();
+      answer.data[0] = static_cast<std::uint8_t>((command & 0x10U) | ((7 - n) << 1U) | (reading_ ? 0U : 1U));
+      return reply();
+    }
+    if ((command & 0xE0U) == 0x00 && writing_) {
+      const auto n = 7U - ((command >> 1U) & 7U);
+      incoming_.insert(incoming_.end(), request.data.begin() + 1, request.data.begin() + 1 + n);
+      if ((command & 1U) != 0) store();
+      answer.data[0] = static_cast<std::uint8_t>(0x20U | (command & 0x10U));
+      return reply();
+    }
+    if (request.data[1] != 0x01 || request.data[2] != 0x20 || request.data[3] != 0) return false;
+    std::copy_n(request.data.begin() + 1, 3, answer.data.begin() + 1);
+    if (command == 0x40) {
+      reading_ = true;
+      at_ = 0;
+      answer.data[0] = 0x41;
+      answer.data[4] = static_cast<std::uint8_t>(content.size());
+      answer.data[5] = static_cast<std::uint8_t>(content.size() >> 8U);
+      return reply();
+    }
+    if ((command & 0xE0U) != 0x20) return false;
+    const auto size = load_le(request.bytes().subspan(4));
+    if (command == 0x21 && size > capacity) {
+      device.abort(request, 0x06070012);
+      return true;
+    }
+    incoming_.clear();
+    writing_ = (command & 2U) == 0;
+    if (!writing_) {
+      incoming_.assign(request.data.begin() + 4, request.data.begin() + 8 - ((command >> 2U) & 3U));
+      store();
+    }
+    answer.data[0] = 0x60;
+    return reply();
+  }
+
+ private:
+  void store() {
+    written.push_back(incoming_.size());
+    if (window != 0) {
+      std::ranges::copy(incoming_, content.begin());
+    } else {
+      content = incoming_;
+    }
+    writing_ = false;
+  }
+  bool reading_ = false, writing_ = false;
+  std::size_t at_ = 0;
+  std::vector<std::uint8_t> incoming_;
+};
+
+Outcome play_with(Buffer& buffer, const std::string& scenarios, const RunOptions& options = {}) {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  device.before = [&buffer](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    return buffer.serve(self, frame);
+  };
+  auto profile = device::default_profile(NodeId(1));
+  device::Entry entry;
+  entry.mux = {Index(0x2001), SubIndex(0)};
+  entry.name = "Buffer";
+  entry.type = canopen::DataType::domain;
+  entry.claimed = true;
+  profile.objects.push_back(entry);
+  profile.safe_objects.push_back(entry.mux);
+  return play(bus, device, scenarios, options, profile);
+}
+
+std::string scenario_with(const std::string& given, const std::string& risk = "config") {
+  return "  - id: a\n    title: t\n    risk: " + risk + "\n    given: {buffer: " + given +
+         "}\n    steps:\n      - upload: {object: $buffer}\n        checks: T-MUST\n        expect: {size: 0..}\n";
+}
+const std::string writes = "entries with safe and access rw and not fixed size and holding 29.. bytes";
+const std::string reads = "entries with readable and not fixed size and holding 15.. bytes";
+
 const std::string when_alone = R"(
   - id: a
     title: t
@@ -84,4 +180,104 @@ TEST_CASE("A CAN-ID that the device holds in a valid COB-ID is its own") {
     bus.attach(talker, "talker");
     CHECK(play(bus, device, when_alone).only().verdict == Verdict::not_applicable);
   }
+}
+
+TEST_CASE("How many bytes an entry takes is found out by writing them, and what it held is put back") {
+  Buffer empty;
+  const auto outcome = play_with(empty, scenario_with(writes));
+  CHECK(outcome.only().verdict == Verdict::pass);
+  CHECK(empty.written == std::vector<std::size_t>{29, 0});
+  CHECK(empty.content.empty());
+}
+
+TEST_CASE("An empty entry is filled for a scenario that reads, where the run may write") {
+  Buffer empty;
+  CHECK(play_with(empty, scenario_with(reads, "read-only")).only().verdict == Verdict::pass);
+  CHECK(empty.content.empty());
+  RunOptions careful;
+  careful.plan.allowed = scenario::Risk::read_only;
+  Buffer untouched;
+  const auto outcome = play_with(untouched, scenario_with(reads, "read-only"), careful);
+  CHECK(outcome.only().verdict == Verdict::not_applicable);
+  CHECK(outcome.only().reason ==
+        "the device has no readable string or DOMAIN of 15 bytes or more: 2001h:00 holds 0");
+  CHECK(untouched.written.empty());
+}
+
+TEST_CASE("An entry that is too small says so, and what is wanted instead") {
+  Buffer small;
+  small.capacity = 16;
+  small.content.assign(16, 0x41);
+  const auto outcome = play_with(small, scenario_with(writes));
+  CHECK(outcome.only().verdict == Verdict::not_applicable);
+  CHECK(outcome.only().reason.starts_with("the device has no writable string or DOMAIN of 29 bytes or more: "
+                                          "2001h:00 takes no 29 bytes: abort 0607 0012h"));
+  REQUIRE(outcome.only().wants.size() == 1);
+  CHECK(outcome.only().wants[0].text ==
+        "a writable string or DOMAIN of 29 bytes or more, named in safe_objects");
+  CHECK(small.content == std::vector<std::uint8_t>(16, 0x41));
+}
+
+TEST_CASE("A window of fixed length is taken where there is no store, and is as it was afterwards") {
+  Buffer window;
+  window.window = window.capacity = 100;
+  window.content.assign(100, 0x42);
+  CHECK(play_with(window, scenario_with(writes)).only().verdict == Verdict::pass);
+  CHECK(window.content == std::vector<std::uint8_t>(100, 0x42));
+}
+
+TEST_CASE("A condition that does not hold names the entry and the answer of the device") {
+  ScriptedDevice device;
+  const auto outcome = play(device, R"(
+  - id: a
+    title: t
+    when: 1000h:00 is present and 1800h:01 is present
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(outcome.only().verdict == Verdict::not_applicable);
+  CHECK(outcome.only().reason == "1800h:01 is absent: abort 0602 0000h (object does not exist)");
+}
+
+TEST_CASE("An entry whose answer breaks the protocol has not been tried") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] != 0x40 || frame.data[1] != 0x14) return false;
+    self.send(can::data_frame(CanId(0x581), {0x43, 0x14, 0x10, 0x05, 0, 0, 0, 0}));
+    return true;
+  };
+  const auto outcome = play(device, R"(
+  - id: a
+    title: t
+    when: 1014h:00 is writable
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(outcome.only().verdict == Verdict::inconclusive);
+  CHECK(outcome.only().reason.find("cannot be tried") != std::string::npos);
+}
+
+TEST_CASE("A case in which no step applied says which conditions left them out") {
+  ScriptedDevice device;
+  const auto outcome = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+        when: 1010h:01 is present
+        checks: T-MUST
+        expect: ok
+      - over: {object: entries with index 2000h..2FFFh and integer}
+        steps:
+          - upload: {object: $object}
+            checks: T-MUST
+            expect: ok
+)");
+  CHECK(outcome.only().verdict == Verdict::not_applicable);
+  CHECK(outcome.only().reason ==
+        "the device has no integer with index 2000h..2FFFh; 1010h:01 is absent: abort 0602 0000h (object "
+        "does not exist)");
 }

@@ -67,6 +67,7 @@ CaseResult full_case() {
   out.verdict = Verdict::not_applicable;
   out.reason = "";
   out.rests_on = "R-2";
+  out.wants = {{"object", "a DOMAIN"}};
   out.finished = true;
   out.begin = BusTime(Duration(1));
   out.end = BusTime(Duration(2));
@@ -127,6 +128,7 @@ TEST_CASE("every member of a run survives the way through JSON") {
   CHECK(back.cases[1].reason == "not run");
   const auto& one = back.cases[0];
   CHECK(one.reason.empty());
+  CHECK(one.wants == std::vector<Want>{{"object", "a DOMAIN"}});
   CHECK(one.finished);
   CHECK(one.end_frame == 4);
   CHECK(one.setup_findings.size() == 1);

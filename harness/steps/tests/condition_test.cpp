@@ -88,6 +88,57 @@ TEST_CASE("Conditions about device and bench are phrases") {
   CHECK(answer("store fault is known", session) == "yes");
 }
 
+TEST_CASE("A condition that is false names the part, the entry and the value that made it so") {
+  auto session = device();
+  const auto why = [&session](std::string_view text, bool held = false) {
+    const auto condition = Condition::parse(text);
+    REQUIRE(condition);
+    const auto answer = condition->evaluate(session);
+    REQUIRE(answer);
+    CHECK(*answer == held);
+    return condition->why(session, held).text;
+  };
+  CHECK(why("$object is present and bit 30 of 1005h:00 is 0") ==
+        "bit 30 of 1005h:00 is 1 (4000 0080h), not 0");
+  CHECK(why("1010h:01 is present and value of 1010h:01 is 1") == "1010h:01 is absent");
+  CHECK(why("1010h is present or 1011h is present") == "1010h is absent, and 1011h is absent");
+  CHECK(why("value of $object is above 4") == "the value of 1003h:00 is 2, not above 4");
+  CHECK(why("$count is at least 4") == "count is 3, not 4 or more");
+  CHECK(why("$count + 1 is 9") == "3 + 1 is 4, not 9");
+  CHECK(why("$object is const") == "1003h:00 is rw, not const");
+  CHECK(why("not $object is writable") == "1003h:00 is writable");
+  CHECK(why("1010h:01 is present and device claims emcy") ==
+        "1010h:01 is absent, and the device does not claim 'emcy'");
+  session.others = "707h";
+  CHECK(why("nobody else is heard on the bus") == "somebody else is on the bus: 707h");
+  // Of 'unless' it is the other way round.
+  CHECK(why("1010h is present or $count is 3", true) == "count is 3");
+  CHECK(why("1003h is present and device claims sync producer", true) ==
+        "1003h is present, and the device claims 'sync producer'");
+}
+
+TEST_CASE("A condition that is false for want of something says what the user could give") {
+  auto session = device();
+  const auto wants = [&session](std::string_view text) {
+    const auto condition = Condition::parse(text);
+    REQUIRE(condition);
+    std::string out;
+    for (const auto& want : condition->why_not(session).wants) out += want.kind + ": " + want.text + "; ";
+    return out;
+  };
+  CHECK(wants("device claims mpdo") == "claim: the claim 'mpdo', if the device has it; ");
+  CHECK(wants("3 error triggers are known") == "profile: errors: 3 ways to raise an error, in the profile; ");
+  CHECK(wants("factory defaults are active and store fault is known") ==
+        "profile: factory_defaults: true in the profile, if nothing is stored in the device; "
+        "profile: store_fault: in the profile, if the device can simulate one; ");
+  CHECK(wants("device claims only node on the bus or device description is given") ==
+        "claim: the claim 'only node on the bus', if it is so; description: the EDS of the device (--eds); ");
+  // Where the device itself lacks something nothing can be given.
+  CHECK(wants("1010h is present and device claims mpdo").empty());
+  CHECK(wants("1010h is present").empty());
+  CHECK(wants("not device claims sync producer").empty());
+}
+
 TEST_CASE("'and' binds before 'or', and parentheses before both") {
   auto session = device();
   CHECK(answer("1003h is present or 1003h is absent and 1010h is present", session) == "yes");

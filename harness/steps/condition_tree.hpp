@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inside of Condition, shared by its parser and its explanation and nobody else.
+#pragma once
+
+#include "steps/condition.hpp"
+
+namespace conform::steps {
+
+struct Condition::Tree {
+  enum class Kind {
+    all,
+    any,
+    negation,  // and, or, not
+    present,
+    claimed,
+    readable,
+    writable,
+    access,
+    changes,  // about an entry
+    has_default,
+    feature,
+    triggers,
+    remote,
+    factory,
+    described,
+    refused,
+    sweep,
+    alone,
+    store_fault,
+    block_upload,
+    block_download,  // about device and bench
+    equal,
+    at_least,
+    at_most,
+    above,
+    below  // two expressions
+  };
+  Kind kind = Kind::all;
+  std::vector<std::shared_ptr<const Tree>> parts;
+  ObjectReference object;
+  bool whole_object = false;
+  std::string word;
+  std::uint64_t count = 0;
+  Expression left, right;
+};
+
+/// Whether a part of a condition holds.
+[[nodiscard]] Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts);
+
+}  // namespace conform::steps
