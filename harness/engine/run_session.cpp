@@ -213,10 +213,10 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   };
   if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
   // An entry that cannot be read, or is answered against the protocol, was not tried.
-  const auto not_tried = [object](std::string_view what, const steps::SdoAnswer& came) {
+  const auto not_tried = [object](std::string_view done, const steps::SdoAnswer& came) {
     const bool aborted = came.kind == steps::SdoAnswer::Kind::aborted;
     return fail("whether " + to_string(object) + " is writable cannot be tried: its value was not " +
-                    std::string(what) + ": " +
+                    std::string(done) + ": " +
                     (aborted ? "abort " + canopen::describe(came.code) : came.detail),
                 "scenario");
   };
