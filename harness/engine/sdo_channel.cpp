@@ -145,6 +145,8 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     runs.push_back(std::move(run));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (sent_by_hand_.erase(runs[i].request) > 0 && lines[i]->state == State::idle)
+      lines[i]->state = State::open;
     // Of an abandoned transfer the server must rid itself: to help it would hide that it cannot.
     if (lines[i]->state == State::abandoned) continue;
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -57,6 +58,9 @@ class SdoChannel {
     latest_ = latency;
     slowest_ = std::max(slowest_, latency);
   }
+  /// A frame went out that no transfer sent: whatever it opened on a channel is ended before the next
+  /// transfer.
+  void note_sent(CanId request) { sent_by_hand_.insert(request); }
   /// A request was aborted at this time by a frame that no transfer sent.
   void note_abort(BusTime time) { aborted_at_ = time; }
   /// An abort is not answered; a server that does it all the same gets the time for it, so that its answer is
@@ -104,6 +108,7 @@ class SdoChannel {
   KnownSize known_size_;
   Duration timeout_, quiet_;
   Duration slowest_{}, latest_{};      ///< answers: the slowest, and the latest one
+  std::set<CanId> sent_by_hand_;       ///< requests of conversations since the last transfer on that channel
   Duration patience_spent_{};          ///< on answers that never came
   std::map<Multiplexer, int> mute_;    ///< entries for which all patience was in vain, and how often
   std::optional<BusTime> aborted_at_;  ///< by a conversation; the server has not been given time since
