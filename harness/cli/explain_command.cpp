@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
 
 #include "base/text.hpp"
 #include "cli/commands.hpp"
@@ -11,7 +14,9 @@
 #include "cli/suite_folder.hpp"
 #include "cli/terminal.hpp"
 #include "defects/defect.hpp"
+#include "device/profile.hpp"
 #include "monitor/watch.hpp"
+#include "steps/channels.hpp"
 #include "steps/condition.hpp"
 #include "steps/step.hpp"
 #include "variants/variant.hpp"
@@ -199,8 +204,56 @@ std::string tier_list() {
   return out + fmt::format("  {:9}  {}\n", "never", steps::never_sent());
 }
 
+std::string channel_list() {
+  std::string out = "What scenarios see a device through, each judged first (establishes, rests_on):\n";
+  for (const auto& channel : steps::channels())
+    out += fmt::format("  {:20} {}\n", channel.name, channel.summary);
+  return out;
+}
+
+using Json = nlohmann::ordered_json;
+
+/// What the schema says of a key, and of the keys below it.
+void tell_key(const std::string& name, const Json& key, int depth, std::string& out) {
+  const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+  out += fmt::format("{}{:{}} {}\n", indent, name, 20 - 2 * depth, key.value("description", ""));
+  const Json* inside = &key;
+  if (const auto items = key.find("items"); items != key.end()) inside = &*items;
+  if (const auto ways = inside->find("oneOf"); ways != inside->end()) {
+    for (const auto& way : *ways) {
+      if (way.contains("properties")) inside = &way;
+    }
+  }
+  const auto below = inside->find("properties");
+  if (below == inside->end()) return;
+  for (const auto& [inner, value] : below->items()) tell_key(inner, value, depth + 1, out);
+}
+
+/// Keys of a device profile, as the schema for editors has them: "profile" for all, or one by its name.
+std::string explain_profile(const std::string& topic, const std::string& root) {
+  std::ifstream file(root + "/schema/device.schema.json");
+  const auto schema = Json::parse(file, nullptr, false);
+  if (schema.is_discarded() || !schema.contains("properties")) return {};
+  const auto& keys = schema["properties"];
+  std::string out;
+  if (topic == "profile") {
+    out = "Keys of a device profile (docs/profile.md)\n";
+    for (const auto& [name, key] : keys.items()) tell_key(name, key, 1, out);
+    return out;
+  }
+  const auto key = keys.find(topic);
+  if (key == keys.end()) return {};
+  out = "A key of the device profile\n";
+  tell_key(topic, *key, 1, out);
+  if (topic == "claims" || topic == "not_claimed") {
+    for (const auto& feature : device::features())
+      out += fmt::format("    {:24} {}\n", feature.word, feature.meaning);
+  }
+  return out;
+}
+
 /// Empty: nothing is known about it; `known` then holds the names there are.
-std::string explain_one(const std::string& topic, const LoadedSuites& suites,
+std::string explain_one(const std::string& topic, const LoadedSuites& suites, const std::string& root,
                         std::vector<std::string>& known) {
   if (topic == "coverage") return coverage_summary(coverage(suites));
   if (const auto* requirement = suites.catalogue.find(topic))
@@ -210,6 +263,8 @@ std::string explain_one(const std::string& topic, const LoadedSuites& suites,
   if (topic == "verbs") return verb_list();
   if (topic == "conditions") return condition_list();
   if (topic == "tiers") return tier_list();
+  if (topic == "channels") return channel_list();
+  if (auto text = explain_profile(topic, root); !text.empty()) return text;
   if (const auto* defect = refnode::find_defect(topic)) return explain_defect(*defect, suites.catalogue);
   if (const auto* variant = refnode::find_variant(topic)) return explain_variant(*variant, suites.catalogue);
   for (const auto id : suites.catalogue.ids()) known.emplace_back(id);
@@ -257,7 +312,7 @@ int explain_command(const ExplainCommand& options) {
   bool first = true;
   for (const auto& topic : options.topics) {
     std::vector<std::string> known;
-    const auto text = explain_one(topic, *suites, known);
+    const auto text = explain_one(topic, *suites, *root, known);
     if (!text.empty()) {
       print((first ? "" : "\n") + text);
       first = false;
@@ -268,7 +323,7 @@ int explain_command(const ExplainCommand& options) {
         {"nothing is known about '" + topic + "'",
          {},
          near.empty()
-             ? "a requirement, scenario, monitor, verb, defect or variant; or 'verbs', 'conditions', 'tiers', 'coverage'"
+             ? "a requirement, scenario, monitor, verb, defect or variant; or 'verbs', 'conditions', 'tiers', 'channels', 'profile', 'coverage'"
              : "did you mean '" + std::string(near) + "'?"},
         exit_usage);
   }

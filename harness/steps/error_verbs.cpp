@@ -132,35 +132,47 @@ class RaiseError final : public Action {
   static std::unique_ptr<Action> parse_as(const yaml::Field& value, ParseContext& context, bool clear) {
     auto out = std::make_unique<RaiseError>();
     out->clear_ = clear;
+    const auto read_number = [&](const yaml::Field& field) {
+      const auto expression = parse_expression_at(field, context.names);
+      if (!expression) return;
+      if (const auto fixed = parse_number(expression->text()); fixed && (*fixed < 1 || *fixed > 16)) {
+        field.error("error triggers are numbered from 1 to 16");
+        return;
+      }
+      out->number_ = *expression;
+    };
     if (!value.node()->is_mapping()) {
-      out->number_ = value.number(1, 16).value_or(0);
+      read_number(value);
     } else {
       auto fields = value.fields(clear ? "clear_error" : "raise_error");
-      out->number_ = fields.required("trigger").number(1, 16).value_or(0);
+      if (const auto trigger = fields.required("trigger")) read_number(trigger);
       if (const auto save = fields.optional("save"); save && !clear) {
         out->save_ = save.text().value_or("");
         context.know(out->save_);
       }
     }
-    return out->number_ == 0 ? nullptr : std::move(out);
+    return out->number_.empty() ? nullptr : std::move(out);
   }
 
   Channels rests_on() const override { return {channel::emcy}; }
   std::string words(Session& session) const override {
-    std::string name = "error trigger " + std::to_string(number_);
-    if (number_ <= session.profile().errors.size())
-      name += " (" + session.profile().errors[number_ - 1].name + ")";
+    const auto number = number_.number(session);
+    std::string name = "error trigger " + (number ? std::to_string(*number) : number_.text());
+    if (number && *number >= 1 && *number <= session.profile().errors.size())
+      name += " (" + session.profile().errors[*number - 1].name + ")";
     return (clear_ ? "clear " : "raise ") + name;
   }
   Result<Actual> run(Session& session) const override {
     const auto triggers = usable_triggers(session);
     if (!triggers) return std::unexpected(triggers.error());
-    if (number_ > triggers->size()) {
-      return fail("error trigger " + std::to_string(number_) + " is not known", "scenario",
+    const auto number = number_.number(session);
+    if (!number) return std::unexpected(number.error());
+    if (*number < 1 || *number > triggers->size()) {
+      return fail("error trigger " + std::to_string(*number) + " is not known", "scenario",
                   "name one under errors: in the device profile");
     }
-    const auto& trigger = (*triggers)[number_ - 1];
-    if (auto ready = take_note(session); !ready) return std::unexpected(ready.error());
+    const auto& trigger = (*triggers)[*number - 1];
+    if (auto ready = take_note(session, *number); !ready) return std::unexpected(ready.error());
     Duration delay{};
     auto out = clear_ ? clear(session, trigger) : raise(session, trigger, delay);
     if (out && !clear_) {
@@ -173,8 +185,8 @@ class RaiseError final : public Action {
  private:
   /// An error that was cleared and is still there is not raised again by its trigger: what does not come then
   /// shows nothing.
-  Result<void> take_note(Session& session) const {
-    const auto name = "error trigger " + std::to_string(number_);
+  Result<void> take_note(Session& session, std::uint64_t number) const {
+    const auto name = "error trigger " + std::to_string(number);
     const auto before = name + ", register before", cleared = name + ", cleared";
     if (clear_) {
       session.set(cleared, Value::of_number(1));
@@ -187,12 +199,12 @@ class RaiseError final : public Action {
       return {};
     }
     if (session.find(cleared) == nullptr || !now || !was->number || (*now & ~*was->number) == 0) return {};
-    return fail("the error of trigger " + std::to_string(number_) + " did not clear: 1001h is " +
+    return fail("the error of trigger " + std::to_string(number) + " did not clear: 1001h is " +
                     hex(*now, 2) + ", and was " + hex(*was->number, 2) + " before it was raised",
                 "scenario");
   }
 
-  std::uint64_t number_ = 0;
+  Expression number_;
   bool clear_ = false;
   std::string save_;
 };
@@ -400,9 +412,9 @@ class FillHistory final : public Action {
 constexpr Verb table[] = {
     {"raise_error",
      "Raise an error by a trigger of the device profile (default: a heartbeat that stays away).",
-     "trigger: number, from 1\nsave: name that the EMCY error code gets",
+     "trigger: number from 1, or $name\nsave: name that the EMCY error code gets",
      "- raise_error: {trigger: 1, save: code}", &RaiseError::parse},
-    {"clear_error", "Remove the cause of an error.", "trigger: number, from 1", "- clear_error: 1",
+    {"clear_error", "Remove the cause of an error.", "trigger: number from 1, or $name", "- clear_error: 1",
      &RaiseError::parse_clear},
     {"store_fault",
      "Make storing and restoring (1010h, 1011h) fail by store_fault of the device profile, or work again.",

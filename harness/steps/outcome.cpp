@@ -133,7 +133,8 @@ std::optional<AbortCode> read_code(std::string_view text) {
   return AbortCode(static_cast<std::uint32_t>(*number));
 }
 
-bool parse_abort(std::string_view text, const yaml::Field& field, std::vector<Outcome>& out) {
+bool parse_abort(std::string_view text, const yaml::Field& field, const NameCheck& names,
+                 std::vector<Outcome>& out) {
   Outcome outcome;
   text = trim(text);
   if (text == "any") {
@@ -147,6 +148,17 @@ bool parse_abort(std::string_view text, const yaml::Field& field, std::vector<Ou
     return true;
   }
   outcome.kind = Outcome::Kind::abort_code;
+  if (text.starts_with('$')) {
+    auto code = Expression::parse(text);
+    if (!code) {
+      field.error(code.error().what, code.error().hint);
+      return false;
+    }
+    report_unknown_names(code->names(), field, names);
+    outcome.named_code = *code;
+    out.push_back(outcome);
+    return true;
+  }
   const auto dots = text.find("..");
   const auto first = read_code(trim(text.substr(0, dots)));
   const auto last = dots == std::string_view::npos ? first : read_code(trim(text.substr(dots + 2)));
@@ -220,7 +232,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
   fields.allow_others();
   if (const auto abort = fields.optional("abort")) {
     for (const auto& item : abort.items_or_one()) {
-      if (const auto text = item.text()) parse_abort(*text, item, out);
+      if (const auto text = item.text()) parse_abort(*text, item, names, out);
     }
   }
   Outcome outcome;
@@ -353,8 +365,13 @@ Result<bool> Outcome::matches(const Actual& actual, Scope& scope) const {
     case Kind::abort_any: return actual.kind == ActualKind::aborted;
     case Kind::abort_defined:
       return actual.kind == ActualKind::aborted && !canopen::meaning(actual.code).empty();
-    case Kind::abort_code:
-      return actual.kind == ActualKind::aborted && actual.code >= code && actual.code <= last_code;
+    case Kind::abort_code: {
+      if (actual.kind != ActualKind::aborted) return false;
+      if (named_code.empty()) return actual.code >= code && actual.code <= last_code;
+      const auto wanted = named_code.number(scope);
+      if (!wanted) return std::unexpected(wanted.error());
+      return actual.code.value() == *wanted;
+    }
     case Kind::silence: return actual.kind == ActualKind::silence;
     case Kind::unchanged:
       if (actual.kind != ActualKind::confirmed) return false;
@@ -379,6 +396,11 @@ std::string Outcome::words(Scope& scope, std::optional<canopen::DataType> type) 
     case Kind::silence: return "no answer";
     case Kind::unchanged: return "the value it had before";
     case Kind::abort_code:
+      if (!named_code.empty()) {
+        const auto wanted = named_code.number(scope);
+        return "abort " + (wanted ? canopen::describe(AbortCode(static_cast<std::uint32_t>(*wanted)))
+                                  : named_code.text());
+      }
       if (code == last_code) return "abort " + canopen::describe(code);
       return "abort " + to_string(code) + " to " + to_string(last_code);
     case Kind::data: break;
@@ -438,7 +460,7 @@ std::vector<Outcome> parse_outcomes(const yaml::Field& field, const NameCheck& n
     } else if (*text == "abort") {
       item.error("'abort' needs a code", "write abort 0609 0030h, or abort any");
     } else if (text->starts_with("abort ")) {
-      parse_abort(std::string_view(*text).substr(6), item, out);
+      parse_abort(std::string_view(*text).substr(6), item, names, out);
     } else {
       const auto first = text->substr(0, text->find(' '));
       static constexpr std::string_view known[] = {"ok",    "abort", "silence", "unchanged",

@@ -71,6 +71,7 @@ struct Outcome {
   enum class Kind : std::uint8_t { ok, abort_code, abort_any, abort_defined, silence, unchanged, data };
   Kind kind = Kind::ok;
   AbortCode code{}, last_code{};  ///< abort_code: an inclusive range, mostly of one
+  Expression named_code;          ///< abort_code: a $name that holds the code, instead of the range
   std::vector<Demand> demands;    ///< data
 
   /// Whether `actual` is this outcome. Error when a name in it has no value.

@@ -186,6 +186,53 @@ class Documents(unittest.TestCase):
                 done = run("lint", "--suites", str(SUITES), file.name)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_the_page_of_the_profile_has_every_key_and_every_feature(self):
+        device = json.loads((SUITES / "schema/device.schema.json").read_text(encoding="utf-8"))
+        page = (ROOT / "docs/profile.md").read_text(encoding="utf-8")
+        named = set(re.findall(r"`([a-z_0-9 -]+)`", page))
+        features = {each["const"] for each in device["definitions"]["feature"]["oneOf"]}
+        self.assertEqual((keys_of(device) | features) - named, set())
+
+    def test_the_schema_of_the_profile_has_the_keys_that_the_program_reads(self):
+        device = json.loads((SUITES / "schema/device.schema.json").read_text(encoding="utf-8"))
+        reader = (ROOT / "harness/device/profile_reader.cpp").read_text(encoding="utf-8")
+        table = (ROOT / "harness/device/profile.cpp").read_text(encoding="utf-8")
+        read = set(re.findall(r'(?:required|optional|has|read_entries|number)\("([a-z_]+)"\)', reader))
+        read |= set(re.findall(r'exactly_one_of\(\{"([a-z_]+)"', reader))
+        read |= set(re.findall(r'\{"([a-z_]+)", "T_[A-Z]+"', table))
+        self.assertEqual(read, keys_of(device))
+
+    def test_every_profile_in_the_documents_is_one(self):
+        found = 0
+        for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+            for block in re.findall(r"```yaml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+                if not re.search(r"^node:", block, re.MULTILINE):
+                    continue
+                found += 1
+                with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+                    file.write(block)
+                    file.flush()
+                    done = run("lint", "--suites", str(SUITES), file.name)
+                self.assertEqual(done.returncode, 0, "%s\n%s%s" % (page, done.stdout, done.stderr))
+        self.assertGreater(found, 0)
+
+
+def keys_of(schema_part):
+    """Every key that a schema allows, at any depth."""
+    out = set()
+    if isinstance(schema_part, dict):
+        for name, value in schema_part.items():
+            if name == "properties":
+                out |= set(value)
+                for each in value.values():
+                    out |= keys_of(each)
+            else:
+                out |= keys_of(value)
+    elif isinstance(schema_part, list):
+        for each in schema_part:
+            out |= keys_of(each)
+    return out
+
 
 if __name__ == "__main__":
     wanted = [Schema, Lint] if PART == "schema" else [Documents]

@@ -67,6 +67,23 @@ bool fits(const std::string& text, const Actual& actual) {
   return false;
 }
 
+TEST_CASE("An abort code may be the value of a name") {
+  FakeSession session;
+  session.names["before"] = Value::of_number(0x0609'0030);
+  for (const char* text : {"abort $before", "{abort: $before}"}) {
+    const auto outcomes = read(text);
+    REQUIRE(outcomes.size() == 1);
+    Actual actual;
+    actual.kind = Actual::Kind::aborted;
+    actual.code = AbortCode(0x0609'0030);
+    CHECK(*outcomes[0].matches(actual, session));
+    actual.code = AbortCode(0x0601'0002);
+    CHECK_FALSE(*outcomes[0].matches(actual, session));
+    CHECK(outcomes[0].words(session, std::nullopt).starts_with("abort 0609 0030h"));
+  }
+  CHECK(mistake("abort $nothing").find("nothing") != std::string::npos);
+}
+
 TEST_CASE("A misspelt outcome is named at its place, with what was meant") {
   std::string said;
   (void)read("{abbort: 0609 0030h}", said);
