@@ -3,7 +3,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,8 +19,6 @@
 namespace conform::cli {
 namespace {
 
-constexpr long between_looks_ns = 10'000'000;
-
 [[noreturn]] void become(const char* command) {
   ::setpgid(0, 0);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
@@ -26,6 +26,22 @@ constexpr long between_looks_ns = 10'000'000;
   ::dup2(2, 1);
   ::execl("/bin/sh", "sh", "-c", command, nullptr);
   ::_exit(127);
+}
+
+/// Waits for the end of a child, no longer than until `end`. A kernel without pidfd (before 5.3) waits
+/// without a limit.
+bool ends_before(pid_t child, std::chrono::steady_clock::time_point end) {
+  const auto watched = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
+  if (watched < 0) return true;
+  bool ended = false;
+  for (auto now = std::chrono::steady_clock::now(); !ended && now < end;
+       now = std::chrono::steady_clock::now()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
+    pollfd one{watched, POLLIN, 0};
+    ended = ::poll(&one, 1, static_cast<int>(left.count())) > 0;
+  }
+  ::close(watched);
+  return ended;
 }
 
 }  // namespace
@@ -37,17 +53,13 @@ Result<void> run_shell(const std::string& command, Duration limit) {
   if (child == 0) become(command.c_str());
   ::setpgid(child, child);  // whoever of the two comes first
   int status = 0;
-  while (true) {
-    const pid_t done = ::waitpid(child, &status, WNOHANG);
-    if (done == child) break;
-    if (done < 0 && errno != EINTR) return fail("the command could not be waited for: " + command);
-    if (std::chrono::steady_clock::now() >= end) {
-      ::kill(-child, SIGKILL);
-      ::waitpid(child, &status, 0);
-      return fail(fmt::format("the command did not end within {}: {}", to_string(limit), command));
-    }
-    const timespec pause{0, between_looks_ns};
-    ::nanosleep(&pause, nullptr);
+  if (!ends_before(child, end)) {
+    ::kill(-child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    return fail(fmt::format("the command did not end within {}: {}", to_string(limit), command));
+  }
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return fail("the command could not be waited for: " + command);
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return fail(WIFEXITED(status)

@@ -244,8 +244,8 @@ TEST_CASE("an impossible or missing interface is explained with the command to t
   const auto loopback = interface_facts("lo");
   REQUIRE_FALSE(loopback.has_value());
   CHECK(loopback.error().what.find("not a CAN interface") != std::string::npos);
-  CHECK(up_command("can0", false) == "sudo ip link set can0 up type can bitrate 500000");
-  CHECK(up_command("vcan0", true) == "sudo ip link set vcan0 up");
+  CHECK(up_command("can0", "can") == "sudo ip link set can0 up type can bitrate 500000");
+  CHECK(up_command("vcan0", "vcan") == "sudo ip link set vcan0 up");
   // Whether the kernel knows CAN or not: there is no such interface, so both answers are errors that say so.
   CHECK_FALSE(SocketCanTransport::open("vcan-none").has_value());
 }

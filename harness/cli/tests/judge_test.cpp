@@ -193,7 +193,12 @@ TEST_CASE("A run that stopped before any scenario passes nothing") {
   std::atomic<int> stop{0};
   engine::RunOptions options;
   options.stop = &stop;
-  options.on_planned = [&stop](const result::RunResult&) { stop = 2; };
+  struct StopsAtOnce final : engine::Observer {
+    explicit StopsAtOnce(std::atomic<int>& stop) : stop_(stop) {}
+    void planned(const result::RunResult&) override { stop_ = 2; }
+    std::atomic<int>& stop_;
+  } observer(stop);
+  options.observer = &observer;
   const auto run =
       cli::simulate({}, world().profile, world().suites.suite, world().suites.catalogue, options, 1);
   REQUIRE(run.has_value());
