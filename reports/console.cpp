@@ -177,6 +177,8 @@ void write_cause(Page& page, const RunResult& run, const Cause& cause) {
     page.item(fmt::format("{} ({}, {}): {}", log_safe(rule.requirement), verdict_words(rule.verdict),
                           counted(rule.cases, "case"), headline(*rule.first.finding)),
               "    ");
+    const auto& described = rule.first.finding->declared_at;
+    if (!described.empty()) page.item("described " + log_safe(described), "      ");
   }
   if (rules.size() > named) page.item(fmt::format("and {} more requirements", rules.size() - named), "    ");
   if (cause.resting.empty()) return;
