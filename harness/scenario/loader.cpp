@@ -173,6 +173,7 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   if (const auto sample = fields.optional("sample")) out.sample = sample.number(1, 65536).value_or(0);
   context.names.clear();
   context.default_checks.clear();
+  context.inheriting.clear();
   if (const auto given = fields.optional("given")) out.given = parse_given(given, context);
   if (const auto for_each = fields.optional("for_each")) out.for_each = parse_for_each(for_each, context);
   if (const auto checks = fields.optional("checks")) context.default_checks = parse_checks(checks, context);
@@ -181,6 +182,12 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   out.rests_on = parse_channels(fields.optional("rests_on"));
   const auto errors_before = context.diagnostics.error_count();
   if (const auto steps = fields.required("steps")) out.steps = parse_steps(steps, context);
+  // What only prepares would pass what it does not decide.
+  if (context.inheriting.size() > 1) {
+    const auto& [position, length] = context.inheriting[1];
+    context.diagnostics.error(position, length, "several steps would decide what stands at 'checks' of the scenario",
+                              "write checks: ID at each step that decides, and none at those that prepare");
+  }
   if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
   for (const auto& step : out.cleanup) {
     if (step.action == nullptr || !step.branches.empty()) {

@@ -99,6 +99,8 @@ struct ParseContext {
   std::function<Result<void>(std::string_view)> check_query;
   /// In a branch of `either`: the entry of the step it belongs to, for {m} in the branch's conversation.
   std::optional<ObjectReference> branch_object = std::nullopt;
+  /// Steps that expect something and name no ids of their own, so that the scenario's are theirs.
+  std::vector<std::pair<yaml::Position, int>> inheriting = {};
   void know(std::string name) { names.push_back(std::move(name)); }
 };
 

@@ -176,6 +176,7 @@ std::optional<Step> parse_step(const yaml::Field& item, ParseContext& context) {
     step.expectation.checks = parse_checks(checks, context);
   } else if (fields.has("expect") || fields.has("either") || fields.has("fail")) {
     step.expectation.checks = context.default_checks;
+    if (!context.default_checks.empty()) context.inheriting.emplace_back(step.position, step.length);
   }
   for (auto [key, set] :
        {std::pair("expect", &step.expectation.pass), std::pair("warn", &step.expectation.warn),

@@ -19,7 +19,7 @@ CORPUS = ROOT / "harness/scenario/tests/corpus"
 
 # Mistakes in what a schema sees as text, or that need a look at two places of a file: the loader's alone.
 BEYOND_THE_SCHEMA = {
-    "config-plays-others",  # what a tier may send, the loader knows
+    "config-plays-others", "several-inherit",
     "ambiguous-numbers", "bad-condition", "bad-conversation", "bad-expression", "bad-for-each-values", "bad-over-query", "bad-query",
     "duplicate-scenario", "label-without-as", "measurements", "no-checks", "read-only-writes", "unknown-name", "unknown-requirement",
     "unknown-requirement-in-row", "walk-in-cleanup",
