@@ -185,7 +185,8 @@ Scenario parse_scenario(const yaml::Field& item, steps::ParseContext& context, c
   // What only prepares would pass what it does not decide.
   if (context.inheriting.size() > 1) {
     const auto& [position, length] = context.inheriting[1];
-    context.diagnostics.error(position, length, "several steps would decide what stands at 'checks' of the scenario",
+    context.diagnostics.error(position, length,
+                              "several steps would decide what stands at 'checks' of the scenario",
                               "write checks: ID at each step that decides, and none at those that prepare");
   }
   if (const auto cleanup = fields.optional("cleanup")) out.cleanup = parse_steps(cleanup, context);
