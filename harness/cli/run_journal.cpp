@@ -133,8 +133,11 @@ void RunJournal::look_at_earlier(const std::string& home) {
   earlier_was_killed_ = !earlier->finished;
   if (earlier->finished && left_.empty()) return;
   // Reports can still be made from it.
-  if (const auto text = read_file(earlier->path, largest_journal))
-    (void)write_file_atomically(home + ".old", *text);
+  const auto text = read_file(earlier->path, largest_journal);
+  if (!text) return;
+  // Where it cannot be kept, the run is not held up for it.
+  std::error_code ignored;
+  if (!write_file_atomically(home + ".old", *text)) std::filesystem::remove(home + ".old", ignored);
 }
 
 }  // namespace conform::cli

@@ -51,7 +51,7 @@ Result<void> RunReports::begin(const std::string& tool, const std::vector<std::s
 
 void RunReports::not_begun(const std::string& tool, const Error& why) {
   // Whoever made the paths fail has been told already.
-  (void)say(tool, "the run did not begin: " + why.text());
+  if (!say(tool, "the run did not begin: " + why.text())) return;
 }
 
 Result<void> RunReports::say(const std::string& tool, const std::string& what) {
