@@ -57,6 +57,17 @@ std::optional<canopen::DataType> type_of(const Step& step, RunSession& session) 
   return entry == nullptr ? std::nullopt : std::optional(entry->type);
 }
 
+/// An answer that did not come, or that says that ours came too late.
+bool is_late(const Actual& actual, const can::Capture& capture) {
+  constexpr AbortCode timed_out(0x0504'0000);
+  if (actual.kind == Actual::Kind::silence || actual.code == timed_out) return true;
+  if (!actual.decisive) return false;
+  const auto& frame = capture.frames()[*actual.decisive].frame;
+  if (frame.size() != 8 || frame.data[0] != 0x80) return false;
+  const auto abort = canopen::decode_abort(frame.bytes());
+  return abort && abort->code == timed_out;
+}
+
 /// How what came differs, as a kind: what many parts of a device have in common when one thing is wrong with
 /// it.
 std::string deviation_of(const Step& step, const Actual& actual, const RunSession& session) {
@@ -106,6 +117,7 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   skipped_.clear();
   empty_walks_.clear();
   entered_steps_ = false;
+  timed_ = false;
   outermost_ = nullptr;
   session_.begin_case(planned.scenario->risk);
   instance_object_.reset();
@@ -203,6 +215,7 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   auto actual = step.action->run(session_);
   session_.end_step();
   if (!actual) return cannot_go_on(step, actual.error());
+  timed_ = timed_ || step.action->rests_on_time() || is_late(*actual, session_.capture());
   if (!step.label.empty()) session_.label(step, *actual);
   if (!step.branches.empty()) return run_branches(step, *actual);
   return judge(step, *actual);
@@ -599,6 +612,7 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   out.deviation = deviation_of(step, actual, session_);
   out.evidence = evidence(step_begin_, actual.decisive);
   out.frames_seen = session_.capture().size();
+  out.rests_on_time = timed_;
   return out;
 }
 

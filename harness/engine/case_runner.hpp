@@ -115,6 +115,7 @@ class CaseRunner {
   std::vector<std::pair<const steps::Condition*, bool>> skipped_;  ///< of deciding steps that were left out
   std::vector<std::string> empty_walks_;  ///< each `over` that had nothing to walk over, in words
   bool entered_steps_ = false;
+  bool timed_ = false;                      ///< something in this case has rested on time or on silence
   const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs
   const Steps* list_ = nullptr;             ///< that list
 };

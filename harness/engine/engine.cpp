@@ -14,6 +14,7 @@
 #include "engine/monitor_cases.hpp"
 #include "engine/restore.hpp"
 #include "engine/run_session.hpp"
+#include "engine/trust.hpp"
 #include "result/annotate.hpp"
 
 namespace conform::engine {
@@ -308,7 +309,10 @@ class Run {
       return ran;
     }
     out.finished = true;
-    distrust_if_unhealthy(out, health, lateness);
+    const bool other_client =
+        session_.channel().has_other_client(out.first_frame, recorder_.capture().size());
+    if (const auto trouble = trouble_of(health, recorder_.transport().health(), lateness, other_client))
+      distrust(out, *trouble);
     accept_known_deviations(profile_, catalogue_, out);
     return {};
   }
@@ -603,42 +607,6 @@ class Run {
       }
       out.verdict = worst(out.verdict, judgement.verdict);
     }
-  }
-
-  /// Lost frames, bus-off or a stepped clock: what rests on the absence of a frame cannot be trusted.
-  void distrust_if_unhealthy(CaseResult& out, const can::BusHealth& before,
-                             const Recorder::Lateness& lateness) {
-    const auto after = recorder_.transport().health();
-    std::string why;
-    bool passes_too = true;
-    if (after.frames_dropped > before.frames_dropped) {
-      why = "the host lost " + std::to_string(after.frames_dropped - before.frames_dropped) +
-            " frames during the case";
-    } else if (after.bus_offs > before.bus_offs || (after.bus_off && !before.bus_off)) {
-      why = "bus-off during the case";
-    } else if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped)) {
-      why = "the host's clock was set during the case";
-    } else if (session_.channel().has_other_client(out.first_frame, recorder_.capture().size())) {
-      why = "another SDO client used the channel during the case";
-    } else if (lateness.producing > Duration(0)) {
-      why = "the host sent a cyclic frame " + to_string(lateness.producing) + " late";
-    } else if (lateness.waking > can::host_is_late || after.late_frames > before.late_frames) {
-      // What was seen in time was seen; but the device may have waited for us in vain.
-      passes_too = false;
-      why = "the host was late by more than " + to_string(can::host_is_late) + " during the case";
-    }
-    if (why.empty() || out.verdict == Verdict::not_applicable) return;
-    const auto distrust = [passes_too](Verdict& verdict) {
-      const bool good = verdict == Verdict::pass || verdict == Verdict::not_applicable;
-      if (passes_too || !good) verdict = Verdict::inconclusive;
-    };
-    const auto before_it = out.verdict;
-    distrust(out.verdict);
-    for (auto& judgement : out.judgements) {
-      distrust(judgement.verdict);
-      for (auto& finding : judgement.findings) finding.verdict = Verdict::inconclusive;
-    }
-    if (out.verdict != before_it) out.reason = why;
   }
 
   /// The bus broke or the user stopped: values are put back if that is still possible.

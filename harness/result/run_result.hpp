@@ -56,6 +56,9 @@ struct Finding {
       broken_rules{};  ///< rules that the deciding frame breaks by itself, as the monitors see it
   std::size_t frames_seen =
       0;  ///< length of the capture when it was judged: what came later shows that the device lived
+  /// The step, or one before it in the case, waits, counts time or hears a silence: in doubt when the host
+  /// was late.
+  bool rests_on_time = false;
 };
 
 /// The step that decided a judgement: the one a reader looks at to agree or disagree.

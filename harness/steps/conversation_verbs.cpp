@@ -30,6 +30,9 @@ class Talk final : public Action {
     return out->lines_.empty() ? nullptr : std::move(out);
   }
 
+  bool rests_on_time() const override {
+    return std::ranges::any_of(lines_, [](const Line& line) { return line.kind == Line::Kind::silence; });
+  }
   std::string words(Session&) const override {
     return lines_.size() == 1 ? "conversation: " + lines_.front().text
                               : "conversation of " + std::to_string(lines_.size()) +

@@ -21,6 +21,7 @@ class Require final : public Action {
     return condition_.may_write() ? Need{Tier::config, "try what a condition asks for"} : Need{};
   }
   std::vector<ObjectReference> concerns() const override { return condition_.objects(); }
+  bool rests_on_time() const override { return false; }
   std::string words(Session&) const override { return "require " + condition_.text(); }
   Result<Actual> run(Session& session) const override {
     auto holds = condition_.evaluate(session);
@@ -53,6 +54,7 @@ class Let final : public Action {
     return out;
   }
   bool acts() const override { return false; }
+  bool rests_on_time() const override { return false; }
   std::string words(Session&) const override {
     std::vector<std::string> parts;
     for (const auto& [name, expression] : names_) parts.push_back(name + " = " + expression.text());

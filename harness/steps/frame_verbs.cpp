@@ -215,6 +215,7 @@ class Send final : public Action {
     if (frame.id == 0 && !frame.remote && !frame.extended && frame.dlc == 2) return unknown;
     return need_of(frame, node);
   }
+  bool rests_on_time() const override { return false; }
   std::string words(Session& session) const override {
     const auto frame = build(session);
     return "send " + (frame ? frame_words({*frame, {}, {}, {}}) : id_.text());

@@ -49,6 +49,7 @@ class Nmt final : public Action {
     out->command_ = *command;
     return out;
   }
+  bool rests_on_time() const override { return false; }
   std::string words(Session&) const override { return "NMT " + std::string(canopen::to_string(command_)); }
   Channels rests_on() const override {
     const bool resets = command_ == NmtCommand::reset_node || command_ == NmtCommand::reset_communication;

@@ -163,6 +163,7 @@ class SetPdo final : public Action {
 
   std::vector<ObjectReference> concerns() const override { return {pdo_}; }
   Channels rests_on() const override { return {channel::pdo_parameters}; }
+  bool rests_on_time() const override { return false; }
   std::string words(Session& session) const override {
     std::string out = "configure " + pdo_words(pdo_, session);
     if (maps_) out += ", " + std::to_string(entries_.size()) + " mapped";
@@ -336,6 +337,7 @@ class PdoMapping final : public Action {
   Measures measures() const override { return {"count", "bits", "absent", "longer", "shorter"}; }
   Need need() const override { return {}; }
   std::vector<ObjectReference> concerns() const override { return {pdo_}; }
+  bool rests_on_time() const override { return false; }
   std::string words(Session& session) const override {
     return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);
   }

@@ -22,6 +22,7 @@ class Transfer final : public Action {
   }
   explicit Transfer(SdoStep step) : step_(std::move(step)) {}
 
+  bool rests_on_time() const override { return false; }
   std::string words(Session& session) const override { return step_.words(session); }
   Need need() const override { return step_.need(); }
   const ObjectReference* object() const override { return &step_.object(); }
@@ -60,6 +61,7 @@ class SetCobId final : public Action {
     return object && to ? std::move(out) : nullptr;
   }
 
+  bool rests_on_time() const override { return false; }
   std::string words(Session& session) const override {
     const auto object = object_.resolve(session);
     const auto to = to_.evaluate(session);

@@ -49,6 +49,9 @@ class Action {
   [[nodiscard]] virtual std::vector<ObjectReference> concerns() const { return {}; }
   /// What it sees the device through, beside plain SDO transfers of up to four bytes.
   [[nodiscard]] virtual Channels rests_on() const { return {}; }
+  /// Whether its outcome, or what comes after it, is another one when the host is late: it waits, counts time
+  /// or hears a silence. A value that was read and an answer that came are what they are.
+  [[nodiscard]] virtual bool rests_on_time() const { return true; }
   /// The measurements its outcome may have. To ask for others is a mistake of the author, which would be
   /// counted against the device.
   [[nodiscard]] virtual Measures measures() const { return {}; }

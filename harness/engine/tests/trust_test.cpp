@@ -46,13 +46,7 @@ class UnwellTransport final : public can::Transport {
   can::BusHealth health_;
 };
 
-/// Two rules, one held and one broken, on a host in trouble.
-Outcome play_unwell(const UnwellTransport::Trouble& trouble) {
-  can::SimulatedBus bus;
-  ScriptedDevice device;
-  bus.attach(device, "scripted device");
-  UnwellTransport transport(bus.transport(), 0x2B, trouble);
-  const auto suite = suite_of(R"(
+constexpr std::string_view held_and_broken = R"(
   - id: a
     title: t
     risk: config
@@ -68,7 +62,15 @@ Outcome play_unwell(const UnwellTransport::Trouble& trouble) {
     steps:
       - download: {object: 1017h:00, value: 1000}
         checks: T-MUST
-)");
+)";
+
+/// Two rules, one held and one broken, on a host in trouble.
+Outcome play_unwell(const UnwellTransport::Trouble& trouble, std::string_view scenarios = held_and_broken) {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  UnwellTransport transport(bus.transport(), 0x2B, trouble);
+  const auto suite = suite_of(std::string(scenarios));
   Outcome out;
   out.run = run(transport, device::default_profile(NodeId(1)), suite, catalogue(), {}, out.capture);
   return out;
@@ -563,12 +565,46 @@ TEST_CASE("every bus-off and every step of the clock is noticed, not only the fi
   CHECK(second(stepped) == Verdict::inconclusive);
 }
 
-TEST_CASE("a host that was late blames nobody, and what it saw in time stays") {
+TEST_CASE("a host that was late is no excuse for a value that was read, and what it saw in time stays") {
   const auto out = play_unwell([](can::BusHealth& health) { ++health.late_frames; });
   CHECK(out.verdict_of("T-MUST") == Verdict::pass);
-  CHECK(out.verdict_of("T-OTHER") == Verdict::inconclusive);
-  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::fail);
+  CHECK(out.run.cases[0].verdict == Verdict::fail);
   CHECK(out.run.cases[1].verdict == Verdict::pass);
+}
+
+TEST_CASE("a host that was late blames nobody where a step waits, nor behind it") {
+  const auto out = play_unwell([](can::BusHealth& health) { ++health.late_frames; }, R"(
+  - id: waits
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - wait: 1 ms
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+        expect: {value: 1}
+  - id: silent
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - frame: {id: heartbeat, within: 10 ms}
+        checks: T-MUST
+  - id: before
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+        expect: {value: 1}
+      - download: {object: 1017h:00, value: 1000}
+      - wait: 1 ms
+)");
+  REQUIRE(out.run.cases.size() >= 3);
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[1].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[2].verdict == Verdict::fail);
 }
 
 TEST_CASE("a flooded bus ends the run before the memory does, and values are put back") {

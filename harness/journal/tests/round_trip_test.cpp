@@ -41,6 +41,7 @@ Finding full_finding() {
   out.deviation = "confirmed instead of refused";
   out.broken_rules = {"SDO-GEN-02", "SDO-GEN-03"};
   out.frames_seen = 123456789;
+  out.rests_on_time = true;
   return out;
 }
 

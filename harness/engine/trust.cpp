@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/trust.hpp"
+
+#include "base/text.hpp"
+
+namespace conform::engine {
+
+using result::Verdict;
+
+std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::BusHealth& after,
+                                      const Recorder::Lateness& lateness, bool other_client) {
+  if (after.frames_dropped > before.frames_dropped) {
+    return HostTrouble{"the host lost " + std::to_string(after.frames_dropped - before.frames_dropped) +
+                       " frames during the case"};
+  }
+  if (after.bus_offs > before.bus_offs || (after.bus_off && !before.bus_off))
+    return HostTrouble{"bus-off during the case"};
+  if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped))
+    return HostTrouble{"the host's clock was set during the case"};
+  if (other_client) return HostTrouble{"another SDO client used the channel during the case"};
+  if (lateness.producing > Duration(0))
+    return HostTrouble{"the host sent a cyclic frame " + to_string(lateness.producing) + " late"};
+  if (lateness.waking > can::host_is_late || after.late_frames > before.late_frames) {
+    return HostTrouble{
+        .why = "the host was late by more than " + to_string(can::host_is_late) + " during the case",
+        .late_only = true};
+  }
+  return std::nullopt;
+}
+
+void distrust(result::CaseResult& result, const HostTrouble& trouble) {
+  if (result.verdict == Verdict::not_applicable) return;
+  const bool keeps_good = trouble.late_only;
+  auto verdict = Verdict::not_applicable;
+  for (auto& judgement : result.judgements) {
+    const bool good = judgement.verdict == Verdict::pass || judgement.verdict == Verdict::not_applicable;
+    if (!good || !keeps_good) {
+      judgement.verdict = keeps_good ? Verdict::not_applicable : Verdict::inconclusive;
+      for (auto& finding : judgement.findings) {
+        if (finding.rests_on_time || !trouble.late_only) finding.verdict = Verdict::inconclusive;
+        judgement.verdict = worst(judgement.verdict, finding.verdict);
+      }
+      if (judgement.findings.empty()) judgement.verdict = Verdict::inconclusive;
+    }
+    verdict = worst(verdict, judgement.verdict);
+  }
+  for (auto& finding : result.setup_findings) {
+    finding.verdict = Verdict::inconclusive;
+    verdict = worst(verdict, Verdict::inconclusive);
+  }
+  if (result.judgements.empty() && result.setup_findings.empty()) verdict = Verdict::inconclusive;
+  // Stopped for a reason of its own.
+  if (result.verdict == Verdict::inconclusive) verdict = worst(verdict, Verdict::inconclusive);
+  if (verdict != result.verdict) result.reason = trouble.why;
+  result.verdict = verdict;
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a case is worth on a host that was late, lost frames or was not alone on the SDO channel.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "can/transport.hpp"
+#include "engine/recorder.hpp"
+#include "result/run_result.hpp"
+
+namespace conform::engine {
+
+struct HostTrouble {
+  std::string why;
+  /// What was seen in time was seen. Only what rests on time or on silence is in doubt: the device may have
+  /// waited for us in vain.
+  bool late_only = false;
+};
+
+/// What befell the host in a case: its health at the beginning and the end, and how late it was. nullopt:
+/// nothing of importance.
+[[nodiscard]] std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::BusHealth& after,
+                                                    const Recorder::Lateness& lateness, bool other_client);
+
+/// Makes inconclusive what the trouble puts in doubt.
+void distrust(result::CaseResult& result, const HostTrouble& trouble);
+
+}  // namespace conform::engine
