@@ -17,7 +17,7 @@ struct RunCommand {
   std::vector<std::string> select;
   std::vector<std::string> requirements;
   std::vector<std::string> exclude;
-  std::string suites;
+  std::vector<std::string> suites;
   std::string interface;
   bool simulate = false;
   std::vector<std::string> defects;   ///< of the simulated reference node
@@ -70,7 +70,7 @@ struct JudgeCommand {
   std::vector<std::string> select;
   std::vector<std::string> requirements;
   std::vector<std::string> exclude;
-  std::string suites;
+  std::vector<std::string> suites;
   std::optional<std::uint32_t> node;
   std::string profile;    ///< device profile file
   std::string eds;        ///< description of the device
@@ -84,7 +84,7 @@ struct JudgeCommand {
 
 struct LintCommand {
   std::vector<std::string> files;  ///< empty: all of the suites
-  std::string suites;
+  std::vector<std::string> suites;
   std::string color = "auto";
 };
 [[nodiscard]] int lint_command(const LintCommand& options);
@@ -115,7 +115,7 @@ struct EdsDiffCommand {
 struct ListCommand {
   std::vector<std::string> select;
   std::vector<std::string> requirements;
-  std::string suites;
+  std::vector<std::string> suites;
   bool cct = false;
 };
 [[nodiscard]] int list_command(const ListCommand& options);
@@ -123,12 +123,12 @@ struct ListCommand {
 struct ExplainCommand {
   std::vector<std::string> topics;
   bool markdown = false;  ///< of verbs: the page docs/verbs.md
-  std::string suites;
+  std::vector<std::string> suites;
 };
 [[nodiscard]] int explain_command(const ExplainCommand& options);
 
 struct SelftestCommand {
-  std::string suites;
+  std::vector<std::string> suites;
   std::uint64_t seed = 1;
   bool verbose = false;
   std::vector<std::string> defects;
@@ -142,7 +142,7 @@ struct SelftestCommand {
 
 /// Hidden: benchmark helpers used by scripts/benchmark.
 struct BenchCommand {
-  std::string suites;
+  std::vector<std::string> suites;
   std::string interface;
   std::uint32_t node = 5;
   std::uint64_t round_trips = 20000;

@@ -45,7 +45,7 @@ std::string explain_requirement(const scenario::Requirement& requirement, const 
   out += paragraph("left out", requirement.not_judged);
   out += paragraph("to come with", requirement.planned);
   out += paragraph("note", requirement.note);
-  out += paragraph("source", "suites/" + requirement.file + ":" + std::to_string(requirement.line));
+  out += paragraph("source", requirement.file + ":" + std::to_string(requirement.line));
   std::string scenarios;
   for (const auto& file : suites.suite.files) {
     for (const auto& each : file.scenarios) {
@@ -87,7 +87,7 @@ std::string explain_scenario(const scenario::Scenario& each, const scenario::Cat
   out += paragraph("when", each.when ? each.when->text() : "");
   out += paragraph("slow", each.slow ? "takes long on a real bus: run with --slow" : "");
   out += paragraph("CCT", join(each.cct, ", "));
-  out += paragraph("source", fmt::format("suites/{}:{}", each.position.file, each.position.line));
+  out += paragraph("source", fmt::format("{}:{}", each.position.file, each.position.line));
   return out + "\n  Decides\n" + requirement_lines(each.requirements, catalogue);
 }
 
@@ -312,7 +312,7 @@ int explain_command(const ExplainCommand& options) {
   bool first = true;
   for (const auto& topic : options.topics) {
     std::vector<std::string> known;
-    const auto text = explain_one(topic, *suites, *root, known);
+    const auto text = explain_one(topic, *suites, root->root, known);
     if (!text.empty()) {
       print((first ? "" : "\n") + text);
       first = false;

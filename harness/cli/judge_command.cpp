@@ -22,7 +22,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
 }  // namespace
 
 int judge_command(const JudgeCommand& options) {
-  auto root = find_suites(options.suites);
+  auto root = find_suites(options.suites, options.profile);
   if (!root) return report_error(root.error(), exit_usage);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return report_error(suites.error(), exit_usage);
@@ -51,9 +51,10 @@ int judge_command(const JudgeCommand& options) {
   run.notes.insert(run.notes.begin(), known->notes.begin(), known->notes.end());
   run.tool = "canopen-conform " CONFORM_VERSION;
   run.started_utc_ns = recording->info.epoch_ns;
-  run.properties.insert(run.properties.begin(), {{"suite.digest", suite_digest(*root)},
-                                                 {"capture.file", options.capture},
-                                                 {"can.interface", recording->info.interface_name}});
+  auto facts = suite_properties(*root);
+  facts.push_back({"capture.file", options.capture});
+  facts.push_back({"can.interface", recording->info.interface_name});
+  run.properties.insert(run.properties.begin(), facts.begin(), facts.end());
 
   const reports::Style style{use_colour(options.color, 1), terminal_width(), 0};
   for (const auto& each : run.cases) {
@@ -69,8 +70,7 @@ int judge_command(const JudgeCommand& options) {
       report_error(written.error(), 0);
     }
   };
-  if (!options.junit.empty())
-    write(options.junit, reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"}));
+  if (!options.junit.empty()) write(options.junit, reports::junit(run));
   if (!options.markdown.empty()) write(options.markdown, reports::markdown(run));
   print(reports::summary(run, style));
   const auto code = result::exit_code(run);

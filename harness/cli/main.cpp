@@ -227,7 +227,8 @@ int dispatch(int argc, char** argv) {
 
   LintCommand lint;
   auto* lint_sub = app.add_subcommand("lint", "Check scenario files, without a bus");
-  lint_sub->add_option("files", lint.files, "Scenario files (default: the whole suites)")->type_name("FILE");
+  lint_sub->add_option("files", lint.files, "Files, and folders of own suites (default: the whole suites)")
+      ->type_name("FILE");
   lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
@@ -295,9 +296,12 @@ int dispatch(int argc, char** argv) {
   bench_sub->add_option("--round-trips", bench.round_trips);
   bench_sub->add_option("--bytes", bench.bytes)->check(CLI::Range(10, 1 << 20));
 
-  std::string suites;
+  std::vector<std::string> suites;
   for (auto* sub : {run_sub, judge_sub, lint_sub, list_sub, explain_sub, selftest_sub}) {
-    sub->add_option("--suites", suites, "Folder of the suites (default: those that came with the program)")
+    sub->add_option(
+           "--suites", suites,
+           "Folder of own scenarios and requirements, beside those that came with the program; repeatable")
+        ->allow_extra_args(false)
         ->type_name("FOLDER");
   }
   try {

@@ -142,12 +142,12 @@ int run(const RunCommand& options, RunReports& reports) {
                    std::string("on a real interface: canopen-refnode ") + option + " ID"},
                   exit_usage);
   }
-  auto root = find_suites(options.suites);
+  auto root = find_suites(options.suites, options.device);
   if (!root) return refuse(root.error(), exit_usage);
   const bool colour = use_colour(options.color, 1);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return refuse(suites.error(), exit_usage);
-  auto known = device_of(options, *root);
+  auto known = device_of(options, root->root);
   if (!known) return refuse(known.error(), exit_usage);
   auto* const profile = &known->profile;
 
@@ -225,7 +225,7 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.host = options.simulate ? "simulation" : host;
   facts.started = options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000;
   facts.notes = known->notes;
-  facts.add("suite.digest", suite_digest(*root));
+  facts.properties = suite_properties(*root);
   if (known->description) facts.add("dut.description", known->description->name);
   facts.add("run.seed", std::to_string(options.seed));
   facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));

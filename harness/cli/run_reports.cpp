@@ -59,7 +59,7 @@ Result<void> RunReports::say(const std::string& tool, const std::string& what) {
   run.tool = tool;
   run.aborted = what;
   if (!paths_.junit.empty()) {
-    const auto text = reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"});
+    const auto text = reports::junit(run);
     if (auto written = write_file_atomically(paths_.junit, text); !written) return written;
   }
   if (!paths_.markdown.empty()) {
@@ -122,8 +122,7 @@ void RunReports::put(result::RunResult& run, const std::string& path, const std:
 
 void RunReports::write_words(result::RunResult& run) {
   if (!paths_.markdown.empty()) put(run, paths_.markdown, reports::markdown(run));
-  if (!paths_.junit.empty())
-    put(run, paths_.junit, reports::junit(run, {.class_prefix = {}, .source_prefix = "suites/"}));
+  if (!paths_.junit.empty()) put(run, paths_.junit, reports::junit(run));
 }
 
 void RunReports::write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info) {

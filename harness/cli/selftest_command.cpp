@@ -71,7 +71,7 @@ int selftest_command(const SelftestCommand& options) {
   if (!root) return report_error(root.error(), exit_usage);
   auto suites = load_suites(*root, false);
   if (!suites) return report_error(suites.error(), exit_usage);
-  auto profile = device::load_profile_file(*root + "/devices/reference-node.yaml");
+  auto profile = device::load_profile_file(root->root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
   if (options.edits) return edits(options, profile->profile, *suites);
   auto matrix = kill_matrix(profile->profile, suites->suite, suites->catalogue,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/catalogue.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "base/text.hpp"
@@ -19,10 +21,24 @@ std::vector<std::string> texts(const yaml::Field& field) {
   return out;
 }
 
+/// As the schema has it: words with hyphens between, the first one of capitals and digits.
+bool is_id(std::string_view text) {
+  const auto words = split(text, '-');
+  const auto is_capital = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
+  const auto is_letter = [&](char c) { return is_capital(c) || (c >= 'a' && c <= 'z'); };
+  return words.size() > 1 && std::ranges::all_of(words.front(), is_capital) &&
+         std::ranges::all_of(words, [&](std::string_view word) {
+           return !word.empty() && std::ranges::all_of(word, is_letter);
+         });
+}
+
 Requirement read_requirement(const yaml::Field& item) {
   Requirement out;
   auto fields = item.fields("requirement");
-  out.id = fields.required("id").text().value_or("");
+  const auto id = fields.required("id");
+  out.id = id.text().value_or("");
+  if (!out.id.empty() && !is_id(out.id))
+    id.error("a requirement id is capitals and digits with hyphens between, such as SPINDLE-HB-01");
   out.clause = fields.required("clause").text().value_or("");
   out.object = fields.optional("object").text().value_or("");
   out.level = fields.required("level")
@@ -79,13 +95,28 @@ std::vector<Requirement> load_requirements(const yaml::Node& root, yaml::Diagnos
   return out;
 }
 
-Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::string>& problems,
-                                  bool colour) {
-  auto files = yaml_files_below(suites, "requirements");
-  if (!files) return std::unexpected(files.error());
+Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::string>& problems, bool colour,
+                                  const std::vector<std::string>& more) {
   Catalogue out;
-  for (const auto& file : *files) {
-    auto document = yaml::load_file(suites + "/" + file, file);
+  if (auto added = out.add_folder(suites, "suites/", problems, colour); !added)
+    return std::unexpected(added.error());
+  for (const auto& folder : more) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(std::filesystem::path(folder) / "requirements", error)) continue;
+    if (auto added = out.add_folder(folder, folder + "/", problems, colour); !added)
+      return std::unexpected(added.error());
+  }
+  return out;
+}
+
+Result<void> Catalogue::add_folder(const std::string& folder, const std::string& prefix,
+                                   std::vector<std::string>& problems, bool colour) {
+  auto files = yaml_files_below(folder, "requirements");
+  if (!files) return std::unexpected(files.error());
+  for (const auto& below : *files) {
+    const auto file = prefix + below;
+    const auto first_of_file = requirements_.size();
+    auto document = yaml::load_file(folder + "/" + below, file);
     if (!document) return std::unexpected(document.error());
     auto& diagnostics = document->diagnostics;
     if (document->root) {
@@ -93,19 +124,20 @@ Result<Catalogue> Catalogue::load(const std::string& suites, std::vector<std::st
         std::vector<std::string> names = requirement.same_as;
         names.push_back(requirement.id);
         for (const auto& name : names) {
-          const auto [known, fresh] = out.index_.emplace(name, out.requirements_.size());
-          if (fresh || known->second >= out.requirements_.size()) continue;
-          const auto& other = out.requirements_[known->second];
-          if (other.file == file) continue;  // reported by load_requirements
+          const auto [known, fresh] = index_.emplace(name, requirements_.size());
+          // One that this file gives twice was reported by load_requirements.
+          if (fresh || known->second >= first_of_file) continue;
+          const auto& other = requirements_[known->second];
           diagnostics.error({requirement.line, 1}, 1, "requirement id '" + name + "' is given twice",
                             "also in " + other.file + ":" + std::to_string(other.line));
         }
-        out.requirements_.push_back(std::move(requirement));
+        requirement.path = folder + "/" + below;
+        requirements_.push_back(std::move(requirement));
       }
     }
     if (!diagnostics.empty()) problems.push_back(diagnostics.render(colour));
   }
-  return out;
+  return {};
 }
 
 const Requirement* Catalogue::find(std::string_view id) const {

@@ -34,7 +34,8 @@ struct Requirement {
   std::string not_judged;  ///< why no scenario decides it, where that is meant to stay so
   std::string planned;     ///< which scenarios will decide it, where none does yet
   std::string area;
-  std::string file;  ///< relative to the suites
+  std::string file;  ///< what messages call it
+  std::string path;  ///< where it was read from
   int line = 0;
 
   /// Whether the rule names a crash or restart of the device among its failures: "crash", "loss of service",
@@ -50,9 +51,10 @@ struct Requirement {
 
 class Catalogue {
  public:
-  /// Reads every *.yaml below `<suites>/requirements`. Mistakes go to `problems`, one rendered text per file.
+  /// Reads every *.yaml below `<suites>/requirements`, and below `<folder>/requirements` of those that have
+  /// one. Mistakes go to `problems`, one rendered text per file.
   static Result<Catalogue> load(const std::string& suites, std::vector<std::string>& problems,
-                                bool colour = false);
+                                bool colour = false, const std::vector<std::string>& more = {});
 
   /// By its own id or by an alias (same_as).
   [[nodiscard]] const Requirement* find(std::string_view id) const;
@@ -61,6 +63,10 @@ class Catalogue {
   [[nodiscard]] std::vector<std::string_view> ids() const;  ///< own ids and aliases, sorted
 
  private:
+  /// `prefix` stands before the names of the files in messages and reports.
+  Result<void> add_folder(const std::string& folder, const std::string& prefix,
+                          std::vector<std::string>& problems, bool colour);
+
   std::vector<Requirement> requirements_;
   std::map<std::string, std::size_t, std::less<>> index_;
 };

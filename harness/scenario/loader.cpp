@@ -286,16 +286,38 @@ ScenarioFile load_scenarios(const yaml::Node& root, yaml::Diagnostics& diagnosti
 Result<Suite> load_suite(const std::string& root, const std::vector<std::string>& files,
                          const Catalogue& catalogue, bool colour) {
   Suite out;
-  for (const auto& file : files) {
-    const auto path = file.starts_with('/') || root.empty() ? file : root + "/" + file;
-    auto document = yaml::load_file(path, file);
-    if (!document) return std::unexpected(document.error());
-    if (document->root)
-      out.files.push_back(load_scenarios(*document->root, document->diagnostics, file, catalogue));
-    out.errors += document->diagnostics.error_count();
-    if (!document->diagnostics.empty()) out.problems.push_back(document->diagnostics.render(colour));
-  }
+  if (auto added = add_to_suite(out, {root, {}}, files, catalogue, colour); !added)
+    return std::unexpected(added.error());
   return out;
+}
+
+Result<void> add_to_suite(Suite& suite, const Folder& folder, const std::vector<std::string>& files,
+                          const Catalogue& catalogue, bool colour) {
+  for (const auto& file : files) {
+    const auto path = file.starts_with('/') || folder.path.empty() ? file : folder.path + "/" + file;
+    const auto shown = folder.shown.empty() ? file : folder.shown + "/" + file;
+    auto document = yaml::load_file(path, shown);
+    if (!document) return std::unexpected(document.error());
+    if (document->root) {
+      auto loaded = load_scenarios(*document->root, document->diagnostics, file, catalogue);
+      for (auto& each : loaded.scenarios) each.position.file = shown;
+      for (const auto& known : suite.files) {
+        if (known.path == file) refuse_same_name(loaded, document->diagnostics, known.shown);
+      }
+      loaded.shown = shown;
+      suite.files.push_back(std::move(loaded));
+    }
+    suite.errors += document->diagnostics.error_count();
+    if (!document->diagnostics.empty()) suite.problems.push_back(document->diagnostics.render(colour));
+  }
+  return {};
+}
+
+void refuse_same_name(const ScenarioFile& file, yaml::Diagnostics& diagnostics, const std::string& other) {
+  const auto at = file.scenarios.empty() ? result::SourcePosition{{}, 1, 1} : file.scenarios.front().position;
+  diagnostics.error({at.line, at.column}, 1,
+                    "two suites have a file of this name, so that their scenarios would have one id",
+                    "rename one of them; the other is " + other);
 }
 
 }  // namespace conform::scenario

@@ -23,6 +23,19 @@ struct Suite {
   std::size_t errors = 0;             ///< number of errors in them
 };
 
+struct Folder {
+  std::string path;
+  std::string shown;  ///< what messages and reports call it
+};
+
+/// Adds files (paths relative to the folder). Error: a file cannot be read at all.
+[[nodiscard]] Result<void> add_to_suite(Suite& suite, const Folder& folder,
+                                        const std::vector<std::string>& files, const Catalogue& catalogue,
+                                        bool colour = false);
+
+/// Two files of one name would give their scenarios one id.
+void refuse_same_name(const ScenarioFile& file, yaml::Diagnostics& diagnostics, const std::string& other);
+
 /// Reads files (paths relative to `root`). Error: a file cannot be read at all.
 [[nodiscard]] Result<Suite> load_suite(const std::string& root, const std::vector<std::string>& files,
                                        const Catalogue& catalogue, bool colour = false);

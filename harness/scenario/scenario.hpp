@@ -66,7 +66,8 @@ struct Scenario {
 
 /// One file; scenarios share its source for diagnostics.
 struct ScenarioFile {
-  std::string path;  ///< relative to the suites
+  std::string path;   ///< relative to the suites
+  std::string shown;  ///< what messages and reports call it
   std::string title;
   std::string about;
   std::vector<Scenario> scenarios;

@@ -344,6 +344,114 @@ class CommandLine(unittest.TestCase):
             self.assertIn(words, done.stdout)
         self.assertIn("did you mean", done.stderr)
 
+    def own(self, path, text):
+        whole = self.path(path)
+        os.makedirs(os.path.dirname(whole), exist_ok=True)
+        with open(whole, "w", encoding="utf-8") as file:
+            file.write(text)
+        return whole
+
+    RULE = ("format: 1\narea: Mine\nrequirements:\n  - id: {0}\n    clause: own rule\n    level: mandatory\n"
+            "    statement: It is there.\n    passes: it is\n    risk: read-only\n")
+    SCENARIO = ("format: 1\ntitle: Mine\nscenarios:\n  - id: one\n    title: One\n    steps:\n      - upload: {{object: 1000h:00}}\n"
+                "        checks: {0}\n        expect: {1}\n")
+
+    def test_own_suites_add_to_those_of_the_program(self):
+        self.own("a/requirements/mine.yaml", self.RULE.format("MINE-01"))
+        self.own("a/mine/first.yaml", self.SCENARIO.format("MINE-01", "ok"))
+        self.own("b/mine/second.yaml", self.SCENARIO.format("OD-1000-01", "ok"))
+        own = ["--suites", self.path("a"), "--suites", self.path("b"), "--suites", self.path("a") + "/"]
+        done = run("run", "--simulate", *own, "mine/*", "cia301/dictionary/1000*", "-x", "monitor", "--junit", self.path("j.xml"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for name in ("mine/first/one", "mine/second/one", "cia301/dictionary/1000-device-type"):
+            self.assertIn(name, done.stdout)
+        junit = ElementTree.parse(self.path("j.xml"))
+        files = {each.get("file") for each in junit.iter("testsuite")}
+        self.assertIn(self.path("a/mine/first.yaml"), files)
+        self.assertIn("suites/cia301/dictionary/1000-device-type.yaml", files)
+        told = [(each.get("name"), each.get("value").split(" ")[0]) for each in junit.find(".//properties")]
+        self.assertEqual([value for name, value in told if name == "suite.own"], [self.path("a"), self.path("b")])
+        self.assertIn("suite.digest", dict(told))
+        explained = run("explain", *own, "MINE-01", "mine/first/one")
+        self.assertEqual(explained.returncode, 0, explained.stderr)
+        self.assertIn(self.path("a/requirements/mine.yaml") + ":4", explained.stdout)
+        self.assertIn(self.path("a/mine/first.yaml") + ":4", explained.stdout)
+        self.assertIn("suites/requirements/cia301/1000-device-type.yaml", run("explain", *own, "OD-1000-01").stdout)
+        self.assertIn("mine/first/one", run("list", *own, "-r", "MINE-01").stdout)
+        self.assertEqual(run("run", "--simulate", "mine/*").returncode, 2)
+
+    def test_a_failure_of_an_own_rule_names_the_file_of_the_user(self):
+        self.own("a/requirements/mine.yaml", self.RULE.format("MINE-01"))
+        file = self.own("a/mine/first.yaml", self.SCENARIO.format("MINE-01", "abort any"))
+        done = run("run", "--simulate", "--suites", self.path("a"), "mine")
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn(f"--> {file}:7:9", done.stdout)
+        self.assertIn("MINE-01, own rule", done.stdout)
+        waiver = self.own("device.yaml", "format: 1\nname: Mine\nnode: 5\nknown_deviations:\n  - {requirement: MINE-01, reason: later}\n")
+        self.assertEqual(run("run", "--simulate", "--suites", self.path("a"), "--device", waiver, "mine").returncode, 0)
+
+    def test_suites_beside_the_device_profile_are_found(self):
+        device = self.own("machine/device.yaml", "format: 1\nname: Mine\nnode: 5\n")
+        self.own("machine/suites/requirements/mine.yaml", self.RULE.format("MINE-01"))
+        self.own("machine/suites/mine/first.yaml", self.SCENARIO.format("MINE-01", "ok"))
+        for arguments in ([device], ["device.yaml"], ["./device.yaml"]):
+            done = run("run", "--simulate", "--device", *arguments, "mine/*", "-x", "monitor", cwd=self.path("machine"))
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("mine/first/one", done.stdout)
+        self.assertEqual(run("run", "--simulate", "--device", device, "--suites", self.path("machine/suites"), "mine").returncode, 0)
+
+    def test_lint_finds_the_suites_that_a_file_belongs_to(self):
+        self.own("machine/device.yaml", "format: 1\nname: Mine\nnode: 5\n")
+        self.own("machine/suites/requirements/mine.yaml", self.RULE.format("MINE-01"))
+        file = self.own("machine/suites/mine/first.yaml", self.SCENARIO.format("MINE-01", "ok"))
+        self.own("rules/requirements/mine.yaml", self.RULE.format("OTHER-01"))
+        self.own("rules/mine/other.yaml", self.SCENARIO.format("OTHER-01", "ok"))
+        for what, where, files in [
+            ([file], None, "1 file,"),
+            (["first.yaml"], "machine/suites/mine", "1 file,"),
+            (["machine"], "", "3 files,"),
+            (["machine/suites", "rules"], "", "4 files,"),
+            (["--suites", "rules", "rules/mine/other.yaml"], "", "1 file,"),
+        ]:
+            with self.subTest(what=what):
+                done = run("lint", *what, cwd=self.path(where or ""))
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertIn(files, done.stdout)
+
+    def test_names_that_two_suites_give_are_a_mistake_that_names_both(self):
+        self.own("a/requirements/mine.yaml", self.RULE.format("MINE-01"))
+        self.own("b/requirements/mine.yaml", self.RULE.format("MINE-01"))
+        for command in (["list"], ["run", "--simulate"], ["lint"]):
+            done = run(*command, "--suites", self.path("a"), "--suites", self.path("b"))
+            self.assertEqual(done.returncode, 2)
+            said = done.stdout + done.stderr
+            self.assertIn(self.path("b/requirements/mine.yaml") + ":4:1: error: requirement id 'MINE-01' is given twice", said)
+            self.assertIn("also in " + self.path("a/requirements/mine.yaml") + ":4", said)
+        self.own("c/requirements/theirs.yaml", self.RULE.format("OD-1000-01"))
+        self.assertIn("also in suites/requirements/cia301/1000-device-type.yaml",
+                      run("list", "--suites", self.path("c")).stderr)
+        file = self.own("d/cia301/dictionary/1000-device-type.yaml", self.SCENARIO.format("OD-1000-01", "ok"))
+        for command in (["list"], ["lint"]):
+            done = run(*command, "--suites", self.path("d"))
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(file + ":4:5: error: two suites have a file of this name", done.stdout + done.stderr)
+
+    def test_an_own_id_that_nothing_could_quote_is_refused(self):
+        for name in ("mine-01", "MINE", "MINE-*", "MINE--01", "$MINE-01"):
+            file = self.own("a/requirements/mine.yaml", self.RULE.format(name))
+            done = run("lint", file)
+            self.assertEqual(done.returncode, 2, name)
+            self.assertIn(":4:9: error: a requirement id is capitals and digits", done.stdout)
+
+    def test_a_folder_without_suites_is_refused(self):
+        os.makedirs(self.path("empty"))
+        self.own("machine/device.yaml", "format: 1\nname: Mine\nnode: 5\n")
+        self.own("machine/suites/mine/first.yaml", self.SCENARIO.format("OD-1000-01", "ok"))
+        self.assertIn("no scenario and no requirement", run("list", "--suites", self.path("empty")).stderr)
+        done = run("list", "--suites", self.path("machine"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--suites " + self.path("machine/suites"), done.stderr)
+
     def test_the_suites_have_no_mistakes(self):
         done = run("lint")
         self.assertEqual(done.returncode, 0, done.stdout)

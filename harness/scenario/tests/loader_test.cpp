@@ -42,7 +42,7 @@ TEST_CASE("The catalogue finds a requirement by its id and by an alias") {
   const auto info = known.find("RULE-02")->info();
   CHECK(info.level == "recommended");
   CHECK(info.area == "Corpus");
-  CHECK(known.find("RULE-01")->file == "requirements/rules.yaml");
+  CHECK(known.find("RULE-01")->file == "suites/requirements/rules.yaml");
   CHECK(known.find("RULE-01")->line == 5);
 }
 
