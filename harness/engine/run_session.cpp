@@ -333,8 +333,6 @@ void RunSession::note_sent(std::size_t index) {
 void RunSession::adapt() {
   profile_.sdo_timeout = channel_.timeout();
   profile_.quiet_time = channel_.quiet();
-  // An acknowledge is an answer, too.
-  profile_.block_timeout = std::max(profile_.block_timeout, channel_.timeout());
 }
 
 Result<std::optional<std::size_t>> RunSession::find_answer(const Match& match,
