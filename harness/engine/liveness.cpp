@@ -35,6 +35,7 @@ Result<void> wait_for_start(RunSession& session, std::size_t from) {
       from, [&session](const can::CapturedFrame& captured) { return is_from_node(session, captured); },
       session.now() + session.profile().boot_time);
   if (!heard) return std::unexpected(heard.error());
+  if (*heard) session.channel().forget_silences();
   return {};
 }
 

@@ -333,6 +333,8 @@ void RunSession::note_sent(std::size_t index) {
 void RunSession::adapt() {
   profile_.sdo_timeout = channel_.timeout();
   profile_.quiet_time = channel_.quiet();
+  // An acknowledge is an answer, too.
+  profile_.block_timeout = std::max(profile_.block_timeout, channel_.timeout());
 }
 
 Result<std::optional<std::size_t>> RunSession::find_answer(const Match& match,
@@ -574,6 +576,7 @@ void RunSession::label(const steps::Step& step, const steps::Actual& actual) {
 }
 
 void RunSession::device_was_reset(bool) {
+  channel_.forget_silences();
   ++resets_;
   emcy_can_id_ = home_emcy_can_id_;
   before_write_.clear();

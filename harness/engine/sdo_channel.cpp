@@ -136,9 +136,6 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     run.object = job.request.object;
     run.request = ids.request;
     run.response = ids.response;
-    run.limit = job.timeout.value_or(timeout());
-    if (!job.timeout && is_patient(run.object)) run.patience = longest_answer;
-    run.wait = job.wait.value_or(quiet());
     run.listens_after = !job.request.faults.empty();
     run.stale = line.stale;
     clients.push_back(std::move(*client));
@@ -153,7 +150,13 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
       return std::unexpected(idle.error());
   }
   if (auto rested = rest_after_abort(); !rested) return std::unexpected(rested.error());
-  for (std::size_t i = 0; i < runs.size(); ++i) lines[i]->latest = runs[i].object;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    // What came late until now says how long an answer may take.
+    runs[i].limit = jobs[i].timeout.value_or(timeout());
+    if (!jobs[i].timeout && is_patient(runs[i].object)) runs[i].patience = longest_answer;
+    runs[i].wait = jobs[i].wait.value_or(quiet());
+    lines[i]->latest = runs[i].object;
+  }
   if (auto done = run_transfers(recorder_, runs); !done) {
     for (auto* line : lines) dirty(*line, true);
     return std::unexpected(done.error());
@@ -174,7 +177,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     if (result.kind == Kind::violation || (result.kind == Kind::silence && !result.abandoned)) {
       dirty(line, true);
       line.stale = runs[i].object;
-      line.asked_at = runs[i].last_request;
+      line.asked_at = runs[i].asked_at;
     } else if (!result.abandoned) {
       // A server answers in order: what was overdue does not come any more.
       line.stale.reset();

@@ -58,6 +58,8 @@ class SdoChannel {
     latest_ = latency;
     slowest_ = std::max(slowest_, latency);
   }
+  /// The device has started since: what was lost while it booted says nothing about its answers.
+  void forget_silences() { mute_.clear(); }
   /// A frame went out that no transfer sent: whatever it opened on a channel is ended before the next
   /// transfer.
   void note_sent(CanId request) { sent_by_hand_.insert(request); }

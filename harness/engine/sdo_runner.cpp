@@ -127,6 +127,7 @@ class Runner {
         --in_flight_;
         if (!run.first_request) run.first_request = index;
         run.last_request = run.since = run.not_sent_since = captured.time;
+        if (captured.frame.size() > 0 && captured.frame.data[0] != 0x80) run.asked_at = captured.time;
         run.looked_again = false;
         if (!run.client->ended()) run.decisive = index;
         const auto overtook = std::exchange(run.overtook, std::nullopt);

@@ -70,6 +70,7 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   } else if (frame.id == 0x080U + node && from_device && !frame.remote) {
     now_.subject = Subject::emcy;
   }
+  if (now_.from_device()) nmt_.spoke(captured.time);
   return now_;
 }
 

@@ -39,13 +39,12 @@ class SdoStates final : public Monitor {
     } else if (seen.subject == Subject::sdo_response) {
       // The answer to a request from before may be on its way already.
       const bool older = !asked_in_stopped_ && seen.answer.to != SdoAnswer::To::stream;
-      if (in_stopped && !older && bad(stopped)) {
+      const bool made_in_stopped = nmt.commanded_to_sender(seen.time()) == canopen::NmtState::stopped;
+      if (made_in_stopped && !older && bad(stopped)) {
         tell(stopped, seen, "an SDO response", "silence", "the device was stopped and SDO is off in Stopped");
       }
       // Judged when the boot-up message comes: without it there was no reset.
-      if (!nmt.booting() || nmt.overdue(seen.time()) ||
-          seen.time() <= nmt.reset_at() + follower.facts().nmt_time)
-        return;
+      if (!nmt.booting() || nmt.overdue(seen.time()) || !nmt.is_newer(seen.time(), nmt.reset_at())) return;
       if (early_ && early_reset_ == nmt.reset_index()) return;
       early_reset_ = nmt.reset_index();
       early_ = Violation{before_boot_up,
@@ -94,8 +93,7 @@ class NmtBootUp final : public Monitor {
       return;
     }
     // SDO responses are the other monitor's.
-    if (seen.subject == Subject::sdo_response || seen.time() <= nmt.reset_at() + follower.facts().nmt_time)
-      return;
+    if (seen.subject == Subject::sdo_response || !nmt.is_newer(seen.time(), nmt.reset_at())) return;
     if (early_ && early_reset_ == nmt.reset_index()) return;
     early_reset_ = nmt.reset_index();
     early_ = Violation{silent,
@@ -217,7 +215,7 @@ class Heartbeat final : public Monitor {
       return;
     }
     // From Operational a device may leave by itself, and from Pre-operational to Stopped (1029h).
-    const auto commanded = follower.nmt().commanded(seen.time());
+    const auto commanded = follower.nmt().commanded_to_sender(seen.time());
     const bool wrong = (commanded == NmtState::stopped && shown != NmtState::stopped) ||
                        (commanded == NmtState::pre_operational && shown == NmtState::operational);
     if (!wrong) return good(state);

@@ -3,6 +3,11 @@
 
 namespace conform::monitor {
 
+void NmtState::spoke(BusTime time) {
+  if (time > spoke_at_ + longest_frame) queue_began_ = time;
+  spoke_at_ = time;
+}
+
 void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index) {
   using canopen::NmtCommand;
   if (frame.extended || frame.remote || frame.dlc != 2) {

@@ -2,6 +2,8 @@
 // The NMT state of the device as far as the trace settles it: what was commanded, and since when.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,6 +19,8 @@ class NmtState {
  public:
   explicit NmtState(const Facts& facts) : facts_(facts) {}
 
+  /// The device sends a frame.
+  void spoke(BusTime time);
   /// A frame with the identifier 0.
   void command(const can::Frame& frame, BusTime time, std::size_t index);
   void boot_up(BusTime time);
@@ -30,6 +34,15 @@ class NmtState {
   [[nodiscard]] std::optional<canopen::NmtState> commanded(BusTime now) const {
     return commanded_ && now > commanded_at_ + facts_.nmt_time ? commanded_ : std::nullopt;
   }
+  /// The same for what the device sends at `now`.
+  [[nodiscard]] std::optional<canopen::NmtState> commanded_to_sender(BusTime now) const {
+    return commanded_ && is_newer(now, commanded_at_) ? commanded_ : std::nullopt;
+  }
+  /// Whether what the device sends at `now` was made more than T_NMT after a command: not in the queue since
+  /// then, behind the segments of a block.
+  [[nodiscard]] bool is_newer(BusTime now, BusTime command) const {
+    return std::min(now, queue_began_) > command + facts_.nmt_time;
+  }
   /// A reset was commanded and the boot-up message has not come.
   [[nodiscard]] bool booting() const { return booting_; }
   /// ... although T_BOOT is over.
@@ -42,7 +55,11 @@ class NmtState {
   [[nodiscard]] std::optional<BusTime> ordered_at() const { return ordered_at_; }
 
  private:
+  /// Longer than a frame takes at 10 kbit/s: who has frames waiting pauses for less.
+  static constexpr Duration longest_frame = std::chrono::milliseconds{15};
+
   Facts facts_;
+  BusTime spoke_at_{}, queue_began_{};  ///< the last frame, and the first of those that came in one go
   std::optional<canopen::NmtState> commanded_;
   BusTime commanded_at_{};
   std::optional<BusTime> booted_at_, ordered_at_;

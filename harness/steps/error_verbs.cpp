@@ -77,10 +77,15 @@ std::optional<std::uint64_t> error_register(Session& session) {
 
 /// Raises the error of a trigger. With the heartbeat trigger the error comes when the heartbeat has stayed
 /// away.
-/// `delay`: how long after raising the effect may be due, beside the caller's own time.
+/// `delay`: how long after raising began the effect may be due, beside the caller's own time: a slow server
+/// takes seconds for the writes.
 Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Duration& delay) {
-  delay = Duration(0);
-  if (trigger.raise) return write(session, trigger.raise->object, trigger.raise->bytes);
+  const auto start = session.now();
+  if (trigger.raise) {
+    auto written = write(session, trigger.raise->object, trigger.raise->bytes);
+    delay = session.now() - start;
+    return written;
+  }
   const auto node = missed_node(session, trigger);
   if (auto kept = keep_from_stopping(session); !kept) return std::unexpected(kept.error());
   const auto monitor = [&](Duration time) {
@@ -98,7 +103,7 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
     time += 2 * taken;
     set = monitor(time);
   }
-  delay = 2 * time;
+  delay = session.now() - start + 2 * time;
   if (!set || set->kind != Actual::Kind::matched) return set;
   auto sent = session.play_heartbeat(node, canopen::NmtState::operational);
   if (!sent) return std::unexpected(sent.error());

@@ -153,6 +153,24 @@ void parse_label(const yaml::Field& field, const ParseContext& context, std::str
   label = name;
 }
 
+/// The end of a window that was open before the step: a label, or the step itself.
+constexpr std::string_view this_moment = "now";
+
+void parse_until(const yaml::Field& field, const ParseContext& context, std::string& until) {
+  if (field.text() == this_moment) {
+    until = this_moment;
+  } else {
+    parse_label(field, context, until);
+  }
+}
+
+Result<BusTime> end_of(const Session& session, const std::string& until) {
+  if (until == this_moment) return session.now();
+  const auto end = session.window_after(until);
+  if (!end) return std::unexpected(end.error());
+  return end->anchor;
+}
+
 void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {
   if (const auto field = fields.optional("after")) parse_label(field, context, after);
 }
@@ -319,7 +337,7 @@ class Silence final : public Action {
       if (auto source = Source::parse(item, context.names)) out->sources_.push_back(*source);
     }
     if (time && fields.has("until")) {
-      parse_label(time, context, out->until_);
+      parse_until(time, context, out->until_);
     } else if (time) {
       if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
     }
@@ -348,11 +366,13 @@ class Silence final : public Action {
       matches.push_back(*match);
     }
     const auto begin = window->anchor + delay_.resolve(session.profile());
-    auto time = time_.resolve(session.profile());
+    // Steps in between may have taken longer than the silence had to last: all of it was to be silent.
+    auto until = window->anchor + time_.resolve(session.profile());
+    if (!after_.empty()) until = std::max(until, session.now());
     if (!until_.empty()) {
-      const auto end = session.window_after(until_);
+      const auto end = end_of(session, until_);
       if (!end) return std::unexpected(end.error());
-      time = end->anchor - window->anchor;
+      until = *end;
     }
     auto found = session.find_frame(
         window->first,
@@ -360,7 +380,7 @@ class Silence final : public Action {
           return captured.time >= begin &&
                  std::ranges::any_of(matches, [&](const auto& match) { return match(captured); });
         },
-        window->anchor + time);
+        until);
     if (!found) return std::unexpected(found.error());
     Actual out;
     if (*found) {
@@ -370,7 +390,7 @@ class Silence final : public Action {
       out.detail = frame_words(captured) + " after " + relative(captured.time, *window);
       session.consume(**found);
     } else {
-      out.detail = "silence for " + to_string(time);
+      out.detail = "silence for " + to_string(until - window->anchor);
     }
     return out;
   }
@@ -387,11 +407,13 @@ class Collect final : public Action {
     auto out = std::make_unique<Collect>();
     auto fields = value.fields("collect");
     const auto from = fields.required("from");
-    const auto time = fields.required("for");
+    const auto time = fields.exactly_one_of({"for", "until"});
     if (from) {
       if (auto source = Source::parse(from, context.names)) out->source_ = *source;
     }
-    if (time) {
+    if (time && fields.has("until")) {
+      parse_until(time, context, out->until_);
+    } else if (time) {
       if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
     }
     if (const auto per = fields.optional("per")) {
@@ -412,7 +434,8 @@ class Collect final : public Action {
   bool acts() const override { return false; }
   Channels rests_on() const override { return source_.rests_on(); }
   std::string words(Session&) const override {
-    if (!answers_) return "collect " + source_.words() + " for " + time_.text();
+    if (!answers_)
+      return "collect " + source_.words() + (until_.empty() ? " for " + time_.text() : " until " + until_);
     return "collect " + source_.words() + " per " +
            (stimulus_.empty() ? "SYNC" : "frame on CAN-ID " + stimulus_.text()) + ", until " + time_.text() +
            " after the last";
@@ -433,6 +456,11 @@ class Collect final : public Action {
     }
     const auto time = time_.resolve(session.profile());
     auto until = window->anchor + time;
+    if (!until_.empty()) {
+      const auto end = end_of(session, until_);
+      if (!end) return std::unexpected(end.error());
+      until = *end;
+    }
     std::vector<std::size_t> hits;
     std::vector<BusTime> stimuli;
     const auto& frames = session.capture().frames();
@@ -529,7 +557,7 @@ class Collect final : public Action {
 
   Source source_;
   TimeReference time_;
-  std::string after_;
+  std::string after_, until_;
   bool answers_ = false;
   Expression stimulus_;  ///< CAN-ID; empty: that of SYNC
 };
@@ -542,11 +570,12 @@ constexpr Verb table[] = {
      "id: CAN-ID, or heartbeat, emcy, emcy error (any but 0000h), sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",
      "- frame: {id: 6A0h, within: 2 s}\n  checks: OD-1014-07", &AwaitFrame::parse},
     {"silence", "No frame may come.",
-     "of: CAN-ID or service, or a list of them\nfor: how long\nuntil: instead of for, a label that "
-     "was reached\nafter: label to count from\ndelay: what comes within this time is not held against the device",
+     "of: CAN-ID or service, or a list of them\nfor: how long; with after: longer where the steps in between took longer\n"
+     "until: instead of for, a label that was reached, or now\nafter: label to count from\ndelay: what comes within this time is not held against the device",
      "- silence: {of: [emcy, 6A0h], for: 1 s}\n  checks: OD-1014-08", &Silence::parse},
     {"collect", "Count and time frames.",
-     "from: CAN-ID or service\nfor: how long; with per: how long after the last frame that was sent\nper: sync or a CAN-ID: frames are "
+     "from: CAN-ID or service\nfor: how long; with per: how long after the last frame that was sent\n"
+     "until: instead of for, a label that was reached, or now: whatever the steps before took\nper: sync or a CAN-ID: frames are "
      "answers to what was sent there\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind the last "
      "frame included), first, state; with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
      "two answers in frames sent), latency (the longest)",

@@ -30,6 +30,17 @@ How turnaround(std::chrono::milliseconds time) {
   return [time](VariantTarget& target) { target.choices.sdo.turnaround = time; };
 }
 
+/// Who takes that long for an answer has nothing that would take hours, and does not soon lose patience with
+/// a client.
+How slow_turnaround(std::chrono::milliseconds time) {
+  return [time](VariantTarget& target) {
+    target.choices.sdo.turnaround = time;
+    target.choices.sdo.time_out = std::chrono::seconds(10);
+    absent({0x1021, 0x1022, 0x2008})(target);
+    gap(0x2000, 0x0F)(target);
+  };
+}
+
 How filter(Filter change) {
   return [change = std::move(change)](VariantTarget& target) { target.outbox.add_filter(change); };
 }
@@ -139,6 +150,22 @@ VariantTable sdo_variants() {
                    choose([](Choices& c) { c.sdo.time_out = milliseconds(1500); })),
        .group = "turnaround",
        .warns = {"SDO-GEN-18"}},
+      {.id = "sdo-turnaround-400ms",
+       .summary = "answers after 400 ms",
+       .legal = "SDO-GEN-18, tolerated: T_SDO is one second",
+       .how = slow_turnaround(milliseconds(400)),
+       .group = "turnaround",
+       .excludes = {"sdo-time-out"},
+       .warns = {"SDO-GEN-18", "SDO-BDN-25"}},
+      {.id = "sdo-turnaround-1200ms",
+       .summary = "answers after 1.2 s",
+       .legal = "CiA 301 sets no limit; SDO-GEN-18 is a recommendation",
+       .how = slow_turnaround(milliseconds(1200)),
+       .group = "turnaround",
+       // Both together take longer than T_NVM.
+       .excludes = {"sdo-time-out", "storing-takes-9s"},
+       // OD-1013-05 looks at a clock twice, and each look may take seconds.
+       .warns = {"SDO-GEN-18", "SDO-BDN-25", "OD-1013-05"}},
       {.id = "sdo-busy-0504-0001",
        .summary = "a new initiate request while a transfer is open is refused with 0504 0001h and ends it",
        .legal = "SDO-SUP-11, -12, SDO-SDN-17, SDO-BUP-29, tolerated",

@@ -120,14 +120,14 @@ int main(int argc, char** argv) {
   cli::Combination one;
   std::string variants, suites_folder;
   std::vector<std::string> only;
-  bool undescribed = false;
-  bool single = false;
+  bool undescribed = false, single = false, draw = false;
   app.add_option("--seed", settings.seed, "of the series of combinations")->capture_default_str();
   app.add_option("--first", settings.first, "number of the first combination")->capture_default_str();
   app.add_option("--runs", settings.runs, "how many combinations");
   app.add_option("--seconds", settings.seconds, "for how long");
   app.add_option("--jobs", settings.jobs, "processes")->check(CLI::Range(1, 64))->capture_default_str();
   app.add_option("--suites", suites_folder, "folder of the suites");
+  app.add_flag("--draw", draw, "only prints combination --first");
   app.add_flag("--one", single, "one combination, that of the following options");
   app.add_option("--variants", variants, "ids, separated by commas");
   app.add_option("--node", one.node, "node-ID")->check(CLI::Range(1, 127));
@@ -138,6 +138,7 @@ int main(int argc, char** argv) {
   app.add_option("cases", only, "only these cases; with one combination");
   CLI11_PARSE(app, argc, argv);
 
+  if (draw) return say(cli::draw_combination(settings.seed, settings.first).text() + "\n"), 0;
   const auto root = cli::find_suites(suites_folder);
   if (!root) return say(root.error().text() + "\n"), 2;
   const auto suites = cli::load_suites(*root, false);

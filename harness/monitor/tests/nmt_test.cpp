@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // NMT states, boot-up messages and heartbeats.
+#include <fmt/format.h>
+
 #include "trace.hpp"
 
 using namespace conform;
@@ -66,6 +68,20 @@ TEST_CASE("The heartbeat tells the commanded state, where the device cannot leav
   CHECK(told({pre_operational, "wait 200 ms", "< 701: 05"}) == Told{"fail EC-HBP-06 in frame 2"});
   CHECK(told({start, "wait 200 ms", "< 701: 05", "< 701: 7F", "< 701: 04"}).empty());
   CHECK(told({"< 701: 03"}) == Told{"fail EC-HBP-06 in frame 1"});
+}
+
+TEST_CASE("What waits behind the segments of a block is as old as the first of them") {
+  // 125 kbit/s: 127 segments take 140 ms, and the heartbeat of the state before comes after them.
+  std::vector<std::string> lines{"> C6 00 00 00 00", stop};
+  for (int segment = 1; segment < 110; ++segment) {
+    lines.push_back("wait 1 ms");
+    lines.push_back(fmt::format("< {:02X} 01 02 03 04 05 06 07", segment));
+  }
+  lines.push_back("< 701: 7F");
+  CHECK(told(lines).empty());
+  lines.push_back("wait 20 ms");
+  lines.push_back("< 701: 7F");
+  CHECK(told(lines).size() == 1);
 }
 
 TEST_CASE("A heartbeat has one byte with bit 7 clear") {
