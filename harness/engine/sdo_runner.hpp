@@ -25,7 +25,7 @@ struct SdoRun {
   // What came of it.
   canopen::TransferResult result;
   std::optional<std::size_t> first_request;  ///< capture index of our first frame
-  BusTime last_request{}, asked_at{};  ///< stamp of our last frame, and of the last that is no abort
+  BusTime last_request{}, asked_at{};        ///< stamp of our last frame, and of the last that is no abort
   std::size_t decisive = 0;                  ///< capture index of the frame that ended it
   Duration slowest{}, latest{};              ///< answers: the slowest, and the latest one
   Duration waited_in_vain{};                 ///< beyond `limit`

@@ -42,21 +42,27 @@ class ScriptedDevice final : public can::Participant {
   std::function<void(ScriptedDevice&)> on_reset;
   bool dead = false;
   BusTime silent_until{};  ///< it is starting
+  Duration latency{};      ///< of SDO answers
 
   void attach(Sender sender, BusTime) override { send_ = std::move(sender); }
   void on_time(BusTime now) override {
-    if (!later_ || later_->first > now) return;
-    const auto frame = std::exchange(later_, std::nullopt)->second;
-    send(frame);
+    while (!later_.empty() && later_.begin()->first <= now) send_(later_.extract(later_.begin()).mapped());
   }
   [[nodiscard]] std::optional<BusTime> next_wakeup() const override {
-    return later_ ? std::optional(later_->first) : std::nullopt;
+    return later_.empty() ? std::nullopt : std::optional(later_.begin()->first);
   }
-  void send(const can::Frame& frame) const { send_(frame); }
+  void send(const can::Frame& frame) {
+    if (frame.id == 0x581 && latency > Duration(0)) {
+      send_at(now_ + latency, frame);
+    } else {
+      send_(frame);
+    }
+  }
   void send_at(BusTime time, const can::Frame& frame) { later_.emplace(time, frame); }
 
   void on_frame(const can::Frame& frame, BusTime now) override {
     if (dead || now < silent_until) return;
+    now_ = now;
     if (frame.is_data(CanId(0x000)) && frame.size() == 2) {
       nmt.push_back(frame.data[0]);
       if (frame.data[0] >= 0x81 && on_reset) on_reset(*this);
@@ -95,7 +101,7 @@ class ScriptedDevice final : public can::Participant {
     send(answer);
   }
 
-  void abort(const can::Frame& request, std::uint32_t code) const {
+  void abort(const can::Frame& request, std::uint32_t code) {
     auto answer = request;
     answer.id = 0x581;
     answer.data[0] = 0x80;
@@ -106,7 +112,8 @@ class ScriptedDevice final : public can::Participant {
 
  private:
   Sender send_;
-  std::optional<std::pair<BusTime, can::Frame>> later_;
+  BusTime now_{};
+  std::multimap<BusTime, can::Frame> later_;
 };
 
 /// Catalogue of three made-up rules, so that tests do not depend on the real one.

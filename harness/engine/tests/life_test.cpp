@@ -136,6 +136,22 @@ TEST_CASE("a start within T_BOOT is waited for, in every tier, also at the first
   }
 }
 
+TEST_CASE("a device that is starting and takes its time for answers is not mute") {
+  // Two requests fall into the start, and then each answer comes after the time-out that a quick device
+  // needs.
+  ScriptedDevice device;
+  device.entries[0x200000] = {7};
+  device.silent_until = BusTime{} + 4900ms;
+  device.latency = 1200ms;
+  device.send_at(BusTime{} + 4900ms, boot_up);
+  can::SimulatedBus bus;
+  const auto out = play(bus, device, two_reads, RunOptions{}, slow_starter(5s));
+  CHECK_FALSE(out.run.aborted.has_value());
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::pass);
+  CHECK(std::ranges::none_of(device.nmt, [](auto command) { return command >= 0x81; }));
+}
+
 TEST_CASE(
     "an entry that is never answered does not end the survey, also where reading it makes the device restart") {
   for (const bool restarts : {false, true}) {
