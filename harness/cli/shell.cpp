@@ -5,62 +5,76 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <ctime>
+#include <cstdint>
 
 #include "base/text.hpp"
 
 namespace conform::cli {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 [[noreturn]] void become(const char* command) {
-  ::setpgid(0, 0);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
   if (const int nothing = ::open("/dev/null", O_RDONLY); nothing >= 0) ::dup2(nothing, 0);
   ::dup2(2, 1);
   ::execl("/bin/sh", "sh", "-c", command, nullptr);
   ::_exit(127);
 }
 
-/// Waits for the end of a child, no longer than until `end`. A kernel without pidfd (before 5.3) waits
-/// without a limit.
-bool ends_before(pid_t child, std::chrono::steady_clock::time_point end) {
-  const auto watched = static_cast<int>(::syscall(SYS_pidfd_open, child, 0));
-  if (watched < 0) return true;
-  bool ended = false;
-  for (auto now = std::chrono::steady_clock::now(); !ended && now < end;
-       now = std::chrono::steady_clock::now()) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
-    pollfd one{watched, POLLIN, 0};
-    ended = ::poll(&one, 1, static_cast<int>(left.count())) > 0;
+/// Runs the command in a process group of its own and writes how it ended to `told`. A process between,
+/// because waiting for a child has no limit, reading from a pipe has, and what the command leaves in the
+/// background must not hold the pipe. Also on kernels that have no pidfd.
+[[noreturn]] void attend(const char* command, int told) {
+  ::setpgid(0, 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+  const pid_t shell = ::fork();
+  if (shell == 0) become(command);
+  int status = 0;
+  const bool ended = shell > 0 && ::waitpid(shell, &status, 0) == shell;
+  ::_exit(ended && ::write(told, &status, sizeof status) == sizeof status ? 0 : 1);
+}
+
+enum class End : std::uint8_t { known, late, unknown };
+
+/// How the command ended, when that comes before `limit`.
+End read_end(int from, Clock::time_point limit, int& status) {
+  for (auto now = Clock::now(); now < limit; now = Clock::now()) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - now);
+    pollfd one{from, POLLIN, 0};
+    if (::poll(&one, 1, static_cast<int>(left.count())) <= 0) continue;
+    return ::read(from, &status, sizeof status) == sizeof status ? End::known : End::unknown;
   }
-  ::close(watched);
-  return ended;
+  return End::late;
 }
 
 }  // namespace
 
 Result<void> run_shell(const std::string& command, Duration limit) {
-  const auto end = std::chrono::steady_clock::now() + limit;
+  const auto latest = Clock::now() + limit;
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) return fail("the command could not be started: " + command);
   const pid_t child = ::fork();
-  if (child < 0) return fail("the command could not be started: " + command);
-  if (child == 0) become(command.c_str());
-  ::setpgid(child, child);  // whoever of the two comes first
+  if (child == 0) attend(command.c_str(), ends[1]);
+  ::close(ends[1]);
   int status = 0;
-  if (!ends_before(child, end)) {
-    ::kill(-child, SIGKILL);
-    ::waitpid(child, &status, 0);
+  auto end = End::unknown;
+  if (child > 0) {
+    ::setpgid(child, child);  // whoever of the two comes first
+    end = read_end(ends[0], latest, status);
+    if (end == End::late) ::kill(-child, SIGKILL);
+    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  ::close(ends[0]);
+  if (end == End::late)
     return fail(fmt::format("the command did not end within {}: {}", to_string(limit), command));
-  }
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return fail("the command could not be waited for: " + command);
-  }
+  if (end == End::unknown) return fail("the command could not be started: " + command);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return fail(WIFEXITED(status)
                   ? fmt::format("the command failed with exit code {}: {}", WEXITSTATUS(status), command)
