@@ -52,7 +52,8 @@ int list_command(const ListCommand& options) {
     watching = monitors.size();
   }
   print(out);
-  print(fmt::format("\n{} scenarios, {} monitors\n", shown, watching));
+  const auto s = [](std::size_t count) { return count == 1 ? "" : "s"; };
+  print(fmt::format("\n{} scenario{}, {} monitor{}\n", shown, s(shown), watching, s(watching)));
   return shown + watching == 0 ? exit_usage : 0;
 }
 
