@@ -53,4 +53,15 @@ std::vector<std::string> Attribution::rules_below(const steps::Actual& actual) c
   return out;
 }
 
+std::vector<std::string> Attribution::rules_broken(const steps::Actual& actual) const {
+  using Kind = steps::Actual::Kind;
+  if (actual.kind != Kind::mismatched || !actual.decisive) return rules_below(actual);
+  const auto found = broken_.find(*actual.decisive);
+  if (found == broken_.end()) return {};
+  auto out = found->second;
+  std::erase_if(out, [](const std::string& rule) { return !rule.starts_with("SDO-"); });
+  std::ranges::stable_sort(out, {}, result::depth_of_requirement);
+  return out;
+}
+
 }  // namespace conform::engine

@@ -27,6 +27,9 @@ class Attribution {
   /// the client could not use, an abort with a code that does not exist. What does not keep anybody from
   /// reading the frame (a reserved byte) excuses nothing. Nearest to the frame first.
   [[nodiscard]] std::vector<std::string> rules_below(const steps::Actual& actual) const;
+  /// The same, and all that a frame breaks which differs from the one that a conversation says. There the
+  /// bytes are the point, so it excuses nothing, but it tells whose fault it is.
+  [[nodiscard]] std::vector<std::string> rules_broken(const steps::Actual& actual) const;
 
  private:
   monitor::Watch watch_;

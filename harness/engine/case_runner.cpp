@@ -68,25 +68,64 @@ bool is_late(const Actual& actual, const can::Capture& capture) {
   return abort && abort->code == timed_out;
 }
 
+/// What the answer to an initiate request, or an abort, says it is about.
+std::optional<Index> object_in_answer(const RunSession& session, std::size_t frame) {
+  const auto& answer = session.capture().frames()[frame].frame;
+  if (!answer.is_data(canopen::connection_set(session.node()).sdo_response) || answer.size() < 4)
+    return std::nullopt;
+  constexpr std::uint8_t upload = 0x40, download = 0x60, abort = 0x80;
+  const auto command = answer.data[0];
+  const bool names_object = (command & 0xF0U) == upload || command == download || command == abort;
+  const auto index = static_cast<std::uint16_t>(load_le(ByteView(answer.data).subspan(1, 2)));
+  return names_object && index != 0 ? std::optional(Index(index)) : std::nullopt;
+}
+
+/// An answer of another service than the request's, by the command specifiers of both: "60h after 40h". Empty
+/// where they fit, and the content is what differs.
+std::string foreign_answer(std::size_t decisive, const RunSession& session) {
+  constexpr std::uint8_t specifier = 0xE0;
+  constexpr std::pair<std::uint8_t, std::uint8_t> fitting[] = {{0x40, 0x40}, {0x20, 0x60}, {0x60, 0x00},
+                                                               {0x00, 0x20}, {0xA0, 0xC0}, {0xC0, 0xA0}};
+  const auto& frames = session.capture().frames();
+  const auto sdo = canopen::connection_set(session.node());
+  if (!frames[decisive].frame.is_data(sdo.sdo_response) || frames[decisive].frame.size() == 0) return {};
+  const auto answer = static_cast<std::uint8_t>(frames[decisive].frame.data[0] & specifier);
+  for (auto i = decisive; i-- > 0;) {
+    const auto& frame = frames[i].frame;
+    if (!frame.is_data(sdo.sdo_request) || frame.size() == 0) continue;
+    const auto request = static_cast<std::uint8_t>(frame.data[0] & specifier);
+    if (std::ranges::find(fitting, std::pair(request, answer)) != std::end(fitting)) return {};
+    return hex(answer, 2) + " after " + hex(request, 2);
+  }
+  return {};
+}
+
 /// How what came differs, as a kind: what many parts of a device have in common when one thing is wrong with
 /// it.
-std::string deviation_of(const Step& step, const Actual& actual, const RunSession& session) {
+std::string deviation_of(const Step& step, const Actual& actual, RunSession& session) {
   using Outcome = steps::Outcome;
   const auto expects_abort = std::ranges::any_of(step.expectation.pass, [](const Outcome& outcome) {
     return outcome.kind == Outcome::Kind::abort_code || outcome.kind == Outcome::Kind::abort_any ||
            outcome.kind == Outcome::Kind::abort_defined;
   });
   // A conversation meets aborts as frames.
-  if (actual.kind == Actual::Kind::mismatched && actual.decisive) {
+  const bool frames = actual.kind == Actual::Kind::mismatched || actual.kind == Actual::Kind::matched;
+  if (frames && actual.decisive) {
     const auto& frame = session.capture().frames()[*actual.decisive].frame;
     const auto abort = frame.is_data(canopen::connection_set(session.node()).sdo_response)
                            ? canopen::decode_abort(frame.bytes())
                            : std::nullopt;
     if (abort) return "abort " + to_string(abort->code);
+    if (actual.kind == Actual::Kind::mismatched) return foreign_answer(*actual.decisive, session);
   }
   const bool waits = step.action != nullptr && !step.action->acts();
   switch (actual.kind) {
-    case Actual::Kind::confirmed: return expects_abort ? "confirmed instead of refused" : "";
+    case Actual::Kind::confirmed: {
+      if (expects_abort) return "confirmed instead of refused";
+      const auto object = step.verb == "upload" ? object_of(step, session) : std::nullopt;
+      if (!object || !session.before_last_write(*object)) return "";
+      return session.write_was_refused() ? "a refused value is stored" : "not what was written";
+    }
     case Actual::Kind::aborted: return "abort " + to_string(actual.code);
     case Actual::Kind::silence: return waits ? "no " + step.verb : "no answer";
     case Actual::Kind::violation: return "protocol violation";
@@ -607,8 +646,9 @@ result::Finding CaseRunner::make_finding(const Step& step, const std::string& re
   out.reason = grade.reason;
   out.declared_at = declared_at(step, actual);
   attribution_.follow(session_.capture().frames());
-  out.broken_rules = attribution_.rules_below(actual);
+  out.broken_rules = attribution_.rules_broken(actual);
   if (const auto object = object_of(step, session_)) out.object = object->index;
+  if (!out.object && actual.decisive) out.object = object_in_answer(session_, *actual.decisive);
   out.deviation = deviation_of(step, actual, session_);
   out.evidence = evidence(step_begin_, actual.decisive);
   out.frames_seen = session_.capture().size();

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <set>
 
+#include "result/explanations.hpp"
+#include "result/relations.hpp"
 #include "result/services.hpp"
 
 namespace conform::result {
@@ -19,7 +21,10 @@ constexpr int deepest_of_sdo = 3;
 /// Behind every rule: what was seen beside.
 constexpr int beside = 10;
 
-bool is_monitor(const CaseResult& one) { return one.suite == "monitor"; }
+/// How the server bears states, resets and load: seen through transfers.
+constexpr std::string_view sdo_server =
+    "SDO-GEN-13 SDO-GEN-14 SDO-GEN-15 SDO-GEN-16 SDO-GEN-17 SDO-GEN-18 SDO-GEN-19 SDO-GEN-20";
+constexpr int depth_of_sdo_server = 5;
 
 /// Keys that mean the same cause, joined.
 class Joined {
@@ -55,24 +60,27 @@ class Grouping {
         }
       }
     }
+    explanations_.emplace(places_);
     for (const auto& place : places_) {
       const auto& finding = *place.finding;
       const auto* service = service_of_requirement(finding.requirement);
       if (service != nullptr) own_rule_broken_.insert(std::string(service->name));
-      if (is_counted(place)) parts_with_[finding.deviation].insert(part_of(finding));
+      if (is_counted(place)) parts_with_[finding.deviation].insert(place.part());
     }
-    for (const auto& place : places_) keys_.push_back(key_of(place));
+    for (std::size_t i = 0; i < places_.size(); ++i) keys_.push_back(key_of(places_[explanations_->root(i)]));
     explain_by_lower_layers();
+    join_kin();
     join_what_never_fails_alone();
   }
 
   std::vector<Cause> causes() {
-    std::map<std::string, Cause> by_key;
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      by_key[joined_.root(keys_[i])].findings.push_back(places_[i]);
+    std::map<std::string, std::vector<std::size_t>> members;
+    for (std::size_t i = 0; i < places_.size(); ++i) members[joined_.root(keys_[i])].push_back(i);
     std::vector<Cause> out;
-    for (auto& [key, cause] : by_key) {
+    for (const auto& [key, places] : members) {
+      Cause cause;
       cause.about = key;
+      put_first(primary_of(key, places), places, cause);
       complete(cause);
       out.push_back(std::move(cause));
     }
@@ -85,51 +93,46 @@ class Grouping {
   }
 
  private:
-  /// The part of the device that a finding is about.
-  static std::string part_of(const Finding& finding) {
-    if (const auto* service = service_of_requirement(finding.requirement)) return std::string(service->name);
-    if (finding.object) return std::string(service_of_object(*finding.object).name);
-    return "entries in general";
-  }
   /// Whether its deviation says something about a cause that several parts may share.
   static bool is_counted(const Place& place) {
-    return !is_monitor(*place.owner) && place.finding->broken_rules.empty() &&
-           !place.finding->deviation.empty();
+    return !place.is_monitor() && place.finding->broken_rules.empty() && !place.finding->deviation.empty();
   }
   [[nodiscard]] bool is_shared(const std::string& deviation) const {
     const auto found = parts_with_.find(deviation);
     return found != parts_with_.end() && found->second.size() >= many_parts;
   }
 
-  std::string key_of(const Place& place) {
+  [[nodiscard]] std::string key_of(const Place& place) const {
     const auto& finding = *place.finding;
-    // What the deciding frame breaks by itself comes before what a scenario wanted of it.
-    if (!is_monitor(*place.owner) && !finding.broken_rules.empty()) {
-      const auto name = [](const std::string& rule) {
-        const auto* service = service_of_requirement(rule);
-        return service != nullptr ? std::string(service->name) : std::string("entries in general");
-      };
-      const auto key = name(finding.broken_rules.front());
-      for (const auto& rule : finding.broken_rules) joined_.join(name(rule), key);
-      return key;
-    }
     if (is_counted(place) && is_shared(finding.deviation)) return finding.deviation;
     // A rule about entries in general belongs to the part of its entry where that part breaks a rule of its
     // own.
-    if (service_of_requirement(finding.requirement) == nullptr &&
-        !own_rule_broken_.contains(part_of(finding)))
+    if (service_of_requirement(finding.requirement) == nullptr && !own_rule_broken_.contains(place.part()))
       return "rules " + family_of(finding.requirement);
-    return part_of(finding);
+    return place.part();
   }
 
   /// What many parts share and an SDO service shows as well is that service's.
   void explain_by_lower_layers() {
     for (const auto& [deviation, parts] : parts_with_) {
       if (parts.size() < many_parts) continue;
-      for (const auto& place : places_) {
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (explanations_->steps(i) != 0) continue;
+        const auto& place = places_[i];
         const auto* service = service_of_requirement(place.finding->requirement);
         if (service != nullptr && service->depth <= deepest_of_sdo && place.finding->deviation == deviation)
           joined_.join(std::string(service->name), deviation);
+      }
+    }
+  }
+
+  void join_kin() {
+    for (const auto rules : kin()) {
+      std::optional<std::string> first;
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (!is_in(rules, places_[i].finding->requirement)) continue;
+        if (first) joined_.join(keys_[i], *first);
+        first = keys_[i];
       }
     }
   }
@@ -145,7 +148,7 @@ class Grouping {
       for (std::size_t i = 0; i < places_.size(); ++i) {
         const auto key = joined_.root(keys_[i]);
         const auto& place = places_[i];
-        cases[key].insert(is_monitor(*place.owner) ? place.finding->during : place.owner->name());
+        cases[key].insert(place.is_monitor() ? place.finding->during : place.owner->name());
         if (place.finding->object) {
           objects[key].insert(place.finding->object->value());
         } else {
@@ -168,39 +171,54 @@ class Grouping {
     }
   }
 
-  /// What explains what: a failure before a warning, nearer to the frame before farther, then the order of
-  /// the run. Where all is about one object, its own rules come first; what many parts have in common is
+  /// What explains what: a fault before what rests on it, nearer to the frame before farther, then the order
+  /// of the run. Where all is about one object, its own rules come first; what many parts have in common is
   /// explained by a rule about entries in general rather than by one of each part.
-  void complete(Cause& cause) const {
+  [[nodiscard]] std::size_t primary_of(const std::string& key,
+                                       const std::vector<std::size_t>& members) const {
     std::set<std::uint16_t> objects;
-    for (const auto& place : cause.findings) {
-      if (place.finding->object) objects.insert(place.finding->object->value());
-    }
-    const bool shared = is_shared(cause.about);
     // A monitor sees the frames that a scenario provoked, too: it explains something only where scenarios
     // could not read a frame because of the rule that it names.
     std::set<std::string> unreadable;
-    for (const auto& place : cause.findings)
-      unreadable.insert(place.finding->broken_rules.begin(), place.finding->broken_rules.end());
+    for (const auto i : members) {
+      const auto& finding = *places_[i].finding;
+      if (finding.object) objects.insert(finding.object->value());
+      unreadable.insert(finding.broken_rules.begin(), finding.broken_rules.end());
+    }
+    const bool shared = is_shared(key);
     const auto depth = [&](const Place& place) {
       const auto& finding = *place.finding;
-      if (is_monitor(*place.owner) && !unreadable.contains(finding.requirement)) return beside;
+      if (place.is_monitor() && !unreadable.contains(finding.requirement)) return beside;
       const auto* service = service_of_requirement(finding.requirement);
       if (service == nullptr && shared) return 2;
+      if (is_in(sdo_server, finding.requirement)) return depth_of_sdo_server;
       const bool own = objects.size() == 1 && service != nullptr && finding.object &&
                        service == &service_of_object(*finding.object);
       return own ? 1 : depth_of_requirement(finding.requirement);
     };
-    const auto weight = [&](const Place& place) {
+    const auto weight = [&](std::size_t i) {
+      const auto& place = places_[i];
       const auto& finding = *place.finding;
       const auto frame = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
-      return std::tuple(place.verdict != Verdict::fail, depth(place),
-                        frame == finding.evidence.end() ? finding.frames_seen : frame->capture_index + 1);
+      const auto at = frame == finding.evidence.end() ? finding.frames_seen : frame->capture_index + 1;
+      const auto deep = depth(place);
+      return std::tuple(place.formless, explanations_->steps(i), deep == beside,
+                        place.verdict != Verdict::fail, deep, at);
     };
-    const auto primary = std::ranges::min_element(cause.findings, {}, weight);
-    std::rotate(cause.findings.begin(), primary, primary + 1);
+    return *std::ranges::min_element(members, {}, weight);
+  }
+
+  void put_first(std::size_t primary, const std::vector<std::size_t>& members, Cause& cause) const {
+    cause.findings.push_back(places_[primary]);
+    for (const auto i : members) {
+      if (i != primary) cause.findings.push_back(places_[i]);
+    }
+  }
+
+  void complete(Cause& cause) const {
     cause.primary = cause.findings.front();
     cause.verdict = cause.primary.verdict;
+    for (const auto& place : cause.findings) cause.verdict = std::max(cause.verdict, place.verdict);
     std::set<const CaseResult*> owners;
     for (const auto& place : cause.findings) {
       owners.insert(place.owner);
@@ -220,6 +238,7 @@ class Grouping {
 
   const RunResult& run_;
   std::vector<Place> places_;
+  std::optional<Explanations> explanations_;
   std::set<std::string> own_rule_broken_;                    ///< parts of which a rule of their own is broken
   std::map<std::string, std::set<std::string>> parts_with_;  ///< by deviation
   std::vector<std::string> keys_;

@@ -7,16 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "result/explanations.hpp"
 #include "result/run_result.hpp"
 
 namespace conform::result {
-
-/// A finding and where it stands.
-struct Place {
-  const CaseResult* owner = nullptr;
-  const Finding* finding = nullptr;
-  Verdict verdict = Verdict::fail;  ///< the cap of the requirement's level applied
-};
 
 /// One fault, as far as can be told from outside.
 struct Cause {

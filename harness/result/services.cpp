@@ -104,8 +104,9 @@ constexpr auto objects = std::to_array<Range>({
     {0x1F80, 0x1F80, &nmt},
 });
 
-/// "OD-1017-05": the object in the id.
-std::optional<Index> object_of(std::string_view requirement) {
+}  // namespace
+
+std::optional<Index> object_of_requirement(std::string_view requirement) {
   if (!requirement.starts_with("OD-1") || requirement.size() < 7) return std::nullopt;
   std::uint32_t value = 0;
   for (const char c : requirement.substr(3, 4)) {
@@ -116,10 +117,8 @@ std::optional<Index> object_of(std::string_view requirement) {
   return Index(static_cast<std::uint16_t>(value));
 }
 
-}  // namespace
-
 const Service* service_of_requirement(std::string_view requirement) {
-  if (const auto object = object_of(requirement)) return &service_of_object(*object);
+  if (const auto object = object_of_requirement(requirement)) return &service_of_object(*object);
   const auto found = std::ranges::find_if(
       families, [&](const Family& family) { return requirement.starts_with(family.prefix); });
   return found == families.end() ? nullptr : found->service;

@@ -24,6 +24,8 @@ struct Service {
 [[nodiscard]] const Service* service_of_requirement(std::string_view requirement);
 /// Of an object of the dictionary; objects of profiles and manufacturers are one service.
 [[nodiscard]] const Service& service_of_object(Index index);
+/// The object that a rule is of: 1017h of "OD-1017-05".
+[[nodiscard]] std::optional<Index> object_of_requirement(std::string_view requirement);
 /// Depth of the rule: that of its service, or of rules about entries in general.
 [[nodiscard]] int depth_of_requirement(std::string_view requirement);
 

@@ -50,7 +50,7 @@ DefectTable emergency_defects() {
                [](const FilterContext&, Frame& frame) { std::swap(frame.data[0], frame.data[1]); })},
       {"emcy-undefined-code",
        "EMCY uses codes of the undefined class A0h",
-       {"EMCY-FMT-02", "EC-HBC-03", "OD-1003-11"},
+       {"EMCY-FMT-02", "EC-HBC-03", "OD-1003-11", "EMCY-FMT-01"},
        reshape(Service::emergency,
                [](const FilterContext&, Frame& frame) {
                  if (frame.data[1] != 0) frame.data[1] = 0xA0;

@@ -147,7 +147,7 @@ DefectTable loss_rows() {
        })},
       {"block-download-duplicate-appended",
        "A segment that comes twice is stored twice",
-       {"SDO-BDN-09"},
+       {"SDO-BDN-09", "SDO-BDN-15"},
        block(&Block::duplicate_appended)},
       {"block-download-number-0-accepted",
        "A segment with the number 0 is stored",
@@ -239,7 +239,7 @@ DefectTable end_rows() {
        patch(end_without_transfer, [](const SdoExchange&, Data& data) { data = {0xA1}; })},
       {"block-download-abort-taken-as-segment",
        "A client abort in a sub-block is taken for a segment and acknowledged",
-       {"SDO-BDN-19"},
+       {"SDO-BDN-19", "SDO-GEN-04"},
        Filter([watch = BlockWatch{}](const FilterContext& context, Frames& frames) mutable {
          if (context.sdo == nullptr) return;
          const bool receiving = watch.running == BlockWatch::Running::download;

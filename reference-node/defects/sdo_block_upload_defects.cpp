@@ -105,7 +105,7 @@ DefectTable frame_rows() {
        })},
       {"block-upload-repeats-with-old-numbers",
        "Segments that are sent again keep the numbers they had",
-       {"SDO-BUP-13"},
+       {"SDO-BUP-13", "SDO-BUP-05"},
        on_exchange([kept = 0U](const SdoExchange& e, Frames& frames) mutable {
          if (block_upload_initiated(e)) kept = 0;
          if (is_acknowledge_of_client(e, frames)) kept = e.request[1];
@@ -120,11 +120,11 @@ DefectTable frame_rows() {
        each_segment([](const SdoExchange&, Data& data) { data[0] &= 0x7FU; })},
       {"block-upload-every-segment-marked",
        "Every segment of a block upload is marked as the last one",
-       {"SDO-BUP-05", "SDO-BUP-06"},
+       {"SDO-BUP-05", "SDO-BUP-06", "SDO-BUP-26"},
        each_segment([](const SdoExchange&, Data& data) { data[0] |= 0x80U; })},
       {"block-upload-last-segment-twice",
        "The last segment of a block upload is sent twice",
-       {"SDO-BUP-05", "SDO-BUP-01"},
+       {"SDO-BUP-05", "SDO-BUP-01", "SDO-BUP-26"},
        on_exchange([](const SdoExchange& e, Frames& frames) {
          if (is_upload_segment(e, frames) && (frames.front().frame.data[0] & 0x80U) != 0)
            frames.push_back(Outgoing(frames.front()));
@@ -147,7 +147,7 @@ DefectTable frame_rows() {
        end_frame([](const SdoExchange&, Data& data) { data[0] &= 0xE3U; })},
       {"block-upload-confirmation-answered",
        "The client's confirmation of a block upload is answered",
-       {"SDO-BUP-24"},
+       {"SDO-BUP-24", "SDO-GEN-04"},
        Filter([](const FilterContext& context, Frames& frames) {
          if (context.sdo != nullptr && is_end_confirmation(*context.sdo, frames))
            frames.push_back(response(context, {0xA1}));
@@ -201,7 +201,7 @@ DefectTable crc_rows() {
        other_crc([](const UploadWatch&, std::size_t) { return std::uint16_t{0}; })},
       {"block-upload-crc-counts-repeated-segments",
        "The CRC of a block upload counts segments that were sent again twice",
-       {"SDO-BUP-13", "SDO-BUP-14"},
+       {"SDO-BUP-13", "SDO-BUP-14", "SDO-BUP-02"},
        other_crc([](const UploadWatch& upload, std::size_t size) {
          const std::size_t padding = upload.data.size() - size;
          return crc16(std::span(upload.sent).first(upload.sent.size() - padding), polynomial, 0);
@@ -242,7 +242,7 @@ DefectTable refusal_rows() {
        behave(&Behaviour::block, &Block::size_ignored)},
       {"block-upload-next-size-ignored",
        "The block size of an acknowledge is not used",
-       {"SDO-BUP-08"},
+       {"SDO-BUP-08", "SDO-BUP-26"},
        behave(&Behaviour::block, &Block::next_size_ignored)},
       {"block-upload-next-size-unchecked",
        "A block size that is not allowed is accepted in an acknowledge",
@@ -262,11 +262,11 @@ DefectTable refusal_rows() {
        behave(&Behaviour::block, &Block::acknowledge_one_too_far)},
       {"block-upload-starts-at-once",
        "A block upload does not wait for its start",
-       {"SDO-BUP-19"},
+       {"SDO-BUP-19", "SDO-GEN-04", "SDO-BUP-01"},
        behave(&Behaviour::block, &Block::starts_at_once)},
       {"block-upload-switches-without-threshold",
        "A block upload with a threshold of 0 is answered by a normal upload",
-       {"SDO-BUP-16"},
+       {"SDO-BUP-16", "SDO-BUP-01"},
        behave(&Behaviour::block, &Block::zero_threshold_switches)},
       {"block-upload-threshold-inverted",
        "A block upload is answered by a normal upload when the size is above the threshold",
@@ -355,7 +355,7 @@ DefectTable end_rows() {
        })},
       {"block-upload-repeats-for-ever",
        "A block upload that is not acknowledged sends its last segment again and again",
-       {"SDO-BUP-25", "SDO-BUP-26"},
+       {"SDO-BUP-25", "SDO-BUP-26", "SDO-GEN-04"},
        on_exchange([](const SdoExchange& e, Frames& frames) {
          if (!is_upload_segment(e, frames)) return;
          const Outgoing segment = frames.front();

@@ -110,7 +110,7 @@ DefectTable sdo_channel_defects() {
        silent(on_additional_channel)},
       {"additional-sdo-answers-on-default-channel",
        "Additional SDO servers answer on the CAN-ID of the default one",
-       {"SDO-MUL-01", "OD-1201-04"},
+       {"SDO-MUL-01", "OD-1201-04", "SDO-GEN-04"},
        Filter([](const FilterContext& context, Frames& frames) {
          if (context.sdo == nullptr || !on_additional_channel(*context.sdo)) return;
          for (Outgoing& outgoing : frames) outgoing.frame.id = 0x580U + context.node_id;

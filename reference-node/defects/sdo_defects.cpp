@@ -90,7 +90,7 @@ DefectTable frame_rows() {
        behave(&Behaviour::answers_on_response_id)},
       {"sdo-dead-in-preop",
        "No SDO responses in Pre-operational",
-       {"SDO-GEN-13", "OD-RST-07"},
+       {"SDO-GEN-13", "OD-RST-07", "SDO-GEN-01"},
        mute(Service::sdo, NmtState::pre_operational)},
       {"sdo-dead-in-operational",
        "No SDO responses in Operational",
@@ -124,7 +124,7 @@ DefectTable frame_rows() {
        })},
       {"sdo-drops-every-nth-request",
        "Every 100th SDO request stays without response",
-       {"SDO-GEN-19", "SDO-GEN-18"},
+       {"SDO-GEN-19", "SDO-GEN-18", "SDO-GEN-01"},
        Filter([count = 0](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
          if (context.service == Service::sdo && ++count % 100 == 0) frames.clear();
        })},
@@ -195,7 +195,7 @@ DefectTable command_rows() {
        behave(&Behaviour::short_requests_completed)},
       {"client-abort-ignored",
        "A client abort does not end the transfer",
-       {"SDO-SUP-10", "SDO-SDN-19"},
+       {"SDO-SUP-10", "SDO-SDN-19", "SDO-BUP-17", "SDO-BUP-18", "SDO-BDN-19", "SDO-BDN-20"},
        behave(&Behaviour::ignores_client_abort)},
       {"client-abort-answered",
        "A client abort is answered with an abort",
@@ -216,7 +216,9 @@ DefectTable command_rows() {
          if (context.service == Service::boot_up) stopped = false;
          if (context.sdo == nullptr) return;
          const std::uint8_t command = context.sdo->request[0];
-         if (command > 0x80 && command < 0xA0) stopped = true;
+         const auto step = context.sdo->step;
+         const bool segment = step == SdoStep::block_download_segment || step == SdoStep::block_download_ack;
+         if (command > 0x80 && command < 0xA0 && !segment) stopped = true;
          if (stopped) frames.clear();
        })},
       {"abort-mux-stale",

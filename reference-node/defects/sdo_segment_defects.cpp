@@ -231,7 +231,7 @@ DefectTable upload_rows() {
        })},
       {"new-initiate-returns-old-object",
        "An upload request during a segmented upload is answered for the old object",
-       {"SDO-SUP-11"},
+       {"SDO-SUP-11", "SDO-GEN-03"},
        Filter([transfer = Transfer{}, first = Data{}](const FilterContext& context,
                                                       std::vector<Outgoing>& frames) mutable {
          if (context.sdo == nullptr) return;
@@ -310,11 +310,11 @@ DefectTable upload_rows() {
        patch(timed_out, [](const SdoExchange&, Data& data) { store_code(data, abort_code::general_error); })},
       {"time-out-abort-without-multiplexer",
        "The abort of a transfer that is left alone carries the multiplexer 0000h:00",
-       {"SDO-SUP-18", "SDO-SDN-25"},
+       {"SDO-SUP-18", "SDO-SDN-25", "SDO-ERR-04"},
        patch(timed_out, [](const SdoExchange&, Data& data) { data[1] = data[2] = data[3] = 0; })},
       {"time-out-abort-repeated",
        "A transfer that is left alone is aborted again and again",
-       {"SDO-SUP-18", "SDO-SDN-25"},
+       {"SDO-SUP-18", "SDO-SDN-25", "SDO-ERR-10"},
        Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
          if (context.sdo == nullptr || !timed_out(*context.sdo) || frames.empty()) return;
          frames.push_back(frames.back());
@@ -322,7 +322,7 @@ DefectTable upload_rows() {
        })},
       {"transfer-blocks-after-stopped",
        "A transfer that was interrupted by Stopped lets no new one begin afterwards",
-       {"SDO-SUP-19"},
+       {"SDO-SUP-19", "SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17", "SDO-BUP-29"},
        BehaviourSwitch([](Behaviour& behaviour) {
          behaviour.sdo.blocked_after_stopped = true;
          behaviour.initiate_ignored_while_busy = true;
@@ -364,11 +364,11 @@ DefectTable download_rows() {
        respond(download_segment_without_transfer, 0x20, 0)},
       {"segmented-download-not-supported",
        "Segmented downloads are refused although objects of more than four bytes are rw",
-       {"SDO-SDN-01", "SDO-SDN-03"},
+       {"SDO-SDN-01", "SDO-SDN-03", "OD-ACC-04"},
        respond(segmented_download_initiated, 0x80, 0x05040001)},
       {"segmented-ack-but-not-stored",
        "Segmented downloads are confirmed and forgotten",
-       {"SDO-SDN-01", "SDO-SDN-03"},
+       {"SDO-SDN-01", "SDO-SDN-03", "OD-ACC-04"},
        behave(&Behaviour::segmented_download_not_stored)},
       {"segmented-size-mismatch-accepted",
        "Fewer bytes than announced are padded with zeros",
@@ -392,7 +392,7 @@ DefectTable download_rows() {
        everywhere(keep_tail)},
       {"segmented-download-silent",
        "A request for a segmented download gets no answer",
-       {"SDO-SDN-01", "SDO-SDN-03"},
+       {"SDO-SDN-01", "SDO-SDN-03", "OD-ACC-04"},
        silent([](const SdoExchange& e) { return e.step == SdoStep::download_initiate && !is_expedited(e); })},
       {"segmented-download-of-small-entries-refused",
        "Segmented downloads of up to four bytes are refused, longer ones are served",

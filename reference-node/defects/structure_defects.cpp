@@ -144,7 +144,7 @@ DefectTable structure_rows() {
        preset(0x2002, 1, 250)},
       {"type-of-own-objects-not-delivered",
        "The INTEGER24 of 2000h:10 is delivered with four bytes",
-       {"OD-TYP-20", "OD-GEN-17"},
+       {"OD-TYP-20", "OD-GEN-17", "SDO-UPL-04"},
        type(0x2000, 0x10, DataType::integer32)},
   };
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/causes.hpp"
 
+#include <algorithm>
+
 #include "catch.hpp"
 #include "result/services.hpp"
 
@@ -86,6 +88,61 @@ TEST_CASE("a frame that breaks a rule by itself is the cause of what a scenario 
   const auto causes = causes_of(run);
   REQUIRE(causes.size() == 1);
   CHECK(causes[0].primary.finding->requirement == "SDO-GEN-02");
+}
+
+TEST_CASE("what cannot be seen without a broken rule is told with it, though it belongs to another part") {
+  RunResult run;
+  run.cases = {failed("a", "OD-1010-10"), failed("b", "EC-HBP-05"), failed("c", "OD-1020-04")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "OD-1010-10");
+  CHECK(causes[0].requirements.size() == 3);
+}
+
+TEST_CASE("a second fault of a part stays a cause of its own when another of its rules rests on the first") {
+  RunResult run;
+  run.cases = {failed("a", "OD-1010-10"), failed("b", "EC-HBP-05"), failed("c", "EC-HBP-12")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 2);
+  CHECK(std::ranges::any_of(causes, [](const Cause& cause) {
+    return cause.primary.finding->requirement == "EC-HBP-12" && cause.requirements.size() == 1;
+  }));
+}
+
+TEST_CASE("one rule of two kinds of transfer is one cause, told by the kind that comes first") {
+  RunResult run;
+  run.cases = {failed("a", "SDO-BDN-22"), failed("b", "SDO-SUP-20"), failed("c", "SDO-BUP-21")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "SDO-SUP-20");
+}
+
+TEST_CASE("no scenario explains anything by the form of a frame that no monitor complains about") {
+  RunResult run;
+  run.cases = {failed("a", "SDO-GEN-02", "no answer"), failed("b", "OD-GEN-04", "no answer", Index(0x1030))};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "OD-GEN-04");
+}
+
+TEST_CASE("an SDO rule broken about one object, which breaks its own rule, is that object's fault") {
+  RunResult run;
+  run.cases = {failed("a", "SDO-BDN-01", "not what was written", Index(0x1017)),
+               failed("b", "OD-1017-03", "not what was written", Index(0x1017)), failed("c", "EC-HBP-02")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 1);
+  CHECK(causes[0].primary.finding->requirement == "OD-1017-03");
+}
+
+TEST_CASE("a server whose uploads are wrong explains what is read, and not what is heard") {
+  RunResult run;
+  run.cases = {failed("a", "SDO-UPL-02", {}, Index(0x1001)), failed("b", "OD-1005-01", {}, Index(0x1005)),
+               failed("c", "OD-1400-15", {}, Index(0x1400)), failed("d", "EC-HBP-01")};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 2);
+  CHECK(causes[0].primary.finding->requirement == "SDO-UPL-02");
+  CHECK(causes[0].requirements.size() == 3);
+  CHECK(causes[1].primary.finding->requirement == "EC-HBP-01");
 }
 
 TEST_CASE("cases without ground are told with the cause that took it") {
