@@ -45,6 +45,25 @@ class Install(unittest.TestCase):
                      "doc/canopen-conform/README.md", "doc/canopen-conform/LICENSE", "doc/canopen-conform/docs/architecture.md"):
             self.assertTrue(os.path.exists(os.path.join(share, name)), name)
 
+    def test_what_the_documents_link_to_comes_along(self):
+        top = os.path.join(self.prefix, "share/doc/canopen-conform")
+        for folder, _, names in os.walk(top):
+            for name in names:
+                if not name.endswith(".md"):
+                    continue
+                with open(os.path.join(folder, name), encoding="utf-8") as file:
+                    links = re.findall(r"\]\(([^)#\s]+)[^)]*\)", file.read())
+                for link in links:
+                    there = link.startswith("http") or os.path.exists(os.path.join(folder, link))
+                    self.assertTrue(there, f"{os.path.relpath(folder, top)}/{name}: {link}")
+
+    def test_own_suites_add_to_those_installed(self):
+        with tempfile.TemporaryDirectory() as own:
+            with open(os.path.join(own, "mine.yaml"), "w", encoding="ascii") as file:
+                file.write("format: 1\ntitle: Mine\nscenarios:\n  - id: one\n    title: One\n    steps:\n"
+                           "      - upload: {object: 1000h:00}\n        checks: OD-1000-01\n        expect: ok\n")
+            self.check("run", "--simulate", "--suites", own, "mine", "cia301/dictionary/1000*", says="mine/one")
+
     def test_every_data_file_of_the_suites_is_installed(self):
         def files(root):
             return sorted(os.path.relpath(os.path.join(folder, name), root) for folder, _, names in os.walk(root)
