@@ -9,6 +9,7 @@ A comment before a block says what a reader has to know of it, and the test with
   <!-- shows: COMMAND -->                   these lines, one after the other, are in what the command prints
   <!-- shown: WHY -->                       nothing that a command prints
   <!-- runs: exits 1 -->                    commands with that exit code
+  <!-- runs: "--defect" exits 1 -->         only the line with this word has it; "without" may follow after a comma
   <!-- runs: without "sudo", "x": WHY -->   all but the lines with these words
   <!-- runs: not, WHY -->                   nothing of it
   <!-- page: not run, WHY -->               no block of this page
@@ -158,21 +159,21 @@ class Documents(unittest.TestCase):
 
     def run_commands(self, block):
         """How many were run."""
-        exits = re.match(r"exits (\d+)$", block.says)
-        left_out = re.fullmatch(r'without ((?:"[^"]*"(?:, )?)+): \S.*', block.says)
-        self.assertTrue(not block.says or exits or left_out, f"{block}: what does 'runs: {block.says}' mean?")
-        without = re.findall(r'"([^"]*)"', left_out[1]) if left_out else []
-        for word in without:
-            self.assertIn(word, block.text, f"{block}: nothing has the word that is left out")
+        says = re.fullmatch(r'(?:(?:"([^"]*)" )?exits (\d+))?(?:(?:^|, )without ((?:"[^"]*"(?:, )?)+): \S.*)?', block.says)
+        self.assertTrue(says, f"{block}: what does 'runs: {block.says}' mean?")
+        word, code, left_out = says.groups()
+        without = re.findall(r'"([^"]*)"', left_out or "")
+        for each in [word or "", *without]:
+            self.assertIn(each, block.text, f"{block}: no line has this word")
         typed = 0
         for line in commands(block.text):
-            if any(word in line for word in without):
+            if any(each in line for each in without):
                 if line.startswith(("canopen-conform ", "canopen-refnode ")):
                     self.knows(block, line)
                 continue
             typed += 1
             if not ON_BUS.search(line):
-                self.succeeds(block, line, (int(exits[1]) if exits else 0,))
+                self.succeeds(block, line, (int(code) if code and (word or "") in line else 0,))
             elif line.startswith(("canopen-conform ", "canopen-refnode ")):
                 self.simulated(block, line)
             else:
@@ -238,7 +239,7 @@ class Documents(unittest.TestCase):
     def test_what_needs_an_interface_works_on_one(self):
         typed = 0
         for block in self.blocks:
-            left_out = re.findall(r'"([^"]*)"', block.says) if block.key == "runs" else []
+            left_out = re.findall(r'"([^"]*)"', block.says.partition("without ")[2]) if block.key == "runs" else []
             if block.kind != "sh" or block.says.startswith("not, "):
                 continue
             for line in commands(block.text):
