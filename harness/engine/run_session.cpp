@@ -9,6 +9,7 @@
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/sdo_initiate.hpp"
+#include "engine/mapping_probe.hpp"
 
 namespace conform::engine {
 namespace {
@@ -161,6 +162,7 @@ std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
   };
   switch (asked) {
     case Asked::presence: return noted(asked, object);
+    case Asked::mapping: return noted(asked, {mapping_of(object.index), SubIndex(0)});
     case Asked::reading: return absent() ? noted(Asked::presence, object) : access();
     case Asked::writing: {
       if (profile_.is_untouchable(object)) return "untouchable in the profile";
@@ -253,6 +255,31 @@ Result<bool> RunSession::offers_block_transfer(bool upload) {
   if (!*known)
     grounds_[{steps::Asked::block_upload, {}}] = refusal_words(**answer, {Index(0x1000), SubIndex(0)});
   return *known;
+}
+
+Result<bool> RunSession::has_variable_mapping(Multiplexer object) {
+  constexpr std::string_view feature = "variable mapping";
+  if (profile_.claimed(feature)) return true;
+  const auto mapping = mapping_of(object.index);
+  auto& why = grounds_[{steps::Asked::mapping, {mapping, SubIndex(0)}}];
+  if (profile_.not_claimed.contains(feature)) {
+    why = "the profile says so";
+    return false;
+  }
+  const auto known = variable_mappings_.find(mapping);
+  if (known != variable_mappings_.end()) return known->second;
+  auto writable = is_writable({mapping, SubIndex(0)});
+  if (!writable) return writable;
+  if (!*writable) {
+    why = grounds(steps::Asked::writing, {mapping, SubIndex(0)});
+    return false;
+  }
+  if (auto allowed = guard_.needs({steps::Tier::config, "try whether a PDO can be mapped anew"}); !allowed)
+    return std::unexpected(allowed.error());
+  auto fixed = why_mapping_is_fixed(*this, mapping);
+  if (!fixed) return std::unexpected(fixed.error());
+  why = fixed->value_or("");
+  return variable_mappings_[mapping] = !fixed->has_value();
 }
 
 /// An entry that may be written: an access error of another one could not be told from "no block transfer".

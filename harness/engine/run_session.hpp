@@ -54,6 +54,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool is_described() const override { return !profile_.objects.empty(); }
   [[nodiscard]] bool write_was_refused() const override { return write_refused_; }
   [[nodiscard]] Result<bool> offers_block_transfer(bool upload) override;
+  [[nodiscard]] Result<bool> has_variable_mapping(Multiplexer object) override;
   [[nodiscard]] bool tries_all_objects() const override { return all_objects_; }
   [[nodiscard]] Result<std::string> others_heard() override;
   [[nodiscard]] std::string grounds(steps::Asked asked, Multiplexer object) const override;
@@ -178,6 +179,7 @@ class RunSession final : public steps::Session {
   std::map<Multiplexer, Bytes> before_write_;
   steps::Window window_;
   std::optional<bool> offers_block_upload_, offers_block_download_;  ///< once tried
+  std::map<Index, bool> variable_mappings_;                          ///< once tried
   bool stimulus_open_ = false;  ///< the running step acts, and its first frame begins the window
   bool request_open_ = false;   ///< the next frame of ours is a new request
   std::size_t request_ = 0;     ///< no answer to the latest request has a lower capture index

@@ -46,6 +46,11 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
     node->kind = Kind::has_default;
     return node;
   }
+  if (in.peek() == "has" && in.peek(1) == "a" && in.peek(2) == "variable" && in.peek(3) == "mapping") {
+    for (int i = 0; i < 4; ++i) in.take();
+    node->kind = Kind::remaps;
+    return node;
+  }
   if (in.peek() != "is" && in.peek() != "are") return TreePtr();
   const auto at = in.position();
   in.take();
@@ -312,6 +317,7 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
     case Kind::writable: return facts.is_writable(*object);
     case Kind::has_default: return facts.declared(*object, Declared::default_value).has_value();
     case Kind::access: return facts.access_of(*object) == node.word;
+    case Kind::remaps: return facts.has_variable_mapping(*object);
     default: return facts.may_change(*object);
   }
 }
@@ -334,7 +340,8 @@ void collect_names(const Tree& node, std::vector<std::string>& out) {
 }
 
 bool tree_may_write(const Tree& node) {
-  if (node.kind == Kind::writable || node.kind == Kind::block_download) return true;
+  if (node.kind == Kind::writable || node.kind == Kind::block_download || node.kind == Kind::remaps)
+    return true;
   for (const auto& part : node.parts) {
     if (tree_may_write(*part)) return true;
   }
@@ -386,6 +393,7 @@ std::vector<std::string_view> condition_forms() {
           "1017h:00 is const",
           "$object may change by itself",
           "1018h:03 has a default",
+          "1A00h:00 has a variable mapping",
           "value of 1003h:00 is not 0",
           "value of 1018h:00 is at least 2",
           "bit 30 of 1005h:00 is 1",

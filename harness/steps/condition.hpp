@@ -21,6 +21,7 @@ enum class Asked : std::uint8_t {
   writing,
   block_upload,
   block_download,
+  mapping,
   factory_defaults
 };
 
@@ -54,6 +55,9 @@ class Facts : public Scope {
   /// Whether the device carries out SDO block uploads (or downloads) at all: both are optional. Tries it
   /// once.
   [[nodiscard]] virtual Result<bool> offers_block_transfer(bool /*upload*/) { return false; }
+  /// Whether the entries of a PDO's mapping (or of the PDO whose parameters are named) can be changed: as
+  /// claimed, else found out by writing what is there, in the order of 7.5.2.36.
+  [[nodiscard]] virtual Result<bool> has_variable_mapping(Multiplexer /*object*/) { return false; }
   /// What was heard since the beginning of the run that neither we nor the device sent, in words; empty:
   /// nothing. Waits until there was some time to hear it.
   [[nodiscard]] virtual Result<std::string> others_heard() { return std::string(); }

@@ -18,6 +18,7 @@ struct Condition::Tree {
     access,
     changes,  // about an entry
     has_default,
+    remaps,
     feature,
     triggers,
     remote,

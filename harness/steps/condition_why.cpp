@@ -128,6 +128,12 @@ Why about_entry(const Tree& node, Facts& facts, bool held) {
       break;
     }
     case Kind::has_default: says("has a default", "has no default in the description"); break;
+    case Kind::remaps:
+      says("has a variable mapping", "has no mapping that can be changed");
+      with_grounds(Asked::mapping);
+      if (!held && object && !facts.claims("variable mapping"))
+        out.wants = {{"claim", "the claim 'variable mapping', if the device has it"}};
+      break;
     default: says("may change by itself", "does not change by itself"); break;
   }
   return out;
@@ -249,7 +255,8 @@ Why explain(const Tree& node, Facts& facts, bool held) {
     case Kind::writable:
     case Kind::access:
     case Kind::changes:
-    case Kind::has_default: return about_entry(node, facts, held);
+    case Kind::has_default:
+    case Kind::remaps: return about_entry(node, facts, held);
     case Kind::equal:
     case Kind::at_least:
     case Kind::at_most:
