@@ -17,7 +17,6 @@ namespace conform::engine {
 /// Writes the mapping that the PDO has once more, by the procedure of 7.5.2.36: PDO off, number of entries 0,
 /// entries, number, PDO on. nullopt: every write was confirmed. Otherwise why the mapping cannot be changed,
 /// or why it could not be tried. Error: no answer, or the environment failed.
-[[nodiscard]] Result<std::optional<std::string>> why_mapping_is_fixed(steps::Session& session,
-                                                                     Index mapping);
+[[nodiscard]] Result<std::optional<std::string>> why_mapping_is_fixed(steps::Session& session, Index mapping);
 
 }  // namespace conform::engine
