@@ -8,6 +8,7 @@ import json
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -71,6 +72,22 @@ class Schema(unittest.TestCase):
         for path in files:
             with self.subTest(path=path.name):
                 self.assertEqual(complaints(validator, path), [])
+
+    def test_every_file_that_the_documents_show_is_accepted(self):
+        found = 0
+        for page in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]:
+            for block in re.findall(r"^```yaml\n(.*?)^```", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
+                if not re.search("^format: 1$", block, re.MULTILINE):
+                    continue
+                found += 1
+                kind = next((name for key, name in (("scenarios", "scenario"), ("requirements", "requirement"))
+                             if re.search(f"^{key}:", block, re.MULTILINE)), "device")
+                with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+                    file.write(block)
+                    file.flush()
+                    with self.subTest(page=page.name):
+                        self.assertEqual(complaints(schema(kind), file.name), [])
+        self.assertGreater(found, 4)
 
     def test_every_requirement_file_is_accepted(self):
         validator = schema("requirement")
