@@ -53,6 +53,7 @@ struct RecoverCommand {
   std::optional<std::uint32_t> node;
   std::string device, eds;  ///< instead of those that the run was given
   bool all = false;         ///< also what has been put back already
+  bool no_store = false;    ///< leave alone what outlives a reset
 };
 [[nodiscard]] int recover_command(const RecoverCommand& options);
 

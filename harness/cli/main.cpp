@@ -165,6 +165,8 @@ int dispatch(int argc, char** argv) {
 
   recover_sub->add_flag("--all", recover.all,
                         "Every value that the run changed, also those that were put back already");
+  recover_sub->add_flag("--no-store", recover.no_store,
+                        "Do not store (1010h) again where the killed run was storing or restoring");
 
   std::string guarded;
   auto* guard_sub = app.add_subcommand("guard", "Watches over a run");

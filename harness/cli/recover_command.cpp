@@ -28,18 +28,42 @@ class Progress final : public engine::Observer {
     writer_.put_back(object, value);
     print("put back: " + to_string(object) + " is " + hex_bytes(value) + "\n");
   }
+  void recovered() { writer_.recovered(); }
 
  private:
   journal::Writer writer_;
 };
 
-/// What no value tells: 1010h and 1011h act on the memory that outlives a reset.
-void tell_of_commands(const journal::Journal& journal) {
-  for (const auto& object : journal.commands) {
-    print(fmt::format(
-        "unknown: the interrupted case gave the command {}; what it stored in the device cannot be read.\n"
-        "  If a test value comes back with a reset: canopen-conform recover --all {}, and store (1010h) after it\n",
-        to_string(object), journal.path));
+/// 1010h and 1011h act on the memory that outlives a reset: what the case stored there, or the defaults it
+/// wanted back, would come with the next one.
+std::optional<Multiplexer> stored_by(Multiplexer command) {
+  const bool stores = command.index == Index(0x1010), restores = command.index == Index(0x1011);
+  if (!stores && !restores) return std::nullopt;
+  return Multiplexer{Index(0x1010), command.sub};
+}
+
+std::vector<Multiplexer> to_store(const journal::Journal& journal) {
+  std::vector<Multiplexer> out;
+  for (const auto& command : journal.commands) {
+    const auto object = stored_by(command);
+    if (object && std::ranges::find(out, *object) == out.end()) out.push_back(*object);
+  }
+  return out;
+}
+
+/// What commands do no value tells.
+void tell_of_commands(const journal::Journal& journal, bool stores) {
+  for (const auto& command : journal.commands) {
+    const auto stored = stored_by(command);
+    if (!stored) {
+      print(fmt::format(
+          "unknown: the interrupted case gave the command {}; what it did in the device cannot be read\n",
+          to_string(command)));
+    } else if (!stores) {
+      print(fmt::format(
+          "not stored: the interrupted case gave the command {}, and its values may come back with a reset\n",
+          to_string(command)));
+    }
   }
 }
 
@@ -61,9 +85,10 @@ int recover_command(const RecoverCommand& options) {
   if (header.simulated)
     return report_error({"the run was a simulation: its device is gone with it", path, {}}, exit_usage);
   const auto& values = options.all ? journal->changed : journal->outstanding;
-  if (values.empty()) {
+  // A run that was killed may have left the device in Stopped as well, or a transfer open.
+  const bool untouched = journal->finished || journal->recovered || header.interface.empty();
+  if (values.empty() && untouched) {
     print("nothing is left to put back\n");
-    tell_of_commands(*journal);
     return 0;
   }
   DeviceWords words{options.device.empty() ? header.profile : options.device,
@@ -82,16 +107,24 @@ int recover_command(const RecoverCommand& options) {
         {"cannot open the file: " + std::generic_category().message(errno), journal->path, {}},
         exit_environment);
 
-  std::vector<engine::Change> changes;
-  for (const auto& each : values) changes.push_back({each.object, each.before});
+  engine::Remains remains;
+  for (const auto& each : values) remains.changes.push_back({each.object, each.before});
+  if (!options.no_store) remains.store = to_store(*journal);
   Progress progress(file.get());
-  const auto done = engine::recover(**transport, known->profile, std::move(changes), progress);
+  const auto done = engine::recover(**transport, known->profile, std::move(remains), progress);
   if (!done) return report_error(done.error(), exit_environment);
-  tell_of_commands(*journal);
-  for (const auto& left : done->left) report_error({"could not be put back: " + left, {}, {}}, 0);
-  print(fmt::format("{} of {} values are as they were before the run\n", values.size() - done->left.size(),
-                    values.size()));
-  return done->left.empty() ? 0 : exit_environment;
+  tell_of_commands(*journal, !options.no_store);
+  const auto& left = done->values.left;
+  for (const auto& each : left) report_error({"could not be put back: " + each, {}, {}}, 0);
+  for (const auto& object : done->stored)
+    print("stored again: by " + to_string(object) + ", for the interrupted case had stored or restored\n");
+  for (const auto& each : done->not_stored) report_error({"could not be stored again: " + each, {}, {}}, 0);
+  print(values.empty() ? "nothing is left to put back\n"
+                       : fmt::format("{} of {} values are as they were before the run\n",
+                                     values.size() - left.size(), values.size()));
+  if (!left.empty() || !done->not_stored.empty()) return exit_environment;
+  if (!options.no_store) progress.recovered();
+  return 0;
 }
 
 }  // namespace conform::cli

@@ -1,17 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/recover.hpp"
 
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
 #include "canopen/nmt.hpp"
 #include "engine/liveness.hpp"
 
 namespace conform::engine {
 
-Result<RestoreReport> recover(can::Transport& transport, const device::Profile& profile,
-                              std::vector<Change> changes, Observer& observer) {
+namespace {
+
+/// "save" (7.5.2.13).
+const Bytes signature{'s', 'a', 'v', 'e'};
+
+Result<void> store(RunSession& session, Multiplexer object, Recovery& out) {
+  using Kind = steps::SdoAnswer::Kind;
+  auto answer = session.download(object, signature, canopen::SdoDownload::Mode::automatic,
+                                 session.profile().store_timeout);
+  if (!answer) return std::unexpected(answer.error());
+  if (answer->kind == Kind::confirmed) {
+    out.stored.push_back(object);
+  } else {
+    const bool aborted = answer->kind == Kind::aborted;
+    out.not_stored.push_back(to_string(object) + ": " +
+                             (aborted ? "abort " + canopen::describe(answer->code) : answer->detail));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Recovery> recover(can::Transport& transport, const device::Profile& profile, Remains remains,
+                         Observer& observer) {
   Recorder recorder(transport, nullptr);
   recorder.set_observer(observer);
   RunSession session(recorder, profile, device::dictionary_of(profile));
-  session.begin_case(scenario::Risk::config);
+  session.begin_case(remains.store.empty() ? scenario::Risk::config : scenario::Risk::nvm);
   // A transfer may be open, and its answer still on its way.
   session.sdo_channel_dirty();
   const auto liveness = probe(session, Means{.may_command = true});
@@ -25,7 +49,16 @@ Result<RestoreReport> recover(can::Transport& transport, const device::Profile& 
     return std::unexpected(sent.error());
   if (auto waited = session.wait_until(session.now() + profile.nmt_time); !waited)
     return std::unexpected(waited.error());
-  return restore(session, std::move(changes));
+  Recovery out;
+  auto restored = restore(session, std::move(remains.changes));
+  if (!restored) return std::unexpected(restored.error());
+  out.values = std::move(*restored);
+  // A value that is not what it was must not be made to last.
+  if (!out.values.left.empty()) return out;
+  for (const auto object : remains.store) {
+    if (auto stored = store(session, object, out); !stored) return std::unexpected(stored.error());
+  }
+  return out;
 }
 
 }  // namespace conform::engine

@@ -7,9 +7,23 @@
 
 namespace conform::engine {
 
-/// Finds the device in whatever state it was left, ends what is open, and restores. Error: the environment
-/// failed, or the device does not answer.
-[[nodiscard]] Result<RestoreReport> recover(can::Transport& transport, const device::Profile& profile,
-                                            std::vector<Change> changes, Observer& observer);
+/// What a killed run left behind.
+struct Remains {
+  std::vector<Change> changes;
+  /// Entries of 1010h by which the values are stored once they are back, because test values were stored, or
+  /// defaults were restored, and would come back with the next reset.
+  std::vector<Multiplexer> store;
+};
+
+struct Recovery {
+  RestoreReport values;
+  std::vector<Multiplexer> stored;
+  std::vector<std::string> not_stored;  ///< "1010h:01: abort 0606 0000h (hardware error)"
+};
+
+/// Finds the device in whatever state it was left, ends what is open, restores and stores. Error: the
+/// environment failed, or the device does not answer.
+[[nodiscard]] Result<Recovery> recover(can::Transport& transport, const device::Profile& profile,
+                                       Remains remains, Observer& observer);
 
 }  // namespace conform::engine

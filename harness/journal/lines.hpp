@@ -12,6 +12,7 @@ inline constexpr const char* ended = "ended";            ///< index of a case, "
 inline constexpr const char* changing = "changing";      ///< an entry, "before": what it held
 inline constexpr const char* commanding = "commanding";  ///< an entry that is a command
 inline constexpr const char* put_back = "put_back";      ///< an entry, "value": what it holds again
+inline constexpr const char* recovered = "recovered";    ///< true: what a killed run left has been dealt with
 inline constexpr const char* finished = "finished";      ///< the run without its cases
 inline constexpr const char* reported = "reported";      ///< every report is made
 inline constexpr const char* died = "died";              ///< number of the signal, "why" in words

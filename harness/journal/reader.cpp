@@ -49,6 +49,9 @@ class Parser {
       std::erase_if(out_.outstanding, [&](const OldValue& each) {
         return object && each.object == *object && each.before == value;
       });
+    } else if (line.contains(lines::recovered)) {
+      out_.commands.clear();
+      out_.recovered = true;
     } else if (line.contains(lines::finished)) {
       auto cases = std::move(out_.run.cases);
       out_.run = {};

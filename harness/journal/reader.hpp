@@ -23,6 +23,7 @@ struct Journal {
   bool reported = false;              ///< and its reports were made
   std::vector<OldValue> outstanding;  ///< in the order in which they were changed
   std::vector<OldValue> changed;      ///< all that the run changed, put back or not: what was there at first
+  bool recovered = false;             ///< it was killed, and what it left has been dealt with since
   /// Commands that the interrupted case gave (1010h "save" and the like): what they did no value tells.
   std::vector<Multiplexer> commands;
 };

@@ -71,6 +71,8 @@ void Writer::put_back(Multiplexer object, const Bytes& value) {
   append(Json{{lines::put_back, to_string(object)}, {"value", hex_text(value)}}.dump());
 }
 
+void Writer::recovered() { append(Json{{lines::recovered, true}}.dump()); }
+
 void Writer::finished(const result::RunResult& run) {
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     const auto text = to_json(run.cases[i]).dump();

@@ -52,6 +52,8 @@ class Writer {
   void changing(const OldValue& value);
   void commanding(Multiplexer object);
   void put_back(Multiplexer object, const Bytes& value);
+  /// Another process has put back what the killed run left, and stored it.
+  void recovered();
   /// The run is over; cases that changed since they ended are written again.
   void finished(const result::RunResult& run);
   /// All reports are made: nobody needs to make them from the journal any more.

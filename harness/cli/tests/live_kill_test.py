@@ -84,11 +84,21 @@ class Client:
     def dump(self, entries):
         return {f"{index:04X}h:{sub:02X}": self.upload(index, sub) for index, sub in entries}
 
-    def pre_operational(self):
+    @staticmethod
+    def command(specifier):
         sender = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
         sender.bind((INTERFACE,))
-        sender.send(FRAME.pack(0, 2, bytes([128, 5]) + bytes(6)))
+        sender.send(FRAME.pack(0, 2, bytes([specifier, 5]) + bytes(6)))
         sender.close()
+
+    def pre_operational(self):
+        self.command(0x80)
+
+    def reset(self):
+        """What was stored comes back."""
+        self.command(0x81)
+        time.sleep(0.5)
+        self.until_there()
 
 
 class Witness:
@@ -226,9 +236,13 @@ class Kill(unittest.TestCase):
                         recovered += done.stdout.count("put back: ")
                     client = Client()  # without the answers that the harness got
                     after = client.dump(entries)
-                    client.close()
                     changed = {key: (start[key], after[key]) for key in start if start[key] != after[key]}
                     self.assertEqual(changed, {}, f"{words}\n{done and done.stdout}\n{errors}")
+                    client.reset()
+                    after = client.dump(entries)
+                    client.close()
+                    stored = {key: (start[key], after[key]) for key in start if start[key] != after[key]}
+                    self.assertEqual(stored, {}, f"after a reset: {words}\n{done and done.stdout}\n{errors}")
                     print(f"  {words}: {reached} of {cases} verdicts, {frames} frames, "
                           f"{done.stdout.count('put back: ') if done else 0} values put back", flush=True)
             self.assertIsNone(node.process.poll())

@@ -95,6 +95,18 @@ TEST_CASE("a killed run keeps the verdicts it reached, and says of the others wh
   CHECK(journal->commands.size() == 1);
 }
 
+TEST_CASE("what has been recovered is not asked for again") {
+  Scratch scratch;
+  write_killed(scratch.writer);
+  scratch.writer.put_back(heartbeat, {0xE8, 3});
+  scratch.writer.recovered();
+  const auto journal = parse(scratch.text(), "j");
+  REQUIRE(journal);
+  CHECK(journal->recovered);
+  CHECK(journal->outstanding.empty());
+  CHECK(journal->commands.empty());
+}
+
 TEST_CASE("a journal is read wherever its last line was torn") {
   Scratch scratch;
   write_killed(scratch.writer);
