@@ -756,10 +756,9 @@ void CaseRunner::conclude() {
   out_->verdict = verdict;
   if (!stopped_because_.empty()) {
     out_->reason = stopped_because_;
-  } else if (verdict == Verdict::not_applicable && !out_->judgements.empty()) {
-    if (out_->reason == "not run") explain_nothing_judged();
   } else if (verdict == Verdict::not_applicable) {
-    explain_nothing_judged();
+    // Where a step went a way that does not concern the device, that way is the reason.
+    if (out_->reason == "not run") explain_nothing_judged();
   } else {
     out_->reason.clear();
   }
