@@ -2,6 +2,7 @@
 #include "engine/case_runner.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/check.hpp"
 #include "base/text.hpp"
@@ -311,7 +312,7 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
                                               *value.number > 0xFFFF ? 8 : (*value.number > 0xFF ? 3 : 2))
                                         : value.text());
     session_.set(walk.name, value);
-    const auto before = out_->judgements;
+    const auto before = passes();
     const auto offences_before = offences();
     auto flow = run_steps(walk.steps);
     ++tried;
@@ -400,6 +401,14 @@ CaseRunner::Flow CaseRunner::not_applicable(const Step& step, const std::string&
   if (!walk_value_.empty()) return Flow::next_value;
   withdraw_passes(*list_, {});
   return Flow::stop;
+}
+
+std::vector<result::Judgement> CaseRunner::passes() const {
+  std::vector<result::Judgement> out;
+  // Findings are heavy, and a pass has none.
+  std::ranges::copy_if(out_->judgements, std::back_inserter(out),
+                       [](const auto& each) { return each.verdict == Verdict::pass; });
+  return out;
 }
 
 void CaseRunner::withdraw_passes(const Steps& list, const std::vector<result::Judgement>& before) {

@@ -83,6 +83,7 @@ class CaseRunner {
   /// step or a later one has not passed. What failed or warned stays. Inside an `over` only the value ends,
   /// else the case.
   [[nodiscard]] Flow not_applicable(const steps::Step& step, const std::string& reason);
+  [[nodiscard]] std::vector<result::Judgement> passes() const;
   void withdraw_passes(const Steps& list, const std::vector<result::Judgement>& before);
   /// What came breaks rules below the one that is judged: those have failed, and this one cannot be judged.
   [[nodiscard]] std::optional<std::string> rule_below(const std::string& requirement,

@@ -11,41 +11,23 @@
 #include "can/pcapng.hpp"
 #include "catch.hpp"
 #include "cli/selftest.hpp"
-#include "cli/suite_folder.hpp"
 #include "device/profile.hpp"
 #include "engine/monitor_cases.hpp"
 #include "monitor/watch.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
+namespace shipped = cli::shipped;
 using result::Verdict;
 
 namespace {
-
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
-struct World {
-  cli::LoadedSuites suites;
-  device::Profile profile;
-};
-
-const World& world() {
-  static const World loaded = [] {
-    auto suites = cli::load_suites(suites_folder, false);
-    INFO((suites ? std::string() : suites.error().text()));
-    REQUIRE(suites.has_value());
-    auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-    REQUIRE(profile.has_value());
-    return World{std::move(*suites), std::move(profile->profile)};
-  }();
-  return loaded;
-}
 
 cli::SimulatedRun live(const std::vector<std::string>& defects,
                        const std::vector<std::string>& patterns = {}) {
   engine::RunOptions options;
   options.plan.selection.patterns = patterns;
-  auto run = cli::simulate({.defects = defects}, world().profile, world().suites.suite,
-                           world().suites.catalogue, options, 1);
+  auto run = cli::simulate({.defects = defects}, shipped::reference(), shipped::suites().suite,
+                           shipped::suites().catalogue, options, 1);
   INFO((run ? std::string() : run.error().text()));
   REQUIRE(run.has_value());
   return std::move(*run);
@@ -87,7 +69,7 @@ result::RunResult judged(std::string_view content, bool inferred) {
   INFO((recording ? std::string() : recording.error().text()));
   REQUIRE(recording.has_value());
   CHECK(recording->directions_inferred == inferred);
-  return cli::judge(*recording, world().profile, world().suites.catalogue, {});
+  return cli::judge(*recording, shipped::reference(), shipped::suites().catalogue, {});
 }
 result::RunResult judged_as_pcapng(const can::Capture& capture) {
   const auto bytes = can::write_pcapng(capture, {});
@@ -152,7 +134,7 @@ TEST_CASE("Monitors decide by ids of the catalogue, each under its own name") {
   for (const auto& rule : monitor::rules()) {
     for (const auto id : rule.requirements) {
       INFO(rule.name << ' ' << id);
-      CHECK(world().suites.catalogue.canonical(id) == std::string(id));
+      CHECK(shipped::suites().catalogue.canonical(id) == std::string(id));
     }
   }
 }
@@ -162,7 +144,7 @@ TEST_CASE("A pattern about scenarios leaves the monitors on; a pattern about mon
                               std::vector<std::string> requirements = {}) {
     std::vector<std::string> out;
     for (const auto* rule :
-         engine::chosen_monitors({patterns, requirements, excludes}, world().suites.catalogue))
+         engine::chosen_monitors({patterns, requirements, excludes}, shipped::suites().catalogue))
       out.emplace_back(rule->name);
     return out;
   };
@@ -177,12 +159,12 @@ TEST_CASE("A pattern about scenarios leaves the monitors on; a pattern about mon
 TEST_CASE("Nothing passes for a node of which only the host may have sent frames") {
   // The run plays the node 7Eh, whose heartbeat the device watches.
   const auto run = live({}, {"cia301/heartbeat/consumer", "cia301/sdo/channel"});
-  auto profile = world().profile;
+  auto profile = shipped::reference();
   for (const auto node : {NodeId(0x7E), NodeId(0x7D), NodeId(0x40), NodeId(0x02)}) {
     profile.node = node;
     const auto recording = cli::read_recording(can::write_candump_log(run.capture, {}), "test", {});
     REQUIRE(recording.has_value());
-    const auto out = cli::judge(*recording, profile, world().suites.catalogue, {});
+    const auto out = cli::judge(*recording, profile, shipped::suites().catalogue, {});
     INFO(node.value());
     CHECK(out.counts().pass == 0);
     CHECK(result::exit_code(out) == 3);
@@ -199,8 +181,8 @@ TEST_CASE("A run that stopped before any scenario passes nothing") {
     std::atomic<int>& stop_;
   } observer(stop);
   options.observer = &observer;
-  const auto run =
-      cli::simulate({}, world().profile, world().suites.suite, world().suites.catalogue, options, 1);
+  const auto run = cli::simulate({}, shipped::reference(), shipped::suites().suite,
+                                 shipped::suites().catalogue, options, 1);
   REQUIRE(run.has_value());
   CHECK(run->result.aborted.has_value());
   CHECK(run->result.counts().pass == 0);

@@ -7,24 +7,18 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "cli/selftest.hpp"
-#include "cli/suite_folder.hpp"
 #include "device/profile.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
 using result::Verdict;
 
 namespace {
 
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
 const cli::KillMatrix& matrix() {
   static const cli::KillMatrix computed = [] {
-    auto suites = cli::load_suites(suites_folder, false);
-    INFO((suites ? std::string() : suites.error().text()));
-    REQUIRE(suites.has_value());
-    auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-    REQUIRE(profile.has_value());
-    auto out = cli::kill_matrix(profile->profile, suites->suite, suites->catalogue, {});
+    const auto& suites = cli::shipped::suites();
+    auto out = cli::kill_matrix(cli::shipped::reference(), suites.suite, suites.catalogue, {});
     REQUIRE(out.has_value());
     return std::move(*out);
   }();

@@ -5,35 +5,16 @@
 
 #include "catch.hpp"
 #include "legal_variants.hpp"
+#include "shipped.hpp"
 #include "variants/variant.hpp"
 
 using namespace conform;
+namespace shipped = cli::shipped;
 
 namespace {
 
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
-const cli::LoadedSuites& suites() {
-  static const cli::LoadedSuites loaded = [] {
-    auto out = cli::load_suites(suites_folder, false);
-    INFO((out ? std::string() : out.error().text()));
-    REQUIRE(out.has_value());
-    return std::move(*out);
-  }();
-  return loaded;
-}
-
-const device::Profile& reference() {
-  static const device::Profile loaded = [] {
-    auto out = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-    REQUIRE(out.has_value());
-    return std::move(out->profile);
-  }();
-  return loaded;
-}
-
 void check(const cli::Combination& combination) {
-  const auto complaints = cli::judge_combination(combination, suites(), reference());
+  const auto complaints = cli::judge_combination(combination, shipped::suites(), shipped::reference());
   INFO("legal_variants " << combination.text());
   REQUIRE(complaints.has_value());
   for (const auto& complaint : *complaints) FAIL_CHECK(complaint.what << "\n" << complaint.details);
@@ -88,7 +69,7 @@ TEST_CASE("rows of the variants are sound") {
     CHECK_FALSE(variant.legal.empty());
     for (const auto word : variant.lacks) CHECK(device::is_feature(word));
     for (const auto word : variant.gains) CHECK(device::is_feature(word));
-    for (const auto id : variant.warns) CHECK(suites().catalogue.canonical(id).has_value());
+    for (const auto id : variant.warns) CHECK(shipped::suites().catalogue.canonical(id).has_value());
   }
   for (const auto& variant : refnode::variants()) {
     for (const auto word : variant.excludes) {

@@ -13,36 +13,19 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "cli/selftest.hpp"
-#include "cli/suite_folder.hpp"
 #include "cli/variant_profile.hpp"
 #include "device/profile.hpp"
 #include "node.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
+namespace shipped = cli::shipped;
 
 namespace {
 
 constexpr int read_only = 0, config = 1, nvm = 2, motion = 3;
 constexpr std::array<steps::Tier, 4> tiers = {steps::Tier::read_only, steps::Tier::config, steps::Tier::nvm,
                                               steps::Tier::motion};
-
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
-const cli::LoadedSuites& suites() {
-  static const cli::LoadedSuites loaded = [] {
-    auto out = cli::load_suites(suites_folder, false);
-    INFO((out ? std::string() : out.error().text()));
-    REQUIRE(out.has_value());
-    return std::move(*out);
-  }();
-  return loaded;
-}
-
-device::Profile reference_profile() {
-  auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-  REQUIRE(profile.has_value());
-  return std::move(profile->profile);
-}
 
 /// Reads what is sent to one node, in the order of the bus.
 class Reading {
@@ -137,7 +120,7 @@ struct CaseTier {
 const std::map<std::string, CaseTier>& case_tiers() {
   static const std::map<std::string, CaseTier> known = [] {
     std::map<std::string, CaseTier> out;
-    for (const auto& file : suites().suite.files) {
+    for (const auto& file : shipped::suites().suite.files) {
       for (const auto& each : file.scenarios)
         out[each.id] = {static_cast<int>(each.risk),
                         raises_errors(each.steps) || raises_errors(each.cleanup)};
@@ -191,7 +174,8 @@ cli::SimulatedRun play(const cli::NodeSwitches& switches, const device::Profile&
   engine::RunOptions options;
   options.plan.allowed = tiers[static_cast<std::size_t>(allowed)];
   options.plan.slow = true;
-  auto run = cli::simulate(switches, profile, suites().suite, suites().catalogue, options, 1);
+  auto run =
+      cli::simulate(switches, profile, shipped::suites().suite, shipped::suites().catalogue, options, 1);
   INFO((run ? std::string() : run.error().text()));
   REQUIRE(run.has_value());
   return std::move(*run);
@@ -224,7 +208,7 @@ TEST_CASE("the reading of the table tells frames apart") {
 }
 
 TEST_CASE("a run sends nothing beyond the tier that it allows, nor a case beyond its own") {
-  const auto profile = reference_profile();
+  const auto profile = shipped::reference();
   for (const int allowed : {read_only, config, nvm, motion}) {
     INFO("allowed: " << steps::word_of(tiers[static_cast<std::size_t>(allowed)]));
     const auto run = play({}, profile, allowed);
@@ -242,7 +226,7 @@ TEST_CASE("without a profile nothing from 2000h on is written at any tier") {
 }
 
 TEST_CASE("a device that does wrong does not lead a run out of its tier") {
-  const auto profile = reference_profile();
+  const auto profile = shipped::reference();
   for (const std::string defect :
        {"missing-object-wrong-abort", "1003-nonzero-write-accepted", "ro-write-accepted", "1014-lock-missing",
         "sdo-double-response", "1010-wrong-signature-accepted", "1000-is-u16", "1003-oldest-first"}) {
@@ -256,7 +240,7 @@ TEST_CASE("nor does a legal one with habits of its own") {
   for (const std::vector<std::string>& variants : {std::vector<std::string>{"1018-vendor-only", "1800-const"},
                                                    {"1017-absent"},
                                                    {"tpdo-event-driven-only"}}) {
-    auto profile = reference_profile();
+    auto profile = shipped::reference();
     auto node = refnode::Node::create({.node_id = profile.node.value(), .defects = {}, .variants = variants});
     REQUIRE(node.has_value());
     profile = cli::profile_of_variants(profile, (*node)->dictionary(), variants);

@@ -7,34 +7,21 @@
 
 #include "catch.hpp"
 #include "cli/selftest.hpp"
-#include "cli/suite_folder.hpp"
 #include "cli/variant_profile.hpp"
 #include "device/profile.hpp"
 #include "node.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
+namespace shipped = cli::shipped;
 using result::Verdict;
 
 namespace {
 
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
-const cli::LoadedSuites& suites() {
-  static const cli::LoadedSuites loaded = [] {
-    auto out = cli::load_suites(suites_folder, false);
-    INFO((out ? std::string() : out.error().text()));
-    REQUIRE(out.has_value());
-    return std::move(*out);
-  }();
-  return loaded;
-}
-
 device::Profile profile_with(const std::vector<std::string>& variants) {
-  auto out = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-  REQUIRE(out.has_value());
-  auto node = refnode::Node::create({.node_id = out->profile.node.value(), .variants = variants});
+  auto node = refnode::Node::create({.node_id = shipped::reference().node.value(), .variants = variants});
   REQUIRE(node.has_value());
-  return cli::profile_of_variants(out->profile, (*node)->dictionary(), variants);
+  return cli::profile_of_variants(shipped::reference(), (*node)->dictionary(), variants);
 }
 
 struct Device {
@@ -47,7 +34,7 @@ std::map<std::string, Verdict> judged(const Device& device, const std::vector<st
   options.plan.selection.requirements = requirements;
   const auto run =
       cli::simulate({.defects = device.defects, .variants = device.variants}, profile_with(device.variants),
-                    suites().suite, suites().catalogue, options, 1);
+                    shipped::suites().suite, shipped::suites().catalogue, options, 1);
   REQUIRE(run.has_value());
   std::map<std::string, Verdict> out;
   for (const auto& each : run->result.cases) {
@@ -158,8 +145,8 @@ TEST_CASE("an error that never shows is no message of another form, nor an entry
   engine::RunOptions options;
   options.plan.selection.requirements = {"OD-1001-05", "EMCY-FMT-01", "EMCY-FMT-04", "OD-1003-10",
                                          "OD-1014-07"};
-  const auto run = cli::simulate({.defects = {"1016-timeout-not-detected"}}, profile, suites().suite,
-                                 suites().catalogue, options, 1);
+  const auto run = cli::simulate({.defects = {"1016-timeout-not-detected"}}, profile, shipped::suites().suite,
+                                 shipped::suites().catalogue, options, 1);
   REQUIRE(run.has_value());
   for (const auto& each : run->result.cases) {
     for (const auto& judgement : each.judgements) {

@@ -10,18 +10,16 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "cli/selftest.hpp"
-#include "cli/suite_folder.hpp"
 #include "device/profile.hpp"
 #include "eds/read.hpp"
 #include "eds_text.hpp"
 #include "node.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
 using result::Verdict;
 
 namespace {
-
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
 
 using Verdicts = std::map<std::string, Verdict>;
 
@@ -76,14 +74,11 @@ std::shared_ptr<const eds::EdsFile> own_description() {
 }  // namespace
 
 TEST_CASE("The twin of the node's own description passes what the node passes") {
-  auto suites = cli::load_suites(suites_folder, false);
-  REQUIRE(suites.has_value());
-  auto loaded = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-  REQUIRE(loaded.has_value());
-  const auto profile = without_extras(loaded->profile);
+  const auto& suites = cli::shipped::suites();
+  const auto profile = without_extras(cli::shipped::reference());
   const auto run = [&](const cli::NodeSwitches& switches) {
     engine::RunOptions options;
-    auto done = cli::simulate(switches, profile, suites->suite, suites->catalogue, options, 1);
+    auto done = cli::simulate(switches, profile, suites.suite, suites.catalogue, options, 1);
     REQUIRE(done.has_value());
     return verdicts_of(done->result);
   };
