@@ -135,9 +135,11 @@ struct SelftestCommand {
   std::vector<std::string> defects;
   bool whole = false;
   bool blame = false;
-  bool edits = false;    ///< edits of every entry of the dictionary instead of the defects
-  unsigned jobs = 0;     ///< 0: the machine's cores
-  std::string markdown;  ///< file for docs/proof.md
+  std::size_t pairs = 0;   ///< with blame
+  std::string blame_page;  ///< file for docs/blame.md
+  bool edits = false;      ///< edits of every entry of the dictionary instead of the defects
+  unsigned jobs = 0;       ///< 0: the machine's cores
+  std::string markdown;    ///< file for docs/proof.md
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);
 

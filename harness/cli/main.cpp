@@ -272,6 +272,17 @@ int dispatch(int argc, char** argv) {
   selftest_sub->add_flag(
       "--blame", selftest.blame,
       "Also whom the whole suite blames for each defect: one cause and a rule that it violates?");
+  selftest_sub
+      ->add_option(
+          "--pairs", selftest.pairs,
+          "With --blame: also for NUMBER pairs of defects of different parts of the device: two causes?")
+      ->needs("--blame")
+      ->type_name("NUMBER");
+  selftest_sub
+      ->add_option("--blame-page", selftest.blame_page,
+                   "With --blame: write the share and the reasons of the others as Markdown")
+      ->needs("--blame")
+      ->type_name("FILE");
   selftest_sub->add_flag("--whole", selftest.whole,
                          "Run the whole suite for every defect, to see with -v what else it spoils");
   selftest_sub->add_flag(

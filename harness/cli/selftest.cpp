@@ -145,6 +145,14 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
     if (!*blame) return std::unexpected(blame->error());
     out.blames.push_back(std::move(**blame));
   }
+  const auto pairs = pairs_of(out.blames, options.pairs, options.seed);
+  std::vector<std::optional<Result<PairBlame>>> pair_blames(pairs.size());
+  in_parallel(pairs.size(), options.jobs,
+              [&](std::size_t i) { pair_blames[i].emplace(blame_of(pairs[i], bench)); });
+  for (auto& blame : pair_blames) {
+    if (!*blame) return std::unexpected(blame->error());
+    out.pairs.push_back(std::move(**blame));
+  }
   for (auto& verdict : verdicts) {
     if (!*verdict) return std::unexpected(verdict->error());
     proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());

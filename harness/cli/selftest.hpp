@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,17 +52,30 @@ struct DefectVerdict {
 /// defect violates.
 struct Blame {
   std::string defect;
-  std::vector<std::string> causes;  ///< primary requirement of each cause, failures first
-  std::vector<std::string> about;   ///< in the same order, a line for a reader
-  bool right = false;               ///< the first one's is a requirement that the defect violates
+  std::vector<std::string> violates;  ///< canonical ids
+  std::vector<std::string> causes;    ///< primary requirement of each cause, failures first
+  std::vector<std::string> about;     ///< in the same order, a line for a reader
+  std::set<std::string> parts;        ///< of the device, that the findings are about
+  std::set<std::string> broken;       ///< requirements that the run found broken
+  bool right = false;                 ///< the first one's is a requirement that the defect violates
 
   [[nodiscard]] bool single_and_right() const { return causes.size() == 1 && right; }
+};
+
+/// What the run against two defects shows, which alone show different parts of the device.
+struct PairBlame {
+  std::string first, second;
+  std::vector<std::string> about;  ///< the causes, a line each
+  /// A defect is hidden where no rule that it breaks is found broken but those that the other one alone shows
+  /// broken as well. It is swallowed where one is, and no cause of its own tells it.
+  bool hidden = false, swallowed = false;
 };
 
 struct KillMatrix {
   result::RunResult conformant;
   std::vector<DefectVerdict> defects;
   std::vector<Blame> blames;          ///< where asked for
+  std::vector<PairBlame> pairs;       ///< where asked for
   std::vector<std::string> unproven;  ///< requirements the suite judges and no defect proves, sorted
   std::vector<std::string> proven;
 
@@ -76,7 +90,8 @@ struct KillOptions {
   /// The whole suite for every defect, to see its bystanders; otherwise what judges a requirement it
   /// violates.
   bool whole = false;
-  bool blame = false;  ///< also the blame of each defect: whole runs, and minutes instead of seconds
+  bool blame = false;     ///< also the blame of each defect: whole runs, and minutes instead of seconds
+  std::size_t pairs = 0;  ///< and of so many pairs of them
   unsigned jobs =
       0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
 };

@@ -105,7 +105,7 @@ std::string foreign_answer(std::size_t decisive, const RunSession& session) {
 /// it.
 std::string deviation_of(const Step& step, const Actual& actual, RunSession& session) {
   using Outcome = steps::Outcome;
-  const auto expects_abort = std::ranges::any_of(step.expectation.pass, [](const Outcome& outcome) {
+  const auto refusal = std::ranges::find_if(step.expectation.pass, [](const Outcome& outcome) {
     return outcome.kind == Outcome::Kind::abort_code || outcome.kind == Outcome::Kind::abort_any ||
            outcome.kind == Outcome::Kind::abort_defined;
   });
@@ -122,7 +122,9 @@ std::string deviation_of(const Step& step, const Actual& actual, RunSession& ses
   const bool waits = step.action != nullptr && !step.action->acts();
   switch (actual.kind) {
     case Actual::Kind::confirmed: {
-      if (expects_abort) return "confirmed instead of refused";
+      // What it should have been refused for tells one fault from another.
+      if (refusal != step.expectation.pass.end())
+        return "confirmed instead of " + refusal->words(session, std::nullopt);
       const auto object = step.verb == "upload" ? object_of(step, session) : std::nullopt;
       if (!object || !session.before_last_write(*object)) return "";
       return session.write_was_refused() ? "a refused value is stored" : "not what was written";

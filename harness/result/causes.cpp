@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t many_parts = 3;
 /// What a device does with SDO frames; whatever else is seen, is seen through them.
 constexpr int deepest_of_sdo = 3;
+constexpr std::size_t few_objects = 2;
+constexpr std::uint16_t manufacturers_objects = 0x2000;
 /// Behind every rule: what was seen beside.
 constexpr int beside = 10;
 
@@ -61,15 +63,18 @@ class Grouping {
       }
     }
     explanations_.emplace(places_);
-    for (const auto& place : places_) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const auto& place = places_[i];
       const auto& finding = *place.finding;
       const auto* service = service_of_requirement(finding.requirement);
       if (service != nullptr) own_rule_broken_.insert(std::string(service->name));
-      if (is_counted(place)) parts_with_[finding.deviation].insert(place.part());
+      if (is_counted(place) && explanations_->steps(i) == 0)
+        parts_with_[finding.deviation].insert(place.part());
     }
     for (std::size_t i = 0; i < places_.size(); ++i) keys_.push_back(key_of(places_[explanations_->root(i)]));
     explain_by_lower_layers();
     join_kin();
+    join_general_rules();
     join_what_never_fails_alone();
   }
 
@@ -79,8 +84,9 @@ class Grouping {
     std::vector<Cause> out;
     for (const auto& [key, places] : members) {
       Cause cause;
-      cause.about = key;
-      put_first(primary_of(key, places), places, cause);
+      const auto primary = primary_of(key, places);
+      cause.about = key_of(places_[primary]);
+      put_first(primary, places, cause);
       complete(cause);
       out.push_back(std::move(cause));
     }
@@ -95,7 +101,10 @@ class Grouping {
  private:
   /// Whether its deviation says something about a cause that several parts may share.
   static bool is_counted(const Place& place) {
-    return !place.is_monitor() && place.finding->broken_rules.empty() && !place.finding->deviation.empty();
+    const auto& deviation = place.finding->deviation;
+    // That a heartbeat, an EMCY or a PDO did not come has as many reasons as there are services.
+    const bool says_little = deviation.starts_with("no ") && deviation != "no answer";
+    return !place.is_monitor() && place.finding->broken_rules.empty() && !deviation.empty() && !says_little;
   }
   [[nodiscard]] bool is_shared(const std::string& deviation) const {
     const auto found = parts_with_.find(deviation);
@@ -126,14 +135,36 @@ class Grouping {
     }
   }
 
+  /// Rules that say the same of several services, where they are broken in the same way as far as is known.
   void join_kin() {
     for (const auto rules : kin()) {
-      std::optional<std::string> first;
+      std::optional<std::size_t> first;
       for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (!is_in(rules, places_[i].finding->requirement)) continue;
-        if (first) joined_.join(keys_[i], *first);
-        first = keys_[i];
+        const auto& finding = *places_[i].finding;
+        if (!is_in(rules, finding.requirement)) continue;
+        if (first) {
+          const auto& other = places_[*first].finding->deviation;
+          if (finding.deviation != other && !finding.deviation.empty() && !other.empty()) continue;
+          joined_.join(keys_[i], keys_[*first]);
+        }
+        first = i;
       }
+    }
+  }
+
+  /// A rule about entries in general that many parts break is one fault, whatever each of them answers.
+  void join_general_rules() {
+    std::map<std::string, std::vector<std::size_t>> general;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const auto& requirement = places_[i].finding->requirement;
+      if (service_of_requirement(requirement) == nullptr && explanations_->steps(i) == 0)
+        general[requirement].push_back(i);
+    }
+    for (const auto& [requirement, members] : general) {
+      std::set<std::string> parts;
+      for (const auto i : members) parts.insert(places_[i].part());
+      if (parts.size() < many_parts) continue;
+      for (const auto i : members) joined_.join(keys_[i], keys_[members.front()]);
     }
   }
 
@@ -144,12 +175,19 @@ class Grouping {
       changed = false;
       std::map<std::string, std::set<std::string>> cases;
       std::map<std::string, std::set<std::uint16_t>> objects;
-      std::set<std::string> without_object;
+      std::set<std::string> without_object, has_own_rules;
       for (std::size_t i = 0; i < places_.size(); ++i) {
         const auto key = joined_.root(keys_[i]);
         const auto& place = places_[i];
         cases[key].insert(place.is_monitor() ? place.finding->during : place.owner->name());
-        if (place.finding->object) {
+        // Entries of the manufacturer lend themselves to tests of anything: they are common ground of SDO and
+        // dictionary only.
+        const auto object = place.finding->object;
+        const auto* service = service_of_requirement(place.finding->requirement);
+        if (service != nullptr && service->depth > deepest_of_sdo) has_own_rules.insert(key);
+        const bool lent = object && object->value() >= manufacturers_objects && service != nullptr &&
+                          service->depth > deepest_of_sdo;
+        if (object && !lent && is_seen_through_sdo(*place.finding)) {
           objects[key].insert(place.finding->object->value());
         } else {
           without_object.insert(key);
@@ -159,8 +197,10 @@ class Grouping {
         for (const auto& [other, where] : cases) {
           if (one == other) continue;
           const bool same_cases = std::ranges::includes(where, in);
+          // What fails about many objects says nothing about a part that breaks rules of its own.
+          const bool near = !has_own_rules.contains(one) || objects[other].size() <= few_objects;
           const bool same_objects =
-              !without_object.contains(one) && std::ranges::includes(objects[other], objects[one]);
+              !without_object.contains(one) && near && std::ranges::includes(objects[other], objects[one]);
           if (!same_cases && !same_objects) continue;
           joined_.join(one, other);
           changed = true;

@@ -25,18 +25,17 @@ const EvidenceFrame* decisive(const Finding& finding) {
   return found == finding.evidence.end() ? nullptr : &*found;
 }
 
-/// Whether the answer of the SDO server decided it.
-bool is_seen_through_sdo(const Finding& finding) {
-  if (finding.object) return true;
-  const auto* frame = decisive(finding);
-  return frame != nullptr && frame->frame.id > 0x580 && frame->frame.id < 0x600;
-}
-
 bool contains(const std::vector<std::string>& list, const std::string& one) {
   return std::ranges::find(list, one) != list.end();
 }
 
 }  // namespace
+
+bool is_seen_through_sdo(const Finding& finding) {
+  // Where no answer came, the request decided.
+  if (const auto* frame = decisive(finding)) return frame->frame.id > 0x580 && frame->frame.id < 0x680;
+  return finding.object.has_value();
+}
 
 std::string Place::part() const {
   if (const auto* service = service_of_requirement(finding->requirement)) return std::string(service->name);
@@ -88,17 +87,22 @@ std::vector<std::size_t> Explanations::chain(std::size_t place) const {
 void Explanations::note_single_objects() {
   for (const auto& [requirement, all] : broken_) {
     const auto* service = service_of_requirement(requirement);
-    if (!is_sdo(requirement) || service == nullptr || service->depth > deepest_of_sdo) continue;
+    if (service == nullptr) continue;
     std::set<std::optional<Index>> objects;
     for (const auto i : all) {
       if (!places_[i].is_monitor()) objects.insert(places_[i].finding->object);
     }
     if (objects.size() != 1 || !*objects.begin()) continue;
-    const auto own = own_rules_.find(**objects.begin());
+    const auto object = **objects.begin();
+    const auto own = own_rules_.find(object);
     if (own == own_rules_.end()) continue;
+    const auto& first = *std::ranges::min_element(own->second);
+    const bool of_transfers = is_sdo(requirement) && service->depth <= deepest_of_sdo;
+    // Other rules are tried with an entry that every device has: they cannot be where it is not there.
+    if (!of_transfers && (service == &service_of_object(object) || !first.ends_with("-01"))) continue;
     // The basic ones are tried with one object each; with an SDO server that breaks them, many objects fail.
     if (is_in(grounds_of_any_answer(), requirement) && own_rules_.size() > 2) continue;
-    single_[requirement] = *std::ranges::min_element(own->second);
+    single_[requirement] = first;
   }
 }
 
@@ -154,9 +158,11 @@ std::optional<std::string> Explanations::by_the_answer(const Place& place) const
   if (contains(finding.broken_rules, requirement)) return std::nullopt;
   const bool silent = finding.deviation == "no answer" || finding.deviation == "abort 0504 0000h";
   const auto aborts = finding.deviation.starts_with("abort") ? grounds_of_any_abort() : std::string_view();
-  for (const auto list : {any, silent ? silence : std::string_view(), aborts}) {
+  const auto stored =
+      finding.deviation == "not what was written" ? grounds_of_what_is_stored() : std::string_view();
+  for (const auto list : {any, silent ? silence : std::string_view(), aborts, stored}) {
     for (const auto ground : words(list)) {
-      if (ground == requirement) return std::nullopt;
+      if (ground == requirement) break;
       if (!single_.contains(ground) && explains(ground, place) && is_fault(ground))
         return std::string(ground);
     }
@@ -185,7 +191,9 @@ std::optional<std::string> Explanations::by_the_transfer(const Place& place) con
     if (other.is_monitor() || ground.deviation != finding.deviation || single_.contains(ground.requirement))
       continue;
     const bool same_object = ground.object && ground.object == finding.object;
-    if (ground.deviation.empty() && !same_object) continue;
+    const bool is_content = ground.deviation.empty() || ground.deviation == "not what was written" ||
+                            ground.deviation == "a refused value is stored";
+    if (is_content && !same_object) continue;
     if (is_in(read_back ? uploads : transfers, ground.requirement) && explains(ground.requirement, place))
       return ground.requirement;
   }

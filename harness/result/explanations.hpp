@@ -28,6 +28,9 @@ struct Place {
   bool formless = false;
 };
 
+/// Whether an answer of the SDO server, or that there was none, decided it.
+[[nodiscard]] bool is_seen_through_sdo(const Finding& finding);
+
 class Explanations {
  public:
   /// Marks the places that are formless.

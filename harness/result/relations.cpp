@@ -12,7 +12,10 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"SDO-UPL-01 SDO-UPL-02 SDO-UPL-03 SDO-UPL-04 SDO-UPL-06 SDO-UPL-12 SDO-UPL-13 SDO-SUP-16 "
      "SDO-MUL-01 SDO-MUL-04",
      "SDO-GEN-01 SDO-GEN-02 SDO-GEN-03 SDO-GEN-06 SDO-GEN-07"},
-    {"SDO-BUP-05 SDO-BUP-26 SDO-MUL-01 SDO-MUL-04 SDO-GEN-03 SDO-GEN-12", "SDO-GEN-04"},
+    {"SDO-BUP-05 SDO-BUP-26 SDO-MUL-01 SDO-MUL-04 SDO-GEN-03 SDO-GEN-12 SDO-GEN-20 SDO-BDN-01 "
+     "SDO-BUP-15",
+     "SDO-GEN-04"},
+    {"SDO-ERR-05", "SDO-SUP-02 SDO-BUP-04"},
     {"SDO-BDN-03 SDO-BDN-10", "SDO-ERR-04 SDO-ERR-05"},
     {"SDO-ERR-03 SDO-BDN-21", "SDO-SUP-11 SDO-SDN-17 SDO-BUP-29"},
     {"SDO-SUP-20 SDO-BUP-21 SDO-BDN-22", "SDO-GEN-17"},
@@ -24,7 +27,9 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"SDO-GEN-20", "OD-1018-03 SDO-GEN-19"},
     {"SDO-MUL-01 SDO-MUL-04 SDO-MUL-05 OD-1201-04 OD-1201-05",
      "SDO-GEN-01 SDO-UPL-01 SDO-UPL-06 OD-1000-01 OD-1018-03"},
-    {"SDO-MUL-04", "SDO-SUP-* SDO-SDN-* SDO-BUP-* SDO-BDN-* SDO-GEN-20"},
+    {"SDO-MUL-04", "SDO-SUP-01 SDO-SUP-02 SDO-SUP-04 SDO-SUP-16 SDO-SDN-01 SDO-SDN-03 SDO-SDN-13 SDO-BUP-01 "
+                   "SDO-BUP-05 SDO-BUP-06 SDO-BUP-08 SDO-BUP-13 SDO-BUP-24 SDO-BUP-26 SDO-BUP-29 SDO-BDN-01 "
+                   "SDO-BDN-05 SDO-BDN-06 SDO-BDN-18 SDO-GEN-20"},
     {"SDO-MUL-04 SDO-MUL-05 OD-1201-05", "SDO-MUL-01"},
     // Uploads.
     {"SDO-SUP-03 SDO-SUP-05 SDO-SUP-06 SDO-SUP-07 SDO-SUP-10 SDO-SUP-16 SDO-SUP-21 SDO-SUP-22 "
@@ -52,7 +57,9 @@ constexpr auto ground_table = std::to_array<Ground>({
      "SDO-BUP-01"},
     {"SDO-BUP-01 SDO-BUP-05", "OD-1000-01"},
     {"SDO-BUP-02", "SDO-BUP-26"},
-    {"SDO-BUP-06 SDO-BUP-07 SDO-BUP-08 SDO-BUP-13 SDO-BUP-14 SDO-BUP-26 SDO-BUP-16", "SDO-SUP-01"},
+    {"SDO-BUP-01 SDO-BUP-05 SDO-BUP-06 SDO-BUP-07 SDO-BUP-08 SDO-BUP-13 SDO-BUP-14 SDO-BUP-26 "
+     "SDO-BUP-16",
+     "SDO-SUP-01"},
     {"SDO-BUP-16 SDO-BUP-21", "SDO-BUP-24 SDO-BUP-01"},
     {"SDO-BUP-22", "SDO-BUP-04"},
     {"SDO-BUP-26 SDO-BUP-02", "SDO-BUP-05"},
@@ -83,9 +90,11 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"OD-TYP-13", "OD-TYP-12 OD-TYP-17"},
     {"OD-OBJ-07", "OD-OBJ-06"},
     {"OD-GEN-10", "OD-LEN-04"},
-    {"OD-GEN-06 OD-GEN-12 OD-GEN-18", "OD-GEN-04"},
+    {"OD-GEN-01 OD-GEN-02 OD-GEN-06 OD-GEN-12 OD-GEN-16 OD-GEN-18", "OD-GEN-04"},
+    {"OD-TYP-10 OD-TYP-22 OD-TYP-23", "OD-GEN-05"},
     {"OD-1008-02 OD-1009-02 OD-100A-02", "OD-ACC-08 OD-ACC-01"},
     {"OD-1003-14 OD-100D-03 SDO-SDN-09 SDO-BDN-15 SDO-SDN-27 SDO-SDN-10 OD-1011-17 OD-1010-20", "OD-LEN-02"},
+    {"OD-LEN-01 OD-LEN-02 SDO-DNL-12 OD-1017-09", "SDO-DNL-01 SDO-DNL-03"},
     {"SDO-SDN-08 SDO-BDN-14 SDO-SDN-14 SDO-DNL-19 OD-1011-17 OD-1010-20", "OD-LEN-01"},
     {"OD-1400-01 EDS-VSD-06 OD-DSC-03", "OD-1400-15 OD-1400-20 OD-1400-21"},
     {"OD-1800-01", "OD-1800-15 OD-1800-20"},
@@ -108,6 +117,7 @@ constexpr auto ground_table = std::to_array<Ground>({
      "PDO-TX-22 SDO-GEN-15",
      "NMT-FSA-03 NMT-FSA-04 NMT-FSA-02 NMT-FSA-01"},
     {"NMT-FSA-21", "PDO-TX-02 PDO-RX-02"},
+    {"NMT-FSA-26", "SDO-DNL-01 SDO-SDN-01"},
     {"OD-ERC-01 OD-100C-01 OD-100D-01 OD-CAT-03", "OD-1017-01"},
     {"OD-1029-10 EC-NG-*", "OD-100C-02 OD-100D-02"},
     {"OD-100C-02", "OD-100C-01"},
@@ -131,7 +141,7 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"OD-1010-* OD-1011-* OD-RST-04 OD-1020-05 STO-*", "OD-1017-03"},
     // PDO and SYNC.
     {"OD-1600-05 OD-1600-11 OD-1600-12 OD-1400-18 OD-1400-10 OD-1400-11", "OD-1400-09"},
-    {"OD-1400-09 OD-1400-11", "PDO-RX-01"},
+    {"OD-1400-09 OD-1400-11 PDO-MAP-15", "PDO-RX-01"},
     {"OD-1A00-05 OD-1A00-11 OD-1A00-12 OD-1800-18 OD-1800-10 OD-1800-11 OD-1800-21", "OD-1800-09"},
     {"OD-1800-09 OD-1800-11 OD-1800-14 PDO-TX-12 PDO-TX-19 PDO-TX-20", "PDO-TX-09"},
     {"SYNC-CON-01 SYNC-CON-03 SYNC-CON-04 SYNC-CON-09 PDO-TX-26 PDO-TX-27 PDO-TX-06", "PDO-TX-05"},
@@ -139,13 +149,16 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"OD-1800-09 OD-1800-11 PDO-TX-05 SYNC-CON-*", "OD-1005-01"},
     {"OD-1800-14 PDO-TX-19 PDO-TX-20 OD-1029-10", "SDO-GEN-10"},
     {"TIME-CON-01 TIME-CON-02 TIME-CON-03", "SDO-SUP-01 SDO-UPL-05 SDO-SUP-02"},
+    {"EC-EB-* OD-1029-10", "EC-HBC-08"},
+    {"OD-1201-04", "SDO-GEN-04"},
 });
 
 // One rule that CiA 301 gives for each kind of transfer, or for each service, and that one piece of firmware
 // usually serves.
 constexpr auto kin_table = std::to_array<std::string_view>({
     "SDO-SUP-10 SDO-SDN-19 SDO-BUP-17 SDO-BUP-18 SDO-BDN-19 SDO-BDN-20",
-    "SDO-SUP-08 SDO-SUP-09 SDO-SUP-20 SDO-SDN-16 SDO-SDN-26 SDO-BUP-21 SDO-BDN-22",
+    "SDO-SUP-08 SDO-SUP-09 SDO-SDN-16 SDO-SDN-26",
+    "SDO-SUP-20 SDO-BUP-21 SDO-BDN-22",
     "SDO-SUP-11 SDO-SUP-12 SDO-SDN-17 SDO-BUP-29",
     "SDO-SUP-13 SDO-SDN-20 SDO-BUP-20 SDO-BDN-21",
     "SDO-SUP-18 SDO-SDN-25 SDO-BUP-25 SDO-BDN-25",
@@ -154,7 +167,7 @@ constexpr auto kin_table = std::to_array<std::string_view>({
     "OD-LEN-02 SDO-DNL-12 SDO-SDN-06 SDO-BDN-12 OD-1017-09",
     "SDO-SDN-08 SDO-BDN-14",
     "SDO-SDN-09 SDO-SDN-27 SDO-BDN-15",
-    "OD-RNG-01 OD-RNG-02 SDO-SDN-23 SDO-BDN-24 OD-1201-07 OD-1280-06",
+    "OD-RNG-01 OD-RNG-02 OD-1029-06 SDO-SDN-23 SDO-BDN-24 OD-1201-07 OD-1280-06",
     "SDO-UPL-12 SDO-UPL-13 SDO-DNL-18 SDO-SUP-14 SDO-BUP-28",
     "SDO-GEN-04 SDO-ERR-10 SDO-SDN-24",
     "SDO-GEN-08 SDO-SUP-22",
@@ -166,12 +179,12 @@ constexpr auto kin_table = std::to_array<std::string_view>({
 });
 
 constexpr std::string_view any_answer =
-    "SDO-GEN-01 SDO-GEN-02 SDO-GEN-03 SDO-GEN-06 SDO-GEN-07 SDO-UPL-01 SDO-UPL-02 SDO-UPL-03 "
-    "SDO-UPL-04 SDO-UPL-06 SDO-DNL-01 SDO-DNL-02 SDO-DNL-03";
+    "SDO-GEN-01 SDO-GEN-07 SDO-UPL-01 SDO-UPL-02 SDO-UPL-03 SDO-UPL-04 SDO-UPL-06";
 constexpr std::string_view any_silence =
-    "SDO-GEN-13 SDO-GEN-14 SDO-GEN-17 SDO-GEN-19 SDO-SUP-17 SDO-SUP-01 SDO-SUP-16 SDO-SUP-11 "
-    "SDO-SUP-10";
+    "SDO-GEN-13 SDO-GEN-14 SDO-GEN-17 SDO-GEN-19 SDO-SUP-17 SDO-SUP-01 SDO-UPL-05 SDO-SUP-16 "
+    "SDO-SUP-11 SDO-SUP-10";
 constexpr std::string_view any_abort = "SDO-ERR-04 SDO-ERR-05 SDO-ERR-10";
+constexpr std::string_view stored = "SDO-DNL-01 SDO-DNL-02 SDO-DNL-03";
 
 // What the monitors see in the frame as such.
 constexpr std::string_view form =
@@ -184,6 +197,7 @@ std::span<const Ground> grounds() { return ground_table; }
 std::span<const std::string_view> kin() { return kin_table; }
 std::string_view grounds_of_any_answer() { return any_answer; }
 std::string_view grounds_of_any_silence() { return any_silence; }
+std::string_view grounds_of_what_is_stored() { return stored; }
 std::string_view grounds_of_any_abort() { return any_abort; }
 
 bool is_about_form(std::string_view requirement) { return is_in(form, requirement); }

@@ -25,6 +25,8 @@ struct Ground {
 [[nodiscard]] std::string_view grounds_of_any_answer();
 /// And where there was none.
 [[nodiscard]] std::string_view grounds_of_any_silence();
+/// And where another value came back than was written.
+[[nodiscard]] std::string_view grounds_of_what_is_stored();
 /// And where it was an abort.
 [[nodiscard]] std::string_view grounds_of_any_abort();
 

@@ -147,7 +147,7 @@ DefectTable access_rows() {
   return {
       {"ro-write-accepted",
        "Writing a read-only entry is confirmed without effect",
-       {"OD-ACC-01", "OD-1000-02", "OD-1001-02", "SDO-DNL-07", "EDS-VSD-04"},
+       {"OD-ACC-01", "OD-1000-02", "OD-1001-02", "SDO-DNL-07", "EDS-VSD-04", "OD-1200-04"},
        respond([](const SdoExchange& e) { return download(e) && read_only(e); }, 0x60, 0)},
       {"ro-write-wrong-abort",
        "Writing a read-only or const entry is aborted with 0609 0030h",
@@ -164,7 +164,7 @@ DefectTable access_rows() {
        access(0x2001, 2, Access::rw)},
       {"wo-read-wrong-abort",
        "Reading a write-only entry is aborted with 0601 0002h",
-       {"OD-ACC-03", "SDO-UPL-10", "SDO-BUP-23"},
+       {"OD-ACC-03", "SDO-UPL-10", "SDO-BUP-23", "OD-1024-01", "OD-1026-02"},
        wrong_abort(abort_code::write_only, abort_code::read_only)},
       {"rw-object-not-writable",
        "2007h is rw in the description, but refuses writing",

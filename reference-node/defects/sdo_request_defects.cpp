@@ -96,7 +96,7 @@ DefectTable expedited_rows() {
        })},
       {"expedited-length-ignored",
        "Expedited downloads are taken for four bytes, whatever length they tell",
-       {"SDO-DNL-01", "SDO-DNL-02", "SDO-DNL-04"},
+       {"SDO-DNL-01", "SDO-DNL-02", "SDO-DNL-04", "OD-ACC-04"},
        misread_request([](Request& request) {
          if (sized_download(request)) request[0] = 0x23;
        })},
@@ -120,7 +120,7 @@ DefectTable expedited_rows() {
        })},
       {"four-bytes-taken-for-two",
        "A download of four bytes is taken for one of two",
-       {"SDO-DNL-03", "SDO-DNL-12"},
+       {"SDO-DNL-03", "SDO-DNL-12", "OD-ACC-04"},
        misread_request([](Request& request) {
          if (request[0] == 0x23) request[0] = 0x2B;
        })},

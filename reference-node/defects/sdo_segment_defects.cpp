@@ -270,7 +270,7 @@ DefectTable upload_rows() {
            })},
       {"block-upload-differs-from-segmented",
        "A block upload gives other bytes than a segmented one",
-       {"SDO-SUP-23"},
+       {"SDO-SUP-23", "SDO-BUP-01"},
        patch([](const SdoExchange& e) { return e.step == SdoStep::block_upload_segment && !e.aborted; },
              [](const SdoExchange&, Data& data) { data[1] ^= 0x01U; })},
       {"empty-upload-without-end",

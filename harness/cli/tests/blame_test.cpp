@@ -7,8 +7,10 @@
 #include <set>
 #include <utility>
 
+#include "base/text.hpp"
 #include "catch.hpp"
 #include "cli/suite_folder.hpp"
+#include "defects/defect.hpp"
 #include "device/profile.hpp"
 #include "result/relations.hpp"
 
@@ -39,7 +41,45 @@ std::vector<std::string> unknown(std::string_view list) {
   return out;
 }
 
+const cli::KillMatrix& sample() {
+  static const auto computed = [] {
+    const auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
+    REQUIRE(profile.has_value());
+    // Every 17th: from each table, and quick enough for CTest.
+    constexpr std::size_t stride = 17;
+    cli::KillOptions options;
+    options.blame = true;
+    options.pairs = 40;
+    const auto all = refnode::defects();
+    for (std::size_t i = 3; i < all.size(); i += stride) options.only.emplace_back(all[i].id);
+    auto out = cli::kill_matrix(profile->profile, suites().suite, suites().catalogue, options);
+    REQUIRE(out.has_value());
+    return std::move(*out);
+  }();
+  return computed;
+}
+
 }  // namespace
+
+TEST_CASE("one fault is one cause, told by a rule that it breaks") {
+  for (const auto& blame : sample().blames) {
+    INFO(blame.defect << ": " << join(blame.about, "; "));
+    CHECK((blame.single_and_right() || cli::reason_of_blame(blame.defect)));
+  }
+}
+
+TEST_CASE("two faults of different parts are two causes, but where one takes the other's ground") {
+  const auto& pairs = sample().pairs;
+  REQUIRE(pairs.size() >= 30);
+  // An SDO server that answers with another object leaves nothing to say about entries.
+  std::string swallowed;
+  for (const auto& pair : pairs) {
+    if (pair.swallowed)
+      swallowed += pair.first + " and " + pair.second + ": " + join(pair.about, "; ") + "\n";
+  }
+  INFO(swallowed);
+  CHECK(10 * std::ranges::count_if(pairs, &cli::PairBlame::swallowed) <= std::ssize(pairs));
+}
 
 TEST_CASE("what rests on what is told of requirements that the catalogue has") {
   for (const auto& relation : result::grounds()) {
