@@ -68,9 +68,6 @@ constexpr auto reasons = std::to_array<Reason>({
     {"block-upload-returns-old-data",
      "the old transfer's end frame carries a CRC that was not asked for, which the monitor "
      "sees"},
-    {"additional-sdo-survives-reset",
-     "a run of the whole suite stores parameters before, and from then on what was stored hides this fault of the "
-     "node; its own scenario finds it"},
     {"missing-object-returns-zero",
      "absent objects with values are a cause for the absent ones, and one for the sub-indices "
      "below them"},

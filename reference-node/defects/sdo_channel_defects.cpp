@@ -32,6 +32,8 @@ DictionaryEdit kept_at_reset(std::uint16_t index) {
     for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
       Entry* entry = od.entry(index, sub);
       if (entry == nullptr) continue;
+      // What was stored once does not bring the former value back either.
+      entry->storable = false;
       entry->written = [entry, before = entry->written] {
         entry->default_value = entry->value;
         if (before) before();
