@@ -74,8 +74,6 @@ constexpr auto reasons = std::to_array<Reason>({
     {"ro-writable-by-segmented-download",
      "the strings of the device have rules of their own beside those of the manufacturer's "
      "entries"},
-    {"1000-absent", "block download of an absent 1000h is refused rightly, for another reason than the "
-                    "scenario expects"},
     {"heartbeat-stops-in-stopped",
      "Stopped is seen through the heartbeat: where none comes, the command is blamed"},
 });

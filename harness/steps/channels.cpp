@@ -8,6 +8,7 @@ namespace conform::steps {
 namespace {
 
 constexpr auto table = std::to_array<Channel>({
+    {channel::device_type, "1000h is there, which every device has: what scenarios read to see SDO at work"},
     {channel::segmented_upload, "values of more than four bytes can be read"},
     {channel::segmented_download, "values of more than four bytes can be written"},
     {channel::block_upload, "block uploads run through"},

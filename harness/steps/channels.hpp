@@ -16,6 +16,7 @@ struct Channel {
 };
 
 namespace channel {
+inline constexpr std::string_view device_type = "device type";
 inline constexpr std::string_view boot_up = "boot-up";
 inline constexpr std::string_view heartbeat = "heartbeat";
 inline constexpr std::string_view nmt_commands = "NMT commands";

@@ -39,6 +39,20 @@ class Talk final : public Action {
                                     " lines: " + lines_.front().text + " ...";
   }
   const ObjectReference* object() const override { return object_ ? &*object_ : nullptr; }
+  Channels rests_on() const override {
+    const auto asks_for_the_device_type = [](const Line& line) {
+      constexpr std::uint8_t multiplexer[] = {0x00, 0x10, 0x00};
+      if (line.kind != Line::Kind::send || line.bytes.size() < 4) return false;
+      for (std::size_t i = 0; i < std::size(multiplexer); ++i) {
+        const auto& byte = line.bytes[i + 1];
+        if (byte.kind != BytePattern::Kind::exact || byte.mask != 0xFF || byte.value != multiplexer[i])
+          return false;
+      }
+      return true;
+    };
+    if (std::ranges::any_of(lines_, asks_for_the_device_type)) return {channel::device_type};
+    return {};
+  }
   bool acts() const override {
     return std::ranges::any_of(lines_, [](const Line& line) { return line.kind == Line::Kind::send; });
   }

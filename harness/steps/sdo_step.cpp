@@ -432,10 +432,14 @@ Result<SdoJob> SdoStep::job(Session& session) const {
 }
 
 Channels SdoStep::rests_on() const {
-  if (transfer_of(transfer_).block) return {upload_ ? channel::block_upload : channel::block_download};
-  if (!upload_ && (transfer_.starts_with("segmented") || !pattern_.empty()))
-    return {channel::segmented_download};
-  return {};
+  Channels out;
+  if (object_.text() == "1000h:00") out.push_back(channel::device_type);
+  if (transfer_of(transfer_).block) {
+    out.push_back(upload_ ? channel::block_upload : channel::block_download);
+  } else if (!upload_ && (transfer_.starts_with("segmented") || !pattern_.empty())) {
+    out.push_back(channel::segmented_download);
+  }
+  return out;
 }
 
 Measures SdoStep::measures() const {
