@@ -59,7 +59,10 @@ std::optional<Index> pdo_of(Index index) {
 
 /// A PDO is put back as a whole: destroyed, its mapping and parameters written, its COB-ID last
 /// (7.5.2.36, 7.5.2.38).
-Result<void> restore_pdo(Restorer& device, Index communication, const std::vector<Change>& changes) {
+/// What is changed on the way only is announced like any other change: a run that is killed in the middle
+/// must not leave the PDO off.
+Result<void> restore_pdo(Restorer& device, Observer& observer, Index communication,
+                         const std::vector<Change>& changes) {
   const Multiplexer cob_id{communication, SubIndex(1)};
   const auto kind = canopen::cob_id_kind(cob_id);
   auto now = device.read(cob_id);
@@ -69,6 +72,7 @@ Result<void> restore_pdo(Restorer& device, Index communication, const std::vecto
   for (const auto& change : changes) {
     if (change.object == cob_id && change.before.size() == 4) wanted = change.before;
   }
+  observer.changing(cob_id, wanted);
   const CobId off = canopen::deactivated(*kind, CobId(static_cast<std::uint32_t>(load_le(**now))));
   if (auto done = device.write(cob_id, to_le(off.value(), 4)); !done) return std::unexpected(done.error());
   const Index mapping(static_cast<std::uint16_t>(communication.value() + 0x200));
@@ -80,6 +84,8 @@ Result<void> restore_pdo(Restorer& device, Index communication, const std::vecto
     auto count_now = device.read(count);
     if (!count_now) return std::unexpected(count_now.error());
     count_before = *count_now;
+    const auto known = std::ranges::find(changes, count, &Change::object);
+    if (count_before) observer.changing(count, known == changes.end() ? *count_before : known->before);
     if (auto done = device.write(count, {0}); !done) return std::unexpected(done.error());
   }
   for (const auto& change : changes) {
@@ -94,7 +100,16 @@ Result<void> restore_pdo(Restorer& device, Index communication, const std::vecto
   }
   auto done = device.write_cob_id(cob_id, *kind, to_le(off.value(), 4), wanted);
   if (!done) return std::unexpected(done.error());
-  return {};
+  const auto settle = [&](Multiplexer object, const Bytes& value) -> Result<void> {
+    // The others are looked at when everything is back.
+    if (std::ranges::find(changes, object, &Change::object) != changes.end()) return {};
+    const auto is = device.read(object);
+    if (!is) return std::unexpected(is.error());
+    if (*is == value) observer.put_back(object, value);
+    return {};
+  };
+  if (auto settled = settle(cob_id, wanted); !settled) return settled;
+  return mapping_changed && count_before ? settle(count, *count_before) : Result<void>();
 }
 
 }  // namespace
@@ -147,7 +162,7 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
     if (!done) return std::unexpected(done.error());
   }
   for (const auto& [communication, list] : pdos) {
-    auto done = restore_pdo(device, communication, list);
+    auto done = restore_pdo(device, observer, communication, list);
     if (!done) return std::unexpected(done.error());
   }
   for (const auto& change : differing) {

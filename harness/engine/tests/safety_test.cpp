@@ -2,6 +2,7 @@
 // What must hold whatever happens: values are put back, faults of the world are no verdicts, nothing is sent
 // unasked.
 #include <csignal>
+#include <map>
 
 #include "bench.hpp"
 
@@ -84,6 +85,57 @@ TEST_CASE("a COB-ID is put back by switching it off, changing it and switching i
   CHECK(device.writes == std::vector<std::string>{"1014h = 81 00 00 80", "1014h = A0 06 00 80",
                                                   "1014h = A0 06 00 00", "1014h = A0 06 00 80",
                                                   "1014h = 81 00 00 80", "1014h = 81 00 00 00"});
+}
+
+TEST_CASE("what is changed only while values are put back is told before and settled after") {
+  /// What a killed run would leave to be put back.
+  class Ledger final : public Observer {
+   public:
+    void changing(Multiplexer object, const Bytes& before) override { open_.try_emplace(object, before); }
+    void put_back(Multiplexer object, const Bytes& value) override {
+      const auto found = open_.find(object);
+      if (found != open_.end() && found->second == value) open_.erase(found);
+    }
+    [[nodiscard]] bool is_open(Multiplexer object) const { return open_.contains(object); }
+    [[nodiscard]] bool is_empty() const { return open_.empty(); }
+
+   private:
+    std::map<Multiplexer, Bytes> open_;
+  };
+  const Multiplexer cob_id{Index(0x1400), SubIndex(1)}, count{Index(0x1600), SubIndex(0)};
+  ScriptedDevice device;
+  device.entries[0x140001] = {1, 2, 0, 0};
+  device.entries[0x160000] = {1};
+  device.entries[0x160001] = {8, 1, 0, 0x62};
+  Ledger ledger;
+  bool untold = false;
+  device.before = [&](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    if ((frame.data[0] & 0xE0U) != 0x20) return false;
+    const Multiplexer object = canopen::sdo_multiplexer(frame.bytes());
+    if ((object == cob_id || object == count) && !ledger.is_open(object)) untold = true;
+    return false;
+  };
+  RunOptions options;
+  options.observer = &ledger;
+  // The PDO is on again at the end, and its mapping is another one: to put that back it has to be off.
+  const auto out = play(device, R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1400h:01, bytes: "01 02 00 80"}
+      - download: {object: 1600h:01, bytes: "08 02 00 62"}
+      - download: {object: 1400h:01, bytes: "01 02 00 00"}
+        checks: T-MUST
+)",
+                        options);
+  CAPTURE(device.writes, out.run.cases[0].reason);
+  CHECK(device.writes.size() > 6);
+  CHECK_FALSE(untold);
+  CHECK(ledger.is_empty());
+  CHECK(device.entries.at(0x140001) == Bytes{1, 2, 0, 0});
+  CHECK(device.entries.at(0x160000) == Bytes{1});
+  CHECK(device.entries.at(0x160001) == Bytes{8, 1, 0, 0x62});
 }
 
 TEST_CASE("a download hidden in a conversation is put back as well") {
