@@ -225,12 +225,18 @@ class Grouping {
       if (finding.object) objects.insert(finding.object->value());
       unreadable.insert(finding.broken_rules.begin(), finding.broken_rules.end());
     }
-    const bool shared = is_shared(key);
+    const bool shared = is_shared(key) || std::ranges::any_of(members, [this](std::size_t i) {
+                          return is_counted(places_[i]) && is_shared(places_[i].finding->deviation);
+                        });
     const auto depth = [&](const Place& place) {
       const auto& finding = *place.finding;
       if (place.is_monitor() && !unreadable.contains(finding.requirement)) return beside;
       const auto* service = service_of_requirement(finding.requirement);
-      if (service == nullptr && shared) return 2;
+      constexpr int general = 2;
+      if (service == nullptr && shared) return general;
+      // An object of a deep service is an object among others.
+      if (shared && finding.requirement.starts_with("OD-"))
+        return std::max(depth_of_requirement(finding.requirement), general + 1);
       if (is_in(sdo_server, finding.requirement)) return depth_of_sdo_server;
       const bool own = objects.size() == 1 && service != nullptr && finding.object &&
                        service == &service_of_object(*finding.object);
