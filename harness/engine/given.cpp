@@ -118,14 +118,11 @@ Result<bool> Givens::stores(Multiplexer object, std::uint64_t size) {
     known.why = std::move(why);
     return false;
   };
-  const auto words = [](const steps::SdoAnswer& answer) {
-    return answer.kind == Kind::aborted ? "abort " + canopen::describe(answer.code) : answer.detail;
-  };
   if (written->kind != Kind::confirmed)
-    return refuse("takes no " + std::to_string(size) + " bytes: " + words(*written));
+    return refuse("takes no " + std::to_string(size) + " bytes: " + written->refusal());
   auto back = session_.peek(object);
   if (!back) return std::unexpected(back.error());
-  if (back->kind != Kind::confirmed) return refuse("cannot be read back: " + words(*back));
+  if (back->kind != Kind::confirmed) return refuse("cannot be read back: " + back->refusal());
   if (back->data != pattern) {
     known.window = back->data.size() > size && std::ranges::equal(ByteView(back->data).first(size), pattern);
     return refuse("takes " + std::to_string(size) + " bytes and reads back " +

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/pdo.hpp"
 
 namespace conform::engine {
 namespace {
@@ -13,15 +13,15 @@ namespace {
 using Kind = steps::SdoAnswer::Kind;
 using Why = std::optional<std::string>;
 
-constexpr std::uint16_t offset = 0x200;  // from 1400h to 1600h, from 1800h to 1A00h
 constexpr std::uint8_t most_entries = 64;
 
 class Probe {
  public:
-  Probe(steps::Session& session, Index mapping) : session_(session), mapping_(mapping) {}
+  Probe(steps::Session& session, Index communication)
+      : session_(session), communication_(communication), mapping_(canopen::pdo_mapping(communication)) {}
 
   Result<Why> run() {
-    const Multiplexer cob_id{Index(static_cast<std::uint16_t>(mapping_.value() - offset)), SubIndex(1)};
+    const Multiplexer cob_id{communication_, SubIndex(1)};
     const auto number = Multiplexer{mapping_, SubIndex(0)};
     const auto before = read(cob_id, 4), count = read(number, 1);
     std::vector<Bytes> entries;
@@ -76,28 +76,21 @@ class Probe {
     } else if (answer->kind == Kind::confirmed) {
       return true;
     } else if (!why_) {
-      const bool aborted = answer->kind == Kind::aborted;
-      why_ = to_string(object) + " could not be " + std::string(done) + ": " +
-             (aborted ? "abort " + canopen::describe(answer->code) : answer->detail);
+      why_ = to_string(object) + " could not be " + std::string(done) + ": " + answer->refusal();
     }
     return false;
   }
 
   steps::Session& session_;
-  Index mapping_;
+  Index communication_, mapping_;
   Why why_;
   std::optional<Error> broken_;
 };
 
 }  // namespace
 
-Index mapping_of(Index index) {
-  const bool communication = (index.value() & 0x0200U) == 0;
-  return communication ? Index(static_cast<std::uint16_t>(index.value() + offset)) : index;
-}
-
-Result<std::optional<std::string>> why_mapping_is_fixed(steps::Session& session, Index mapping) {
-  return Probe(session, mapping).run();
+Result<std::optional<std::string>> why_mapping_is_fixed(steps::Session& session, Index communication) {
+  return Probe(session, communication).run();
 }
 
 }  // namespace conform::engine

@@ -11,12 +11,10 @@
 
 namespace conform::engine {
 
-/// Index of the mapping parameter, of the parameters of a PDO or of the mapping itself.
-[[nodiscard]] Index mapping_of(Index index);
-
-/// Writes the mapping that the PDO has once more, by the procedure of 7.5.2.36: PDO off, number of entries 0,
+/// Writes the mapping that a PDO has once more, by the procedure of 7.5.2.36: PDO off, number of entries 0,
 /// entries, number, PDO on. nullopt: every write was confirmed. Otherwise why the mapping cannot be changed,
 /// or why it could not be tried. Error: no answer, or the environment failed.
-[[nodiscard]] Result<std::optional<std::string>> why_mapping_is_fixed(steps::Session& session, Index mapping);
+[[nodiscard]] Result<std::optional<std::string>> why_mapping_is_fixed(steps::Session& session,
+                                                                      Index communication);
 
 }  // namespace conform::engine

@@ -2,7 +2,6 @@
 #include "engine/recover.hpp"
 
 #include "base/text.hpp"
-#include "canopen/abort_code.hpp"
 #include "canopen/nmt.hpp"
 #include "engine/liveness.hpp"
 
@@ -21,9 +20,7 @@ Result<void> store(RunSession& session, Multiplexer object, Recovery& out) {
   if (answer->kind == Kind::confirmed) {
     out.stored.push_back(object);
   } else {
-    const bool aborted = answer->kind == Kind::aborted;
-    out.not_stored.push_back(to_string(object) + ": " +
-                             (aborted ? "abort " + canopen::describe(answer->code) : answer->detail));
+    out.not_stored.push_back(to_string(object) + ": " + answer->refusal());
   }
   return {};
 }

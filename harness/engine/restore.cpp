@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/pdo.hpp"
 
 namespace conform::engine {
 namespace {
@@ -47,16 +48,6 @@ class Restorer {
   RunSession& session_;
 };
 
-/// Index of the PDO communication parameter an entry belongs to; nullopt for all other entries.
-std::optional<Index> pdo_of(Index index) {
-  const auto value = index.value();
-  if ((value >= 0x1400 && value <= 0x15FF) || (value >= 0x1800 && value <= 0x19FF)) return index;
-  if ((value >= 0x1600 && value <= 0x17FF) || (value >= 0x1A00 && value <= 0x1BFF)) {
-    return Index(static_cast<std::uint16_t>(value - 0x200));
-  }
-  return std::nullopt;
-}
-
 /// A PDO is put back as a whole: destroyed, its mapping and parameters written, its COB-ID last
 /// (7.5.2.36, 7.5.2.38).
 /// What is changed on the way only is announced like any other change: a run that is killed in the middle
@@ -75,7 +66,7 @@ Result<void> restore_pdo(Restorer& device, Observer& observer, Index communicati
   observer.changing(cob_id, wanted);
   const CobId off = canopen::deactivated(*kind, CobId(static_cast<std::uint32_t>(load_le(**now))));
   if (auto done = device.write(cob_id, to_le(off.value(), 4)); !done) return std::unexpected(done.error());
-  const Index mapping(static_cast<std::uint16_t>(communication.value() + 0x200));
+  const Index mapping = canopen::pdo_mapping(communication);
   const Multiplexer count{mapping, SubIndex(0)};
   const bool mapping_changed = std::ranges::any_of(
       changes, [mapping](const Change& change) { return change.object.index == mapping; });
@@ -133,7 +124,7 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
   std::map<Index, std::vector<Change>> pdos;
   std::vector<const Change*> consumers;
   for (const auto& change : differing) {
-    if (const auto pdo = pdo_of(change.object.index)) {
+    if (const auto pdo = canopen::pdo_communication(change.object.index)) {
       pdos[*pdo].push_back(change);
       continue;
     }

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/pdo.hpp"
 #include "canopen/sdo_initiate.hpp"
 #include "engine/mapping_probe.hpp"
 
@@ -89,10 +90,7 @@ Result<steps::Value> RunSession::read(Multiplexer object) {
   auto answer = peek(object);
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind == steps::SdoAnswer::Kind::confirmed) return steps::Value::of_bytes(answer->data);
-  const auto why = answer->kind == steps::SdoAnswer::Kind::aborted
-                       ? "abort " + canopen::describe(answer->code)
-                       : answer->detail;
-  return fail("the value of " + to_string(object) + " cannot be read: " + why, "scenario");
+  return fail("the value of " + to_string(object) + " cannot be read: " + answer->refusal(), "scenario");
 }
 
 Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared what) {
@@ -162,7 +160,10 @@ std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
   };
   switch (asked) {
     case Asked::presence: return noted(asked, object);
-    case Asked::mapping: return noted(asked, {mapping_of(object.index), SubIndex(0)});
+    case Asked::mapping: {
+      const auto pdo = canopen::pdo_communication(object.index);
+      return pdo ? noted(asked, {*pdo, SubIndex(0)}) : std::string();
+    }
     case Asked::reading: return absent() ? noted(Asked::presence, object) : access();
     case Asked::writing: {
       if (profile_.is_untouchable(object)) return "untouchable in the profile";
@@ -216,10 +217,8 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
   // An entry that cannot be read, or is answered against the protocol, was not tried.
   const auto not_tried = [object](std::string_view done, const steps::SdoAnswer& came) {
-    const bool aborted = came.kind == steps::SdoAnswer::Kind::aborted;
     return fail("whether " + to_string(object) + " is writable cannot be tried: its value was not " +
-                    std::string(done) + ": " +
-                    (aborted ? "abort " + canopen::describe(came.code) : came.detail),
+                    std::string(done) + ": " + came.refusal(),
                 "scenario");
   };
   if (value->kind != steps::SdoAnswer::Kind::confirmed) return not_tried("read", *value);
@@ -260,26 +259,28 @@ Result<bool> RunSession::offers_block_transfer(bool upload) {
 Result<bool> RunSession::has_variable_mapping(Multiplexer object) {
   constexpr std::string_view feature = "variable mapping";
   if (profile_.claimed(feature)) return true;
-  const auto mapping = mapping_of(object.index);
-  auto& why = grounds_[{steps::Asked::mapping, {mapping, SubIndex(0)}}];
+  const auto pdo = canopen::pdo_communication(object.index);
+  if (!pdo) return fail(to_string(object) + " is not a PDO", "scenario");
+  const Multiplexer count{canopen::pdo_mapping(*pdo), SubIndex(0)};
+  auto& why = grounds_[{steps::Asked::mapping, {*pdo, SubIndex(0)}}];
   if (profile_.not_claimed.contains(feature)) {
     why = "the profile says so";
     return false;
   }
-  const auto known = variable_mappings_.find(mapping);
+  const auto known = variable_mappings_.find(*pdo);
   if (known != variable_mappings_.end()) return known->second;
-  auto writable = is_writable({mapping, SubIndex(0)});
+  auto writable = is_writable(count);
   if (!writable) return writable;
   if (!*writable) {
-    why = grounds(steps::Asked::writing, {mapping, SubIndex(0)});
+    why = grounds(steps::Asked::writing, count);
     return false;
   }
   if (auto allowed = guard_.needs({steps::Tier::config, "try whether a PDO can be mapped anew"}); !allowed)
     return std::unexpected(allowed.error());
-  auto fixed = why_mapping_is_fixed(*this, mapping);
+  auto fixed = why_mapping_is_fixed(*this, *pdo);
   if (!fixed) return std::unexpected(fixed.error());
   why = fixed->value_or("");
-  return variable_mappings_[mapping] = !fixed->has_value();
+  return variable_mappings_[*pdo] = !fixed->has_value();
 }
 
 /// An entry that may be written: an access error of another one could not be told from "no block transfer".

@@ -6,12 +6,12 @@
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/pdo.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
 namespace {
 
-constexpr std::uint16_t mapping_offset = 0x200;
 constexpr std::uint64_t most_entries = 0x40;
 
 Actual from_answer(const SdoAnswer& answer) {
@@ -58,17 +58,9 @@ bool is_absent(const Actual& actual) {
 Result<Index> communication_of(const ObjectReference& pdo, Session& session) {
   const auto object = pdo.resolve(session);
   if (!object) return std::unexpected(object.error());
-  const auto index = object->index.value();
-  if ((index >= 0x1400 && index <= 0x15FF) || (index >= 0x1800 && index <= 0x19FF)) return object->index;
-  if ((index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF)) {
-    return Index(static_cast<std::uint16_t>(index - mapping_offset));
-  }
+  if (const auto index = canopen::pdo_communication(object->index)) return *index;
   return fail(to_string(*object) + " is not a PDO", "scenario",
               "1400h-15FFh, 1800h-19FFh or the mapping of one");
-}
-
-Index mapping_of(Index communication) {
-  return Index(static_cast<std::uint16_t>(communication.value() + mapping_offset));
 }
 
 std::string pdo_words(const ObjectReference& pdo, Session& session) {
@@ -187,7 +179,7 @@ class SetPdo final : public Action {
       if (!confirmed(actual)) return actual;
     }
     if (maps_) {
-      actual = write_mapping(session, mapping_of(*index));
+      actual = write_mapping(session, canopen::pdo_mapping(*index));
       if (!confirmed(actual)) return actual;
     }
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -345,7 +337,7 @@ class PdoMapping final : public Action {
     const auto index = communication_of(pdo_, session);
     if (!index) return std::unexpected(index.error());
     Mapping mapping;
-    auto actual = read_mapping(session, mapping_of(*index), mapping, data_);
+    auto actual = read_mapping(session, canopen::pdo_mapping(*index), mapping, data_);
     if (!confirmed(actual)) return actual;
     actual->kind = Actual::Kind::matched;
     if (data_) {

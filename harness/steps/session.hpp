@@ -14,6 +14,7 @@
 #include "base/time.hpp"
 #include "can/capture.hpp"
 #include "can/frame.hpp"
+#include "canopen/abort_code.hpp"
 #include "canopen/nmt.hpp"
 #include "canopen/sdo_request.hpp"
 #include "device/dictionary.hpp"
@@ -35,6 +36,11 @@ struct SdoAnswer {
   std::size_t decisive = 0;                  ///< capture index of the frame that ended it
   std::optional<std::uint32_t> announced{};  ///< uploads: size that the server told
   canopen::TransferCounts counts{};
+
+  /// Why it was not confirmed: "abort 0601 0002h (write of a read-only object)", "no answer within 1 s".
+  [[nodiscard]] std::string refusal() const {
+    return kind == Kind::aborted ? "abort " + canopen::describe(code) : detail;
+  }
 };
 
 /// CAN-IDs of an SDO channel, as the client uses them.

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which objects belong to a PDO: its communication parameter (1400h-15FFh, 1800h-19FFh) and its mapping
+// parameter 200h behind (7.5.2.35 to 7.5.2.38).
+#pragma once
+
+#include <optional>
+
+#include "base/strong.hpp"
+
+namespace conform::canopen {
+
+inline constexpr std::uint16_t pdo_mapping_offset = 0x200;
+
+/// The communication parameter of the PDO that either object belongs to; nullopt: it belongs to none.
+[[nodiscard]] constexpr std::optional<Index> pdo_communication(Index index) {
+  const auto value = index.value();
+  if ((value >= 0x1400 && value <= 0x15FF) || (value >= 0x1800 && value <= 0x19FF)) return index;
+  if ((value >= 0x1600 && value <= 0x17FF) || (value >= 0x1A00 && value <= 0x1BFF))
+    return Index(static_cast<std::uint16_t>(value - pdo_mapping_offset));
+  return std::nullopt;
+}
+
+/// The mapping parameter beside a communication parameter.
+[[nodiscard]] constexpr Index pdo_mapping(Index communication) {
+  return Index(static_cast<std::uint16_t>(communication.value() + pdo_mapping_offset));
+}
+
+}  // namespace conform::canopen
