@@ -6,6 +6,7 @@
 
 #include "base/check.hpp"
 #include "base/text.hpp"
+#include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
 #include "canopen/sdo_initiate.hpp"
@@ -58,15 +59,19 @@ std::optional<canopen::DataType> type_of(const Step& step, RunSession& session) 
   return entry == nullptr ? std::nullopt : std::optional(entry->type);
 }
 
-/// An answer that did not come, or that says that ours came too late.
-bool is_late(const Actual& actual, const can::Capture& capture) {
-  constexpr AbortCode timed_out(0x0504'0000);
-  if (actual.kind == Actual::Kind::silence || actual.code == timed_out) return true;
-  if (!actual.decisive) return false;
-  const auto& frame = capture.frames()[*actual.decisive].frame;
-  if (frame.size() != 8 || frame.data[0] != 0x80) return false;
+/// The abort by which the server decided; nullopt: it was another frame, or none.
+std::optional<AbortCode> deciding_abort(const Actual& actual, const RunSession& session) {
+  if (!actual.decisive) return std::nullopt;
+  const auto& frame = session.capture().frames()[*actual.decisive].frame;
+  if (!frame.is_data(canopen::connection_set(session.node()).sdo_response)) return std::nullopt;
   const auto abort = canopen::decode_abort(frame.bytes());
-  return abort && abort->code == timed_out;
+  return abort ? std::optional(abort->code) : std::nullopt;
+}
+
+/// An answer that did not come, or that says that ours came too late.
+bool is_late(const Actual& actual, const RunSession& session) {
+  return actual.kind == Actual::Kind::silence || actual.code == canopen::abort::timed_out ||
+         deciding_abort(actual, session) == canopen::abort::timed_out;
 }
 
 /// What the answer to an initiate request, or an abort, says it is about.
@@ -112,11 +117,7 @@ std::string deviation_of(const Step& step, const Actual& actual, RunSession& ses
   // A conversation meets aborts as frames.
   const bool frames = actual.kind == Actual::Kind::mismatched || actual.kind == Actual::Kind::matched;
   if (frames && actual.decisive) {
-    const auto& frame = session.capture().frames()[*actual.decisive].frame;
-    const auto abort = frame.is_data(canopen::connection_set(session.node()).sdo_response)
-                           ? canopen::decode_abort(frame.bytes())
-                           : std::nullopt;
-    if (abort) return "abort " + to_string(abort->code);
+    if (const auto abort = deciding_abort(actual, session)) return "abort " + to_string(*abort);
     if (actual.kind == Actual::Kind::mismatched) return foreign_answer(*actual.decisive, session);
   }
   const bool waits = step.action != nullptr && !step.action->acts();
@@ -257,7 +258,7 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   auto actual = step.action->run(session_);
   session_.end_step();
   if (!actual) return cannot_go_on(step, actual.error());
-  timed_ = timed_ || step.action->rests_on_time() || is_late(*actual, session_.capture());
+  timed_ = timed_ || step.action->rests_on_time() || is_late(*actual, session_);
   if (!step.label.empty()) session_.label(step, *actual);
   if (!step.branches.empty()) return run_branches(step, *actual);
   return judge(step, *actual);

@@ -30,12 +30,11 @@ std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::B
 
 void distrust(result::CaseResult& result, const HostTrouble& trouble) {
   if (result.verdict == Verdict::not_applicable) return;
-  const bool keeps_good = trouble.late_only;
   auto verdict = Verdict::not_applicable;
   for (auto& judgement : result.judgements) {
     const bool good = judgement.verdict == Verdict::pass || judgement.verdict == Verdict::not_applicable;
-    if (!good || !keeps_good) {
-      judgement.verdict = keeps_good ? Verdict::not_applicable : Verdict::inconclusive;
+    if (!good || !trouble.late_only) {
+      judgement.verdict = trouble.late_only ? Verdict::not_applicable : Verdict::inconclusive;
       for (auto& finding : judgement.findings) {
         if (finding.rests_on_time || !trouble.late_only) finding.verdict = Verdict::inconclusive;
         judgement.verdict = worst(judgement.verdict, finding.verdict);
