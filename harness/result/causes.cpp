@@ -13,11 +13,6 @@
 namespace conform::result {
 namespace {
 
-/// A deviation that shows in this many parts of a device at once is a fault of its own, and not one of each
-/// part.
-constexpr std::size_t many_parts = 3;
-/// What a device does with SDO frames; whatever else is seen, is seen through them.
-constexpr int deepest_of_sdo = 3;
 constexpr std::size_t few_objects = 2;
 constexpr std::uint16_t manufacturers_objects = 0x2000;
 /// Behind every rule: what was seen beside.
@@ -245,8 +240,8 @@ class Grouping {
     const auto weight = [&](std::size_t i) {
       const auto& place = places_[i];
       const auto& finding = *place.finding;
-      const auto frame = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
-      const auto at = frame == finding.evidence.end() ? finding.frames_seen : frame->capture_index + 1;
+      const auto* frame = decisive_frame(finding);
+      const auto at = frame == nullptr ? finding.frames_seen : frame->capture_index + 1;
       const auto deep = depth(place);
       return std::tuple(place.formless, explanations_->steps(i), deep == beside,
                         place.verdict != Verdict::fail, deep, at);

@@ -10,20 +10,10 @@
 namespace conform::result {
 namespace {
 
-/// A rule about entries in general is a fault of its own where so many parts of a device break it.
-constexpr std::size_t many_parts = 3;
-/// What a device does with SDO transfers; whatever else is seen, is seen through them.
-constexpr int deepest_of_sdo = 3;
-
 /// Keeps nobody from reading a frame.
 constexpr std::string_view reserved_bytes = "SDO-GEN-05";
 
 bool is_sdo(std::string_view requirement) { return requirement.starts_with("SDO-"); }
-
-const EvidenceFrame* decisive(const Finding& finding) {
-  const auto found = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
-  return found == finding.evidence.end() ? nullptr : &*found;
-}
 
 bool contains(const std::vector<std::string>& list, const std::string& one) {
   return std::ranges::find(list, one) != list.end();
@@ -31,9 +21,14 @@ bool contains(const std::vector<std::string>& list, const std::string& one) {
 
 }  // namespace
 
+const EvidenceFrame* decisive_frame(const Finding& finding) {
+  const auto found = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
+  return found == finding.evidence.end() ? nullptr : &*found;
+}
+
 bool is_seen_through_sdo(const Finding& finding) {
   // Where no answer came, the request decided.
-  if (const auto* frame = decisive(finding)) return frame->frame.id > 0x580 && frame->frame.id < 0x680;
+  if (const auto* frame = decisive_frame(finding)) return frame->frame.id > 0x580 && frame->frame.id < 0x680;
   return finding.object.has_value();
 }
 

@@ -28,6 +28,9 @@ struct Place {
   bool formless = false;
 };
 
+/// The frame that decided, among the evidence; nullptr: none did.
+[[nodiscard]] const EvidenceFrame* decisive_frame(const Finding& finding);
+
 /// Whether an answer of the SDO server, or that there was none, decided it.
 [[nodiscard]] bool is_seen_through_sdo(const Finding& finding);
 

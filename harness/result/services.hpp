@@ -3,6 +3,7 @@
 // what findings are grouped by.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -18,6 +19,11 @@ struct Service {
   /// broken at once, the one nearer to the frame explains the other.
   int depth = 0;
 };
+
+/// Of the services that are what a device does with SDO frames; whatever else is seen, is seen through them.
+inline constexpr int deepest_of_sdo = 3;
+/// What shows in so many parts of a device at once is one fault, and not one of each part.
+inline constexpr std::size_t many_parts = 3;
 
 /// Of a requirement, by its family ("EC-HBP-02"). nullptr: a rule about entries in general ("OD-ACC-01"),
 /// which belongs to the service of the entry that broke it.
