@@ -153,23 +153,35 @@ void parse_label(const yaml::Field& field, const ParseContext& context, std::str
   label = name;
 }
 
-/// The end of a window that was open before the step: a label, or the step itself.
-constexpr std::string_view this_moment = "now";
+/// `for: 1 s`, or `until:` with a label that was reached, or `now`: the step itself.
+struct WindowEnd {
+  TimeReference time;
+  std::string until;  ///< empty: `time` counts
 
-void parse_until(const yaml::Field& field, const ParseContext& context, std::string& until) {
-  if (field.text() == this_moment) {
-    until = this_moment;
-  } else {
-    parse_label(field, context, until);
+  static constexpr std::string_view this_moment = "now";
+
+  static std::optional<WindowEnd> parse(yaml::Fields& fields, const ParseContext& context) {
+    const auto field = fields.exactly_one_of({"for", "until"});
+    if (!field) return std::nullopt;
+    WindowEnd out;
+    if (!fields.has("until")) {
+      if (auto parsed = parse_time_at(field)) out.time = *parsed;
+    } else if (field.text() == this_moment) {
+      out.until = this_moment;
+    } else {
+      parse_label(field, context, out.until);
+    }
+    return out;
   }
-}
-
-Result<BusTime> end_of(const Session& session, const std::string& until) {
-  if (until == this_moment) return session.now();
-  const auto end = session.window_after(until);
-  if (!end) return std::unexpected(end.error());
-  return end->anchor;
-}
+  [[nodiscard]] std::string words() const { return until.empty() ? "for " + time.text() : "until " + until; }
+  [[nodiscard]] Result<BusTime> after(BusTime anchor, const Session& session) const {
+    if (until.empty()) return anchor + time.resolve(session.profile());
+    if (until == this_moment) return session.now();
+    const auto end = session.window_after(until);
+    if (!end) return std::unexpected(end.error());
+    return end->anchor;
+  }
+};
 
 void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {
   if (const auto field = fields.optional("after")) parse_label(field, context, after);
@@ -332,20 +344,16 @@ class Silence final : public Action {
     auto out = std::make_unique<Silence>();
     auto fields = value.fields("silence");
     const auto of = fields.required("of");
-    const auto time = fields.exactly_one_of({"for", "until"});
+    const auto end = WindowEnd::parse(fields, context);
     for (const auto& item : of.items_or_one()) {
       if (auto source = Source::parse(item, context.names)) out->sources_.push_back(*source);
     }
-    if (time && fields.has("until")) {
-      parse_until(time, context, out->until_);
-    } else if (time) {
-      if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
-    }
+    if (end) out->end_ = *end;
     if (const auto delay = fields.optional("delay")) {
       if (auto parsed = parse_time_at(delay)) out->delay_ = *parsed;
     }
     parse_after(fields, context, out->after_);
-    return of && time ? std::move(out) : nullptr;
+    return of && end ? std::move(out) : nullptr;
   }
   std::vector<ObjectReference> concerns() const override {
     return sources_.empty() ? std::vector<ObjectReference>{} : sources_.front().concerns();
@@ -354,7 +362,7 @@ class Silence final : public Action {
   std::string words(Session&) const override {
     std::vector<std::string> parts;
     for (const auto& source : sources_) parts.push_back(source.words());
-    return "silence of " + join(parts, ", ") + (until_.empty() ? " for " + time_.text() : " until " + until_);
+    return "silence of " + join(parts, ", ") + " " + end_.words();
   }
   Result<Actual> run(Session& session) const override {
     const auto window = settled_window_of(session, after_);
@@ -366,21 +374,17 @@ class Silence final : public Action {
       matches.push_back(*match);
     }
     const auto begin = window->anchor + delay_.resolve(session.profile());
+    auto until = end_.after(window->anchor, session);
+    if (!until) return std::unexpected(until.error());
     // Steps in between may have taken longer than the silence had to last: all of it was to be silent.
-    auto until = window->anchor + time_.resolve(session.profile());
-    if (!after_.empty()) until = std::max(until, session.now());
-    if (!until_.empty()) {
-      const auto end = end_of(session, until_);
-      if (!end) return std::unexpected(end.error());
-      until = *end;
-    }
+    if (!after_.empty() && end_.until.empty()) until = std::max(*until, session.now());
     auto found = session.find_frame(
         window->first,
         [&matches, begin](const auto& captured) {
           return captured.time >= begin &&
                  std::ranges::any_of(matches, [&](const auto& match) { return match(captured); });
         },
-        until);
+        *until);
     if (!found) return std::unexpected(found.error());
     Actual out;
     if (*found) {
@@ -390,15 +394,16 @@ class Silence final : public Action {
       out.detail = frame_words(captured) + " after " + relative(captured.time, *window);
       session.consume(**found);
     } else {
-      out.detail = "silence for " + to_string(until - window->anchor);
+      out.detail = "silence for " + to_string(*until - window->anchor);
     }
     return out;
   }
 
  private:
   std::vector<Source> sources_;
-  TimeReference time_, delay_;
-  std::string after_, until_;
+  WindowEnd end_;
+  TimeReference delay_;
+  std::string after_;
 };
 
 class Collect final : public Action {
@@ -407,15 +412,11 @@ class Collect final : public Action {
     auto out = std::make_unique<Collect>();
     auto fields = value.fields("collect");
     const auto from = fields.required("from");
-    const auto time = fields.exactly_one_of({"for", "until"});
+    const auto end = WindowEnd::parse(fields, context);
     if (from) {
       if (auto source = Source::parse(from, context.names)) out->source_ = *source;
     }
-    if (time && fields.has("until")) {
-      parse_until(time, context, out->until_);
-    } else if (time) {
-      if (auto parsed = parse_time_at(time)) out->time_ = *parsed;
-    }
+    if (end) out->end_ = *end;
     if (const auto per = fields.optional("per")) {
       if (per.text() != "sync") {
         if (auto expression = parse_expression_at(per, context.names)) out->stimulus_ = *expression;
@@ -423,7 +424,7 @@ class Collect final : public Action {
       out->answers_ = true;
     }
     parse_after(fields, context, out->after_);
-    return from && time ? std::move(out) : nullptr;
+    return from && end ? std::move(out) : nullptr;
   }
   Measures measures() const override {
     Measures out{"count", "first", "state", "period", "shortest", "longest"};
@@ -434,11 +435,10 @@ class Collect final : public Action {
   bool acts() const override { return false; }
   Channels rests_on() const override { return source_.rests_on(); }
   std::string words(Session&) const override {
-    if (!answers_)
-      return "collect " + source_.words() + (until_.empty() ? " for " + time_.text() : " until " + until_);
+    if (!answers_) return "collect " + source_.words() + " " + end_.words();
     return "collect " + source_.words() + " per " +
-           (stimulus_.empty() ? "SYNC" : "frame on CAN-ID " + stimulus_.text()) + ", until " + time_.text() +
-           " after the last";
+           (stimulus_.empty() ? "SYNC" : "frame on CAN-ID " + stimulus_.text()) + ", until " +
+           end_.time.text() + " after the last";
   }
 
   Result<Actual> run(Session& session) const override {
@@ -454,13 +454,10 @@ class Collect final : public Action {
         return c.direction == can::Direction::transmitted && c.frame.is_data(id);
       };
     }
-    const auto time = time_.resolve(session.profile());
-    auto until = window->anchor + time;
-    if (!until_.empty()) {
-      const auto end = end_of(session, until_);
-      if (!end) return std::unexpected(end.error());
-      until = *end;
-    }
+    const auto time = end_.time.resolve(session.profile());
+    const auto end = end_.after(window->anchor, session);
+    if (!end) return std::unexpected(end.error());
+    auto until = *end;
     std::vector<std::size_t> hits;
     std::vector<BusTime> stimuli;
     const auto& frames = session.capture().frames();
@@ -556,8 +553,8 @@ class Collect final : public Action {
   }
 
   Source source_;
-  TimeReference time_;
-  std::string after_, until_;
+  WindowEnd end_;
+  std::string after_;
   bool answers_ = false;
   Expression stimulus_;  ///< CAN-ID; empty: that of SYNC
 };
