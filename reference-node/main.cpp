@@ -14,10 +14,10 @@
 #include "defects/defect.hpp"
 #include "eds/eds.hpp"
 #include "eds/read.hpp"
-#include "eds_text.hpp"
-#include "node.hpp"
-#include "storage.hpp"
-#include "twin.hpp"
+#include "node/node.hpp"
+#include "objects/eds_text.hpp"
+#include "storage/memory.hpp"
+#include "twin/twin.hpp"
 #include "variants/variant.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "cli/verdicts.hpp"
 #include "cli/workers.hpp"
 #include "defects/edits.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 namespace conform::cli {
 namespace {

@@ -26,7 +26,7 @@
 #include "cli/terminal.hpp"
 #include "cli/variant_profile.hpp"
 #include "engine/monitor_cases.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 #include "reports/console.hpp"
 
 namespace conform::cli {

@@ -21,7 +21,7 @@
 #include "engine/recorder.hpp"
 #include "engine/run_session.hpp"
 #include "engine/scan.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 namespace conform::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/verdicts.hpp"
 #include "cli/workers.hpp"
 #include "defects/defect.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 namespace conform::cli {
 

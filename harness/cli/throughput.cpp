@@ -11,7 +11,7 @@
 #include "can/frame_time.hpp"
 #include "can/simulated_bus.hpp"
 #include "device/profile.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 namespace conform::cli {
 namespace {

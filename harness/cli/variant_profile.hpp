@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "device/profile.hpp"
-#include "object_dictionary.hpp"
+#include "dictionary/object_dictionary.hpp"
 
 namespace conform::cli {
 

@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "behaviour.hpp"
-#include "object_dictionary.hpp"
-#include "outbox.hpp"
+#include "device/outbox.hpp"
+#include "dictionary/object_dictionary.hpp"
+#include "node/behaviour.hpp"
 
 namespace refnode {
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "abort_codes.hpp"
 #include "base/bytes.hpp"
-#include "outbox.hpp"
+#include "device/outbox.hpp"
+#include "dictionary/abort_codes.hpp"
 
 namespace refnode::defect {
 

@@ -11,7 +11,7 @@
 
 #include "base/check.hpp"
 #include "fuzz/client_program.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "base/check.hpp"
 #include "eds/eds.hpp"
 #include "eds/read.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "choices.hpp"
-#include "object_dictionary.hpp"
-#include "outbox.hpp"
+#include "device/outbox.hpp"
+#include "dictionary/object_dictionary.hpp"
+#include "node/choices.hpp"
 
 namespace refnode {
 

@@ -24,7 +24,7 @@
 #include "canopen/decode.hpp"
 #include "fuzz/client_program.hpp"
 #include "monitor/watch.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 #include "variants/variant.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "cli/suite_folder.hpp"
 #include "defects/edits.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 
 using namespace conform;
 

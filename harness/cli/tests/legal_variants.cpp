@@ -12,7 +12,7 @@
 #include "cli/variant_profile.hpp"
 #include "engine/engine.hpp"
 #include "neighbours.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 #include "variants/variant.hpp"
 
 namespace conform::cli {

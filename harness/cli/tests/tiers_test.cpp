@@ -15,7 +15,7 @@
 #include "cli/selftest.hpp"
 #include "cli/variant_profile.hpp"
 #include "device/profile.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
 #include "shipped.hpp"
 
 using namespace conform;

@@ -12,8 +12,8 @@
 #include "cli/selftest.hpp"
 #include "device/profile.hpp"
 #include "eds/read.hpp"
-#include "eds_text.hpp"
-#include "node.hpp"
+#include "node/node.hpp"
+#include "objects/eds_text.hpp"
 #include "shipped.hpp"
 
 using namespace conform;

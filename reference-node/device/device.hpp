@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all services of the node share: identity, state, time, dictionary and the way out.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "base/strong.hpp"
+#include "device/outbox.hpp"
+#include "dictionary/object_dictionary.hpp"
+#include "node/behaviour.hpp"
+#include "node/choices.hpp"
+
+namespace refnode {
+
+struct Device {
+  explicit Device(std::uint8_t id) : node_id(id), dictionary(behaviour, choices) {}
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  std::uint8_t node_id;
+  Behaviour behaviour;
+  Choices choices;
+  ObjectDictionary dictionary;
+  Outbox outbox;
+  /// The dictionary is that of a device description (twin.hpp): of what this node has beyond the standard
+  /// nothing is there.
+  bool described = false;
+  /// Which of the data types 0001h to 0007h an RPDO may hold as placeholder.
+  std::array<bool, 8> placeholders{false, false, true, true, true, true, true, true};
+  NmtState state = NmtState::initialising;
+  BusTime now{};
+
+  /// The value of a time parameter. It has 16 bits; a description may give it more, but no timer needs them.
+  [[nodiscard]] std::int64_t time_value(std::uint16_t index, std::uint8_t sub) const {
+    constexpr std::uint64_t most = 0xFFFF'FFFF;
+    return static_cast<std::int64_t>(std::min(dictionary.number(index, sub), most));
+  }
+
+  /// Sends one frame of a service other than SDO.
+  void send(Service service, const Frame& frame) {
+    outbox.send(FilterContext{service, node_id, state, nullptr}, {Outgoing{frame, {}}}, now);
+  }
+};
+
+/// The earliest of some wake-up times.
+[[nodiscard]] inline std::optional<BusTime> earliest(std::initializer_list<std::optional<BusTime>> times) {
+  std::optional<BusTime> first;
+  for (const auto& time : times) {
+    if (time && (!first || *time < *first)) first = time;
+  }
+  return first;
+}
+
+}  // namespace refnode

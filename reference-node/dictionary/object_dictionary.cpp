@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dictionary/object_dictionary.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/check.hpp"
+#include "node/behaviour.hpp"
+#include "node/choices.hpp"
+
+namespace refnode {
+
+std::size_t fixed_size(DataType type) {
+  switch (type) {
+    case DataType::boolean:
+    case DataType::integer8:
+    case DataType::unsigned8: return 1;
+    case DataType::integer16:
+    case DataType::unsigned16: return 2;
+    case DataType::integer24:
+    case DataType::unsigned24: return 3;
+    case DataType::integer32:
+    case DataType::unsigned32:
+    case DataType::real32: return 4;
+    case DataType::integer40:
+    case DataType::unsigned40: return 5;
+    case DataType::integer48:
+    case DataType::unsigned48:
+    case DataType::time_of_day:
+    case DataType::time_difference: return 6;
+    case DataType::integer56:
+    case DataType::unsigned56: return 7;
+    case DataType::integer64:
+    case DataType::unsigned64:
+    case DataType::real64: return 8;
+    case DataType::visible_string:
+    case DataType::octet_string:
+    case DataType::unicode_string:
+    case DataType::domain: return 0;
+  }
+  return 0;
+}
+
+bool is_signed_integer(DataType type) {
+  switch (type) {
+    case DataType::integer8:
+    case DataType::integer16:
+    case DataType::integer24:
+    case DataType::integer32:
+    case DataType::integer40:
+    case DataType::integer48:
+    case DataType::integer56:
+    case DataType::integer64: return true;
+    default: return false;
+  }
+}
+
+bool is_unsigned_integer(DataType type) {
+  switch (type) {
+    case DataType::boolean:
+    case DataType::unsigned8:
+    case DataType::unsigned16:
+    case DataType::unsigned24:
+    case DataType::unsigned32:
+    case DataType::unsigned40:
+    case DataType::unsigned48:
+    case DataType::unsigned56:
+    case DataType::unsigned64: return true;
+    default: return false;
+  }
+}
+
+Entry integer_entry(std::string name, DataType type, Access access, std::uint64_t value) {
+  Entry entry;
+  entry.name = std::move(name);
+  entry.type = type;
+  entry.access = access;
+  entry.value = conform::to_le(value, fixed_size(type));
+  entry.default_value = entry.value;
+  if (type == DataType::boolean) {
+    entry.low = 0;
+    entry.high = 1;
+  }
+  return entry;
+}
+
+Entry bytes_entry(std::string name, DataType type, Access access, Bytes value, std::size_t max_size) {
+  Entry entry;
+  entry.name = std::move(name);
+  entry.type = type;
+  entry.access = access;
+  entry.max_size = std::max(max_size, value.size());
+  entry.value = std::move(value);
+  entry.default_value = entry.value;
+  return entry;
+}
+
+Entry text_entry(std::string name, Access access, std::string_view text, std::size_t max_size) {
+  return bytes_entry(std::move(name), DataType::visible_string, access, Bytes(text.begin(), text.end()),
+                     max_size);
+}
+
+void read_by(Entry& entry, std::function<Upload()> read) {
+  entry.read = [size = fixed_size(entry.type), read = std::move(read)]() -> Upload {
+    Upload value = read();
+    if (value && size != 0) value->resize(size);
+    return value;
+  };
+}
+
+Entry& ObjectDictionary::add_variable(std::uint16_t index, Entry entry) {
+  CONFORM_CHECK(!objects_.contains(index));
+  Object& object = objects_[index];
+  object.name = entry.name;
+  return object.entries[0] = std::move(entry);
+}
+
+Object& ObjectDictionary::add_complex(std::uint16_t index, std::string name, ObjectKind kind) {
+  CONFORM_CHECK(!objects_.contains(index));
+  Object& object = objects_[index];
+  object.name = std::move(name);
+  object.kind = kind;
+  object.entries[0] = integer_entry("Highest sub-index supported", DataType::unsigned8, Access::constant, 0);
+  return object;
+}
+
+Entry& ObjectDictionary::add_sub(std::uint16_t index, std::uint8_t sub, Entry entry) {
+  CONFORM_CHECK(objects_.contains(index));
+  Object& object = objects_[index];
+  Entry* highest = this->entry(index, 0);
+  if (highest != nullptr && highest->access == Access::constant && highest->number() < sub) {
+    highest->value = highest->default_value = Bytes{sub};
+  }
+  return object.entries[sub] = std::move(entry);
+}
+
+void ObjectDictionary::remove_sub(std::uint16_t index, std::uint8_t sub) {
+  if (const auto found = objects_.find(index); found != objects_.end()) found->second.entries.erase(sub);
+}
+
+Entry* ObjectDictionary::entry(std::uint16_t index, std::uint8_t sub) {
+  const auto object = objects_.find(index);
+  if (object == objects_.end()) return nullptr;
+  const auto found = object->second.entries.find(sub);
+  return found == object->second.entries.end() ? nullptr : &found->second;
+}
+
+const Entry* ObjectDictionary::entry(std::uint16_t index, std::uint8_t sub) const {
+  const auto object = objects_.find(index);
+  if (object == objects_.end()) return nullptr;
+  const auto found = object->second.entries.find(sub);
+  return found == object->second.entries.end() ? nullptr : &found->second;
+}
+
+std::uint64_t ObjectDictionary::number(std::uint16_t index, std::uint8_t sub, std::uint64_t otherwise) const {
+  const Entry* found = entry(index, sub);
+  return found == nullptr ? otherwise : found->number();
+}
+
+void ObjectDictionary::set_number(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
+  if (Entry* found = entry(index, sub); found != nullptr) conform::store_le(found->value, value);
+}
+
+Accepted ObjectDictionary::check_exists(Multiplexer mux) const {
+  const auto object = objects_.find(mux.index.value());
+  if (object == objects_.end()) return refuse(abort_code::no_object);
+  if (!object->second.entries.contains(mux.sub.value())) return refuse(abort_code::no_sub_index);
+  return {};
+}
+
+Upload ObjectDictionary::upload(Multiplexer mux) const {
+  if (behaviour_->variables_ignore_sub_index) {
+    const auto object = objects_.find(mux.index.value());
+    if (object != objects_.end() && object->second.kind == ObjectKind::variable)
+      mux.sub = conform::SubIndex(0);
+  }
+  if (const auto exists = check_exists(mux); !exists) return refuse(exists.error());
+  const Entry& found = *entry(mux.index.value(), mux.sub.value());
+  if (found.access == Access::wo) return refuse(abort_code::write_only);
+  return found.read ? found.read() : Upload(found.value);
+}
+
+Accepted ObjectDictionary::check_size(const Entry& found, std::size_t size) const {
+  const std::size_t fixed = fixed_size(found.type);
+  if (fixed == 0) {
+    if (size > found.max_size) return refuse(choices_->value_too_long);
+    // UNICODE_STRING is made of 16-bit characters.
+    if (found.type == DataType::unicode_string && size % 2 != 0) return refuse(abort_code::length_mismatch);
+    return {};
+  }
+  if (size > fixed && !behaviour_->accepts_long_values) return refuse(choices_->value_too_long);
+  if (size < fixed && !behaviour_->accepts_short_values) return refuse(choices_->value_too_short);
+  return {};
+}
+
+template <typename Value>
+Accepted ObjectDictionary::compare(Value value, const std::optional<Value>& low,
+                                   const std::optional<Value>& high) const {
+  if (high && value > *high) return refuse(choices_->value_above_limit);
+  if (low && value < *low) return refuse(choices_->value_below_limit);
+  return {};
+}
+
+Accepted ObjectDictionary::check_limits(const Entry& found, ByteView bytes) const {
+  const std::uint64_t raw = conform::load_le(bytes);
+  switch (found.type) {
+    case DataType::real32:
+      return compare<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)), found.low_real,
+                             found.high_real);
+    case DataType::real64: return compare(std::bit_cast<double>(raw), found.low_real, found.high_real);
+    case DataType::unsigned64: {
+      const auto bits = [](std::int64_t limit) { return static_cast<std::uint64_t>(limit); };
+      return compare(raw, found.low.transform(bits), found.high.transform(bits));
+    }
+    default: break;
+  }
+  if (!found.low && !found.high) return {};
+  std::int64_t value = static_cast<std::int64_t>(raw);
+  if (is_signed_integer(found.type) && bytes.size() < 8) {
+    const std::int64_t sign = std::int64_t{1} << (bytes.size() * 8 - 1);
+    value = (value ^ sign) - sign;
+  }
+  return compare(value, found.low, found.high);
+}
+
+Accepted ObjectDictionary::may_download(Multiplexer mux, std::optional<std::size_t> size) const {
+  if (const auto exists = check_exists(mux); !exists) return exists;
+  const Entry& found = *entry(mux.index.value(), mux.sub.value());
+  if (found.access == Access::ro || found.access == Access::constant) return refuse(abort_code::read_only);
+  if (size) return check_size(found, *size);
+  return {};
+}
+
+Accepted ObjectDictionary::download(Multiplexer mux, ByteView bytes) {
+  if (const auto granted = may_download(mux, bytes.size()); !granted) return granted;
+  Entry& found = *entry(mux.index.value(), mux.sub.value());
+  Bytes value(bytes.begin(), bytes.end());
+  if (const std::size_t fixed = fixed_size(found.type); fixed != 0) value.resize(fixed);
+
+  Accepted valid = check_limits(found, value);
+  if (!valid && behaviour_->clamps_to_high_limit && valid.error() == choices_->value_above_limit) {
+    value = conform::to_le(static_cast<std::uint64_t>(*found.high), value.size());
+    valid = {};
+  }
+  if (valid && found.check) valid = found.check(value);
+  if (!found.command && (valid || behaviour_->stores_refused_values)) found.value = std::move(value);
+  if (valid && found.written) found.written();
+  if (valid && on_download) on_download(mux);
+  return valid;
+}
+
+std::size_t ObjectDictionary::capacity(Multiplexer mux) const {
+  const Entry* found = entry(mux.index.value(), mux.sub.value());
+  if (found == nullptr) return 0;
+  const std::size_t fixed = fixed_size(found->type);
+  return fixed != 0 ? fixed : found->max_size;
+}
+
+}  // namespace refnode

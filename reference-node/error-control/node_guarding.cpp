@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "error-control/node_guarding.hpp"
+
+#include <chrono>
+
+namespace refnode {
+
+namespace {
+
+constexpr std::uint8_t toggle_bit = 0x80;
+constexpr ErrorCause lost{0x8130, Emergency::guarding_source, 0};
+
+}  // namespace
+
+void NodeGuarding::add_objects() {
+  ObjectDictionary& od = device_->dictionary;
+  od.add_variable(0x100C, integer_entry("Guard time", DataType::unsigned16, Access::rw, 0));
+  od.add_variable(0x100D, integer_entry("Life time factor", DataType::unsigned8, Access::rw, 0));
+}
+
+void NodeGuarding::bind() {
+  for (const std::uint16_t index : {std::uint16_t{0x100C}, std::uint16_t{0x100D}}) {
+    Entry* entry = device_->dictionary.entry(index, 0);
+    if (entry == nullptr) continue;
+    // Another life time begins with the next request, and what was lost does not count any more.
+    entry->written = [this] {
+      due_.reset();
+      if (lost_) emergency_->clear(lost);
+      lost_ = false;
+    };
+  }
+}
+
+bool NodeGuarding::in_use() const {
+  const ObjectDictionary& od = device_->dictionary;
+  return od.entry(0x100C, 0) != nullptr && od.entry(0x100D, 0) != nullptr && od.number(0x1017, 0) == 0;
+}
+
+// Milliseconds times a factor; zero when either is: no life guarding.
+Duration NodeGuarding::life_time() const {
+  const ObjectDictionary& od = device_->dictionary;
+  return std::chrono::milliseconds(static_cast<std::int64_t>(od.number(0x100C, 0) * od.number(0x100D, 0)));
+}
+
+bool NodeGuarding::on_remote(const Frame& frame) {
+  if (frame.id != 0x700U + device_->node_id) return false;
+  if (device_->state == NmtState::initialising || !in_use()) return true;
+  const auto state = static_cast<std::uint8_t>(device_->state);
+  const auto data = static_cast<std::uint8_t>(toggle_ ? state | toggle_bit : state);
+  device_->send(Service::guarding,
+                conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {data}));
+  toggle_ = !toggle_;
+  due_.reset();
+  if (life_time() > Duration::zero()) due_ = device_->now + life_time();
+  if (lost_) emergency_->clear(lost);
+  lost_ = false;
+  return true;
+}
+
+void NodeGuarding::on_reset() {
+  toggle_ = false;
+  lost_ = false;
+  due_.reset();
+}
+
+void NodeGuarding::on_time() {
+  if (!due_ || device_->now < *due_) return;
+  due_.reset();
+  if (!in_use() || device_->behaviour.life_guarding_ignored) return;
+  lost_ = true;
+  emergency_->raise(lost);
+  if (on_loss) on_loss();
+}
+
+}  // namespace refnode

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every switch that makes the node misbehave. The default of each is the conformant behaviour; each is
+// consulted in one or two places and set by rows of defects/.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "can/frame.hpp"
+#include "node/object_faults.hpp"
+#include "sdo/block_faults.hpp"
+#include "sdo/faults.hpp"
+
+namespace refnode {
+
+/// How the rules of one COB-ID parameter are broken.
+struct CobIdFaults {
+  bool takes_any_frame = false;      ///< SYNC: frames with the CAN-ID of another service, too
+  bool lock_missing = false;         ///< the CAN-ID can be changed while the object exists
+  bool frame_bit_accepted = false;   ///< bit 29
+  bool bit30_accepted = false;       ///< SYNC and TIME: produce; EMCY: reserved
+  bool bit31_refused = false;        ///< SYNC: do not care
+  bool upper_bits_accepted = false;  ///< bits 28-11 with an 11-bit identifier
+  bool restricted_accepted = false;
+  bool rewrite_refused = false;  ///< the value in force is refused
+  bool change_refused = false;   ///< another CAN-ID is refused even while the object does not exist
+  bool new_id_not_used = false;  ///< the default CAN-ID stays in use
+  bool valid_bit_inverted = false;
+  bool valid_bit_ignored = false;
+  bool remote_bit_inverted = false;  ///< TPDO: bit 30
+  bool remote_bit_ignored = false;
+};
+
+/// How the rules of the parameters of a PDO are broken.
+struct PdoFaults {
+  bool reserved_type_accepted = false;
+  bool inhibit_lock_missing = false;
+  int inhibit_unit_us = 100;
+  int event_timer_factor = 1;
+  bool absent_object_mapped = false;
+  bool unmappable_object_mapped = false;
+  bool mapping_length_unchecked = false;
+  bool mapping_count_unchecked = false;
+  bool overlong_mapping_accepted = false;
+  bool mapping_writable_while_enabled = false;
+  bool mapping_writable_while_valid = false;
+};
+
+/// How 1010h or 1011h misbehaves.
+struct StoreFaults {
+  bool signature_unchecked = false;      ///< any value is taken for the signature
+  bool acts_on_wrong_signature = false;  ///< a wrong signature is refused, but acted on
+  bool byte_order_wrong = false;
+  bool case_ignored = false;
+  bool without_effect = false;
+  bool sub2_without_effect = false;
+  bool sub3_without_effect = false;
+  bool groups_mixed = false;  ///< every sub-index means all parameters
+  bool failure_confirmed = false;
+  bool failure_aborted_as_refusal = false;  ///< 0800 0020h in place of the hardware error
+  bool effective_at_once = false;           ///< 1011h: defaults are valid before the reset
+};
+
+/// How additional SDO servers misbehave.
+struct SdoChannelFaults {
+  bool second_cob_id_not_needed = false;  ///< valid with the first COB-ID alone
+  bool transfer_shared = false;           ///< all servers work on one transfer
+};
+
+struct Behaviour {
+  // Object dictionary
+  bool accepts_long_values = false;         ///< surplus bytes of a download are cut off
+  bool accepts_short_values = false;        ///< missing bytes of a download are taken as zero
+  bool stores_refused_values = false;       ///< a value out of range is refused and stored all the same
+  bool clamps_to_high_limit = false;        ///< a value above the limit is confirmed and limited
+  bool variables_ignore_sub_index = false;  ///< a variable answers on every sub-index
+
+  // SDO server
+  bool upload_toggle_unchecked = false;
+  bool download_toggle_unchecked = false;
+  bool ignores_client_abort = false;  ///< the transfer goes on after the client's abort
+  bool answers_client_abort = false;
+  bool abort_keeps_transfer = false;  ///< an abort by the server does not end the transfer
+  bool initiate_ignored_while_busy = false;
+  bool transfer_stays_open_after_last = false;
+  bool segmented_access_unchecked = false;  ///< read-only entries can be written by segmented download
+  bool segment_overflow_unchecked = false;
+  bool segment_shortfall_unchecked = false;
+  bool segmented_download_not_stored = false;
+  bool sdo_served_in_stopped = false;
+  bool sdo_served_before_boot_up = false;
+  bool transfer_survives_reset = false;
+  bool answers_foreign_node_ids = false;  ///< SDO requests to other nodes are served
+  bool answers_broadcast = false;         ///< SDO requests on 600h are served
+  bool answers_on_response_id = false;    ///< requests on 580h + node-ID are served
+  bool short_requests_completed = false;  ///< missing bytes of a request are those of the last one
+  bool long_numbers_truncated = false;    ///< numbers of more than four bytes are sent expedited
+  bool accepts_extended_frames = false;   ///< 29-bit identifiers are taken for 11-bit ones
+  bool accepts_remote_frames = false;     ///< remote frames are taken for data frames
+  SdoFaults sdo;
+
+  SdoBlockFaults block;
+  SdoChannelFaults sdo_channels;
+
+  // NMT slave
+  bool nmt_broadcast_ignored = false;
+  bool nmt_node_id_unchecked = false;
+  bool nmt_node_id_masked = false;  ///< bit 7 of the node-ID is not looked at
+  bool nmt_short_frame_accepted = false;
+  bool nmt_long_frame_accepted = false;
+  bool nmt_start_ignored = false;
+  bool nmt_start_ignored_in_stopped = false;
+  bool nmt_stop_ignored_in_pre_operational = false;
+  bool nmt_stop_ignored_in_operational = false;
+  bool nmt_pre_operational_ignored = false;
+  bool nmt_pre_operational_resets = false;
+  bool nmt_reset_ignored_in_stopped = false;
+  bool nmt_reset_ignored_in_pre_operational = false;
+  bool nmt_reset_ignored_in_operational = false;
+  bool nmt_unknown_command_stops = false;
+  bool reset_during_start_up_hangs = false;
+  bool boot_up_on_pre_operational = false;
+  int restarts_after_ms = 0;  ///< of running; 0: the node goes on
+  std::function<bool(const conform::can::Frame&, std::uint8_t node_id)>
+      restarts_on;  ///< frames it falls over
+  bool starts_in_operational = false;
+
+  // Heartbeat producer
+  int heartbeat_period_factor = 1;
+  bool heartbeat_not_started_at_boot = false;
+  bool heartbeat_starts_only_after_reset = false;
+  bool heartbeat_zero_does_not_stop = false;
+  bool heartbeat_on_state_change_when_off = false;
+  bool heartbeat_stops_in_stopped = false;
+  bool heartbeat_state_stale = false;
+  bool heartbeat_with_toggle_bit = false;
+  int heartbeat_ends_after_ms = 0;  ///< 0: it does not; counted from the write of 1017h
+
+  // Heartbeat consumer
+  int consumer_time_factor = 1;
+  bool consumer_accepts_duplicate = false;
+  bool consumer_zero_time_is_duplicate = false;
+  bool consumer_own_entry_is_duplicate = false;
+  bool consumer_accepts_reserved_bits = false;
+  bool consumer_starts_without_heartbeat = false;
+  bool consumer_node_id_unchecked = false;
+  bool consumer_timer_not_restarted = false;
+  bool consumer_error_never_resolved = false;
+  bool errors_never_clear = false;  ///< none of them, until a reset
+  bool consumer_loss_not_detected = false;
+  bool consumer_wrong_code = false;
+  bool consumer_only_first_entry = false;
+  bool consumer_zero_time_monitored = false;
+  bool consumer_loss_keeps_operational = false;
+  ErrorBehaviourFaults error_behaviour;
+
+  // Guarding
+  bool life_guarding_ignored = false;
+
+  // Error register, EMCY, history
+  bool error_register_never_set = false;
+  bool error_register_without_generic = false;
+  bool error_register_bit6_set = false;
+  bool error_register_sticks = false;
+  bool communication_bit_missing = false;
+  bool second_error_suppressed = false;
+  bool error_reset_too_early = false;
+  bool error_reset_not_sent = false;
+  bool emergency_sent_when_not_valid = false;
+  bool emergency_sent_in_stopped = false;
+  bool emergency_register_always_generic = false;
+  int emergency_inhibit_unit_us = 100;
+  bool emergency_lost_while_inhibited = false;
+  bool records_error_reset = false;
+  bool history_not_written = false;
+  bool history_starts_with_error = false;
+  bool history_count_not_updated = false;
+  bool history_code_in_upper_half = false;
+  bool history_code_byte_swapped = false;
+  bool history_overwrites = false;
+  bool history_oldest_first = false;
+  bool history_full_drops_newest = false;
+  bool history_count_exceeds_depth = false;
+  bool history_empty_reads_zero = false;
+  bool history_nonzero_write_accepted = false;
+  bool history_nonzero_write_clears = false;
+  bool history_clear_rejected = false;
+  bool history_clear_ignored = false;
+  bool history_clear_resets_errors = false;
+  bool sync_length_not_reported = false;
+  bool sync_without_data_reported = false;  ///< EMCY 8240h for every SYNC of the right length
+
+  // COB-ID parameters
+  CobIdFaults sync_cob_id;
+  CobIdFaults time_cob_id;
+  CobIdFaults emergency_cob_id;
+  CobIdFaults emergency_consumer_cob_id;
+  CobIdFaults rpdo_cob_id;
+  CobIdFaults tpdo_cob_id;
+  CobIdFaults sdo_server_cob_id;
+  CobIdFaults sdo_client_cob_id;
+  bool dynamic_sdo_stored = false;  ///< also COB-IDs with bit 30 set are kept in non-volatile memory
+  bool time_reserved_bits_kept = false;
+
+  // PDO
+  PdoFaults rpdo;
+  PdoFaults tpdo;
+  bool rpdo_processed_in_pre_operational = false;
+  bool short_rpdo_processed = false;
+  bool short_rpdo_not_reported = false;
+  bool long_rpdo_dropped = false;
+  bool sync_rpdo_applied_at_once = false;
+  bool rpdo_data_ignored = false;
+  bool rpdo_data_big_endian = false;
+  bool tpdo_sent_in_pre_operational = false;
+  bool tpdo_data_big_endian = false;
+  bool event_timer_in_synchronous_types = false;
+  bool remote_type_sends_at_sync = false;
+  bool acyclic_type_sends_every_sync = false;
+  bool sync_ratio_off_by_one = false;
+  bool tpdo_change_ignored = false;           ///< a change of what is mapped is no event
+  bool tpdo_timer_ignores_valid_bit = false;  ///< sent by the event timer while not valid
+
+  // Single communication objects
+  ClockFaults clock;
+  SyncCounterFaults sync_counter;
+  StampFaults stamp;
+
+  // Storage and power-on values
+  StoreFaults store;
+  StoreFaults restore;
+  bool stored_values_ignored = false;
+  bool reset_communication_keeps_values = false;
+  bool reset_communication_resets_application = false;
+  bool reset_node_keeps_communication = false;
+  bool reset_node_keeps_application = false;
+};
+
+}  // namespace refnode

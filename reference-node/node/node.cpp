@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts the services together: who sees which frame, and who is woken when.
+#include "node/node.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "device/device.hpp"
+#include "emergency/consumer.hpp"
+#include "emergency/emergency.hpp"
+#include "error-control/error_behaviour.hpp"
+#include "error-control/heartbeat.hpp"
+#include "error-control/node_guarding.hpp"
+#include "nmt/nmt_slave.hpp"
+#include "node/switches.hpp"
+#include "objects/application_objects.hpp"
+#include "objects/manufacturer_objects.hpp"
+#include "objects/module_list.hpp"
+#include "objects/operating_system.hpp"
+#include "objects/standard_objects.hpp"
+#include "objects/stored_description.hpp"
+#include "pdo/pdos.hpp"
+#include "sdo/parameters.hpp"
+#include "sdo/servers.hpp"
+#include "storage/parameter_store.hpp"
+#include "sync/sync_time.hpp"
+#include "time/high_resolution_clock.hpp"
+#include "twin/twin.hpp"
+
+namespace refnode {
+
+struct Node::Impl {
+  /// `twin`: the dictionary to serve; empty: the node's own.
+  Impl(const Options& options, std::optional<Twin> twin);
+
+  void add_own_objects();
+  void take_over(Twin twin);
+  void reset(Reset reset);
+  void boot_up();
+  void change_state(NmtState from);
+  void run_timers();
+  void dispatch(const Frame& frame);
+
+  Device device;
+  Emergency emergency;
+  HeartbeatProducer producer;
+  HeartbeatConsumer consumer;
+  SyncConsumer sync;
+  TimeConsumer time;
+  EmergencyConsumer emergencies;
+  HighResolutionClock clock;
+  NodeGuarding guarding;
+  OperatingSystem operating_system;
+  Pdos pdos;
+  ParameterStore store;
+  NmtSlave nmt;
+  ErrorBehaviour error_behaviour;
+  SdoServers sdo;
+  TwinRemarks remarks;
+};
+
+Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
+    : device(options.node_id),
+      emergency(device),
+      producer(device),
+      consumer(device, emergency),
+      sync(device, emergency),
+      time(device),
+      emergencies(device),
+      clock(device),
+      guarding(device, emergency),
+      operating_system(device),
+      pdos(device, emergency),
+      store(device, options.storage),
+      nmt(device),
+      error_behaviour(device, nmt),
+      sdo(device) {
+  device.choices = options.choices;
+  nmt.on_reset = [this](Reset kind) { reset(kind); };
+  nmt.on_boot_up = [this] { boot_up(); };
+  nmt.on_change = [this](NmtState from) { change_state(from); };
+  consumer.on_loss = [this] { error_behaviour.on_communication_error(); };
+  guarding.on_loss = [this] { error_behaviour.on_communication_error(); };
+  sync.on_sync = [this](std::optional<std::uint8_t> counter) { pdos.on_sync(counter); };
+  if (twin) {
+    take_over(std::move(*twin));
+  } else {
+    add_own_objects();
+  }
+  // The services work on the objects there are, whoever described them.
+  emergency.bind();
+  producer.bind();
+  consumer.bind();
+  sync.bind();
+  time.bind();
+  emergencies.bind();
+  clock.bind();
+  guarding.bind();
+  pdos.bind();
+  store.bind();
+  sdo.bind();
+  bind_sdo_clients(device);
+}
+
+void Node::Impl::add_own_objects() {
+  add_identity_objects(device);
+  emergency.add_objects();
+  add_error_control_objects(device);
+  sync.add_objects();
+  time.add_objects();
+  emergencies.add_objects();
+  clock.add_objects();
+  guarding.add_objects();
+  operating_system.add_objects();
+  error_behaviour.add_objects();
+  pdos.add_objects();
+  store.add_objects();
+  sdo.add_objects();
+  add_stored_description(device);
+  add_module_list(device);
+  add_sdo_client(device);
+  add_application_objects(device, [this] { pdos.on_application_change(); });
+  add_sample_objects(device);
+  add_error_trigger(device, emergency);
+}
+
+void Node::Impl::take_over(Twin twin) {
+  device.described = true;
+  device.dictionary.objects() = std::move(twin.objects);
+  device.placeholders = twin.placeholders;
+  remarks = std::move(twin.remarks);
+  report_changes(device, [this] { pdos.on_application_change(); });
+  // Of how many errors 1003h tells.
+  const auto& objects = device.dictionary.objects();
+  if (const auto history = objects.find(0x1003); history != objects.end()) {
+    const auto fields = std::ranges::count_if(
+        history->second.entries, [](const auto& entry) { return entry.first != 0 && entry.first != 0xFF; });
+    device.choices.history_depth = static_cast<std::uint8_t>(fields);
+  }
+  // Without SYNC there are no transmission types that need it.
+  if (!objects.contains(0x1005)) {
+    device.choices.rpdo.synchronous_types = device.choices.tpdo.synchronous_types = false;
+    device.choices.tpdo.remote_types = false;
+  }
+}
+
+void Node::Impl::reset(Reset kind) {
+  device.outbox.clear();
+  if (!device.behaviour.transfer_survives_reset) sdo.reset();
+  producer.on_reset();
+  consumer.on_reset();
+  guarding.on_reset();
+  clock.on_reset();
+  operating_system.on_reset();
+  emergency.on_reset(kind == Reset::node);
+  store.load_power_on_values(kind == Reset::node);
+  if (!device.described) mirror_outputs(device.dictionary);
+  pdos.on_state_change();
+}
+
+void Node::Impl::boot_up() {
+  producer.on_boot_up();
+  pdos.on_boot_up();
+}
+
+void Node::Impl::change_state(NmtState) {
+  const Behaviour& faults = device.behaviour;
+  const bool transfers_stay = faults.block.goes_on_in_stopped || faults.sdo.blocked_after_stopped;
+  if (device.state == NmtState::stopped && !transfers_stay) sdo.reset();
+  producer.on_state_change();
+  pdos.on_state_change();
+  emergency.on_state_change();
+}
+
+void Node::Impl::run_timers() {
+  nmt.on_time();
+  consumer.on_time();
+  guarding.on_time();
+  emergency.on_time();
+  producer.on_time();
+  pdos.on_time();
+  store.on_time();
+  sdo.on_time();
+  device.outbox.on_time(device.now);
+}
+
+void Node::Impl::dispatch(const Frame& received) {
+  Frame frame = received;
+  if (frame.error) return;
+  if (device.behaviour.restarts_on && device.behaviour.restarts_on(frame, device.node_id))
+    return nmt.start_reset(Reset::node);
+  if (device.behaviour.accepts_extended_frames) frame.extended = false;
+  if (device.behaviour.accepts_remote_frames) frame.remote = false;
+  if (frame.extended) return;
+  if (frame.remote) {
+    if (!guarding.on_remote(frame)) pdos.on_remote(frame);
+    return;
+  }
+
+  if (device.behaviour.sdo.misread) device.behaviour.sdo.misread(frame, device.node_id);
+  if (frame.id == 0x000) return nmt.on_command(frame);
+  if (device.behaviour.sync_cob_id.takes_any_frame && sync.on_frame(frame)) return;
+  if (sdo.on_frame(frame)) return;
+  if (device.state == NmtState::initialising) return;
+  if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {
+    return consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U), frame.data[0]);
+  }
+  if (device.state == NmtState::stopped) return;
+  if (sync.on_frame(frame) || time.on_frame(frame) || emergencies.on_frame(frame)) return;
+  pdos.on_frame(frame);
+}
+
+Node::Node(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Node::~Node() = default;
+
+conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
+  if (options.node_id < 1 || options.node_id > 127) {
+    return conform::fail("node-ID " + std::to_string(options.node_id) + " is out of range", {},
+                         "CANopen node-IDs are 1 to 127");
+  }
+  if (!options.storage) options.storage = std::make_shared<MemoryStorage>();
+  std::optional<Twin> twin;
+  if (options.description) {
+    auto made = make_twin(*options.description, options.node_id);
+    if (!made) return std::unexpected(made.error());
+    twin = std::move(*made);
+  }
+  auto impl = std::make_unique<Impl>(options, std::move(twin));
+  if (auto done = apply_variants(options.variants, impl->device); !done) return std::unexpected(done.error());
+  if (auto done = apply_defects(options.defects, impl->device); !done) return std::unexpected(done.error());
+  return std::unique_ptr<Node>(new Node(std::move(impl)));
+}
+
+const ObjectDictionary& Node::dictionary() const { return impl_->device.dictionary; }
+const TwinRemarks& Node::remarks() const { return impl_->remarks; }
+
+void Node::attach(Sender sender, conform::BusTime now) {
+  impl_->device.outbox.attach(std::move(sender));
+  impl_->device.now = now;
+  impl_->nmt.start_reset(Reset::node);
+}
+
+void Node::on_frame(const conform::can::Frame& frame, conform::BusTime now) {
+  impl_->device.now = std::max(impl_->device.now, now);
+  impl_->run_timers();
+  impl_->dispatch(frame);
+  impl_->sdo.send_segments();
+}
+
+void Node::on_transmitted(conform::BusTime now) {
+  impl_->device.now = std::max(impl_->device.now, now);
+  impl_->device.outbox.on_transmitted(impl_->device.now);
+  impl_->sdo.on_transmitted();
+  impl_->sdo.send_segments();
+}
+
+void Node::on_time(conform::BusTime now) {
+  impl_->device.now = std::max(impl_->device.now, now);
+  impl_->run_timers();
+  impl_->sdo.send_segments();
+}
+
+std::optional<conform::BusTime> Node::next_wakeup() const {
+  const Impl& impl = *impl_;
+  return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.guarding.next_wakeup(),
+                   impl.emergency.next_wakeup(), impl.producer.next_wakeup(), impl.pdos.next_wakeup(),
+                   impl.store.next_wakeup(), impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
+}
+
+}  // namespace refnode

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "objects/eds_text.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "base/check.hpp"
+#include "base/text.hpp"
+#include "dictionary/object_dictionary.hpp"
+#include "node/node.hpp"
+#include "objects/module_list.hpp"
+
+namespace refnode {
+
+namespace {
+
+constexpr std::string_view header = R"([FileInfo]
+FileName=canopen-refnode.eds
+FileVersion=1
+FileRevision=0
+EDSVersion=4.0
+Description=Reference node of canopen-conform
+CreationTime=12:00AM
+CreationDate=01-01-2026
+CreatedBy=canopen-refnode
+ModificationTime=12:00AM
+ModificationDate=01-01-2026
+ModifiedBy=canopen-refnode
+
+[DeviceInfo]
+VendorName=canopen-conform
+VendorNumber={:#x}
+ProductName=canopen-refnode
+ProductNumber={:#x}
+RevisionNumber={:#x}
+OrderCode=none
+BaudRate_10=1
+BaudRate_20=1
+BaudRate_50=1
+BaudRate_125=1
+BaudRate_250=1
+BaudRate_500=1
+BaudRate_800=1
+BaudRate_1000=1
+SimpleBootUpMaster=0
+SimpleBootUpSlave=1
+Granularity=8
+DynamicChannelsSupported=0
+GroupMessaging=0
+NrOfRXPDO=1
+NrOfTXPDO=1
+LSS_Supported=0
+
+[DummyUsage]
+Dummy0001=0
+Dummy0002=1
+Dummy0003=1
+Dummy0004=1
+Dummy0005=1
+Dummy0006=1
+Dummy0007=1
+
+[Comments]
+Lines=0
+
+)";
+
+std::string_view access_name(const Entry& entry) {
+  switch (entry.access) {
+    case Access::ro: return "ro";
+    case Access::wo: return "wo";
+    case Access::rw: return entry.rx_mappable ? "rww" : "rw";
+    case Access::constant: return "const";
+  }
+  return "";
+}
+
+std::int64_t signed_value(const Entry& entry) {
+  const std::size_t unused = 64 - 8 * entry.default_value.size();
+  return static_cast<std::int64_t>(conform::load_le(entry.default_value) << unused) >> unused;
+}
+
+// `second` is the same entry of a node whose node-ID is one higher than that of the first, which is 1.
+std::string default_text(const Entry& first, const Entry& second) {
+  const std::uint64_t value = conform::load_le(first.default_value);
+  if (is_unsigned_integer(first.type)) {
+    if (first.default_value != second.default_value) return fmt::format("$NODEID+{:#x}", value - 1);
+    return fmt::format("{:#x}", value);
+  }
+  if (is_signed_integer(first.type)) return std::to_string(signed_value(first));
+  switch (first.type) {
+    case DataType::real32: return fmt::format("{}", std::bit_cast<float>(static_cast<std::uint32_t>(value)));
+    case DataType::real64: return fmt::format("{}", std::bit_cast<double>(value));
+    case DataType::visible_string: return {first.default_value.begin(), first.default_value.end()};
+    case DataType::octet_string: return conform::hex_bytes(first.default_value);
+    default: return {};  // UNICODE_STRING, times and DOMAIN have no agreed notation
+  }
+}
+
+// Bit 0: not to be written by a configuration tool; bit 1: not to be read in a scan.
+unsigned flags(std::uint16_t index, std::uint8_t sub, const Entry& entry) {
+  if (index == 0x1003 && sub != 0) return 2;
+  return entry.command ? 1 : 0;
+}
+
+std::string entry_text(std::uint16_t index, std::uint8_t sub, const Entry& entry, const Entry& other) {
+  constexpr unsigned variable = 0x7;
+  constexpr unsigned domain = 0x2;
+  const bool changes = entry.read != nullptr;  // what is read is not what was configured
+  std::string text = fmt::format("ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n",
+                                 entry.name, entry.type == DataType::domain ? domain : variable,
+                                 static_cast<unsigned>(entry.type), access_name(entry));
+  text += fmt::format("DefaultValue={}\n", changes ? std::string() : default_text(entry, other));
+  text += fmt::format("PDOMapping={}\n", entry.rx_mappable || entry.tx_mappable ? 1 : 0);
+  if (entry.type != DataType::boolean) {
+    if (entry.low) text += fmt::format("LowLimit={}\n", *entry.low);
+    if (entry.high) text += fmt::format("HighLimit={}\n", *entry.high);
+  }
+  if (const unsigned bits = flags(index, sub, entry); bits != 0)
+    text += fmt::format("ObjFlags={:#x}\n", bits);
+  return text + "\n";
+}
+
+std::string object_text(std::uint16_t index, const Object& object, const Object& other) {
+  if (object.kind == ObjectKind::variable) {
+    return fmt::format("[{:04X}]\n", index) + entry_text(index, 0, object.entries.at(0), other.entries.at(0));
+  }
+  std::string text =
+      fmt::format("[{:04X}]\nParameterName={}\nObjectType={:#x}\nSubNumber={:#x}\n\n", index, object.name,
+                  object.kind == ObjectKind::array ? 0x8U : 0x9U, object.entries.size());
+  for (const auto& [sub, entry] : object.entries) {
+    text +=
+        fmt::format("[{:04X}sub{:X}]\n", index, sub) + entry_text(index, sub, entry, other.entries.at(sub));
+  }
+  return text;
+}
+
+std::string list_text(std::string_view section, const std::vector<std::uint16_t>& indices) {
+  std::string text = fmt::format("[{}]\nSupportedObjects={}\n", section, indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) text += fmt::format("{}=0x{:04X}\n", i + 1, indices[i]);
+  return text + "\n";
+}
+
+std::string module_text() {
+  std::string text = fmt::format("[SupportedModules]\nNrOfEntries={}\n", modules.size());
+  for (std::size_t i = 0; i < modules.size(); ++i) text += fmt::format("{}={}\n", i + 1, modules[i].name);
+  text += "\n";
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    text += fmt::format(
+        "[M{}ModuleInfo]\nProductName={}\nProductVersion=1\nProductRevision=0\nOrderCode={:04X}\n\n", i + 1,
+        modules[i].name, modules[i].identifier);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string eds_text() {
+  const auto one = Node::create({1, {}, {}, {}});
+  const auto two = Node::create({2, {}, {}, {}});
+  CONFORM_CHECK(one.has_value() && two.has_value());
+  const ObjectDictionary& dictionary = (*one)->dictionary();
+
+  std::vector<std::uint16_t> mandatory, optional, manufacturer;
+  std::string objects;
+  for (const auto& [index, object] : dictionary.objects()) {
+    const bool required = index == 0x1000 || index == 0x1001 || index == 0x1018;
+    const bool own = index >= 0x2000 && index <= 0x5FFF;
+    (required ? mandatory : own ? manufacturer : optional).push_back(index);
+    objects += object_text(index, object, (*two)->dictionary().objects().at(index));
+  }
+  return fmt::format(header, dictionary.number(0x1018, 1), dictionary.number(0x1018, 2),
+                     dictionary.number(0x1018, 3)) +
+         list_text("MandatoryObjects", mandatory) + list_text("OptionalObjects", optional) +
+         list_text("ManufacturerObjects", manufacturer) + module_text() + objects;
+}
+
+}  // namespace refnode

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// The device description inside the device (1021h, 1022h, CiA 301, 7.5.2.24 and 7.5.2.25).
+#pragma once
+
+#include "device/device.hpp"
+
+namespace refnode {
+
+void add_stored_description(Device& device);
+
+}  // namespace refnode

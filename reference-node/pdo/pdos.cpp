@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pdo/pdos.hpp"
+
+#include <algorithm>
+
+namespace refnode {
+
+void Pdos::add_objects() {
+  // Two digital outputs and an analog one, two digital inputs and an analog one. Bit 30 of the TPDO: not on
+  // remote request.
+  add_pdo_objects(device_->dictionary, PdoDirection::receive, 0x200U + device_->node_id,
+                  {0x62000108, 0x62000208, 0x64110110});
+  add_pdo_objects(device_->dictionary, PdoDirection::transmit, 0x40000180U + device_->node_id,
+                  {0x60000108, 0x60000208, 0x64010110});
+}
+
+void Pdos::bind() {
+  const auto& objects = device_->dictionary.objects();
+  for (std::uint16_t number = 0; number < pdos_of_a_direction; ++number) {
+    const auto exists = [&](PdoDirection direction) {
+      return objects.contains(static_cast<std::uint16_t>(first_communication_index(direction) + number));
+    };
+    if (exists(PdoDirection::receive)) {
+      receive_.emplace_back(*device_, *emergency_, number).on_applied = [this] { on_application_change(); };
+    }
+    if (exists(PdoDirection::transmit)) transmit_.emplace_back(*device_, number);
+  }
+}
+
+void Pdos::on_application_change() {
+  if (std::ranges::any_of(receive_, &ReceivePdo::applying)) return;
+  for (TransmitPdo& pdo : transmit_) pdo.on_application_change();
+}
+
+void Pdos::on_frame(const Frame& frame) {
+  // Nothing forbids two RPDOs of the same CAN-ID.
+  for (ReceivePdo& pdo : receive_) pdo.on_frame(frame);
+}
+
+void Pdos::on_remote(const Frame& frame) {
+  for (TransmitPdo& pdo : transmit_) {
+    if (pdo.on_remote(frame)) return;
+  }
+}
+
+void Pdos::on_sync(std::optional<std::uint8_t> counter) {
+  for (ReceivePdo& pdo : receive_) pdo.on_sync();
+  for (TransmitPdo& pdo : transmit_) pdo.on_sync(counter);
+}
+
+void Pdos::on_state_change() {
+  for (ReceivePdo& pdo : receive_) pdo.on_state_change();
+  for (TransmitPdo& pdo : transmit_) pdo.on_state_change();
+}
+
+void Pdos::on_boot_up() {
+  for (TransmitPdo& pdo : transmit_) pdo.on_state_change();
+}
+
+void Pdos::on_time() {
+  for (ReceivePdo& pdo : receive_) pdo.on_time();
+  for (TransmitPdo& pdo : transmit_) pdo.on_time();
+}
+
+std::optional<BusTime> Pdos::next_wakeup() const {
+  std::optional<BusTime> first;
+  for (const ReceivePdo& pdo : receive_) first = earliest({first, pdo.next_wakeup()});
+  for (const TransmitPdo& pdo : transmit_) first = earliest({first, pdo.next_wakeup()});
+  return first;
+}
+
+}  // namespace refnode

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// All PDOs of the node: as many as the dictionary has communication parameters.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+
+#include "device/device.hpp"
+#include "emergency/emergency.hpp"
+#include "pdo/pdo.hpp"
+
+namespace refnode {
+
+class Pdos {
+ public:
+  Pdos(Device& device, Emergency& emergency) : device_(&device), emergency_(&emergency) {}
+
+  /// The node's own: one RPDO and one TPDO of four bytes each.
+  void add_objects();
+  /// Puts the service behind every communication parameter there is.
+  void bind();
+
+  /// An object that may be mapped has a new value. The values of one RPDO change together: they are one event
+  /// of a TPDO.
+  void on_application_change();
+  void on_frame(const Frame& frame);
+  void on_remote(const Frame& frame);
+  void on_sync(std::optional<std::uint8_t> counter);
+  /// A reset or another state: what was buffered is gone, the TPDOs start anew.
+  void on_state_change();
+  void on_boot_up();
+  void on_time();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+
+ private:
+  Device* device_;
+  Emergency* emergency_;
+  std::deque<ReceivePdo> receive_;  // PDOs do not move: their entries point to them
+  std::deque<TransmitPdo> transmit_;
+};
+
+}  // namespace refnode

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Segmented transfers behind their initiate (CiA 301, 7.2.4.3.4 and 7.2.4.3.7).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "device/device.hpp"
+#include "sdo/frames.hpp"
+
+namespace refnode {
+
+class SegmentedUpload {
+ public:
+  SegmentedUpload(Multiplexer mux, Bytes data) : mux_(mux), data_(std::move(data)) {}
+
+  [[nodiscard]] SdoReply segment(const SdoData& request, const Device& device);
+  [[nodiscard]] Multiplexer mux() const { return mux_; }
+  [[nodiscard]] bool finished() const { return finished_; }
+
+ private:
+  Multiplexer mux_;
+  Bytes data_;
+  std::size_t position_ = 0;  ///< next byte to send
+  bool toggle_ = false;       ///< expected next
+  bool finished_ = false;
+};
+
+class SegmentedDownload {
+ public:
+  SegmentedDownload(Multiplexer mux, std::optional<std::size_t> announced)
+      : mux_(mux), announced_(announced) {}
+
+  [[nodiscard]] SdoReply segment(const SdoData& request, Device& device);
+  [[nodiscard]] Multiplexer mux() const { return mux_; }
+  [[nodiscard]] bool finished() const { return finished_; }
+
+ private:
+  [[nodiscard]] Accepted store(Device& device, std::size_t limit);
+
+  Multiplexer mux_;
+  std::optional<std::size_t> announced_;
+  Bytes data_;           ///< received so far; grows with what comes, whatever was announced
+  bool toggle_ = false;  ///< expected next
+  bool finished_ = false;
+};
+
+}  // namespace refnode

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sdo/server.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "sdo/block.hpp"
+
+namespace refnode {
+
+namespace {
+
+// Byte 0 of a request: bits 7-5 client command specifier.
+constexpr unsigned download_segment_request = 0;
+constexpr unsigned download_initiate_request = 1;
+constexpr unsigned upload_initiate_request = 2;
+constexpr unsigned upload_segment_request = 3;
+constexpr unsigned abort_transfer = 4;
+constexpr unsigned block_upload_request = 5;
+constexpr unsigned block_download_request = 6;
+
+// Block upload: bits 1-0 client subcommand, bit 2 CRC; block download: bit 0, bit 1 size, bit 2 CRC.
+constexpr unsigned block_initiate = 0;
+constexpr unsigned block_end = 1;
+constexpr unsigned block_acknowledge = 2;
+constexpr unsigned crc_bit = 0x04;
+constexpr unsigned size_bit = 0x02;
+
+}  // namespace
+
+void SdoServer::on_request(const Frame& frame, std::uint32_t response_id) {
+  // SDO frames have eight bytes; anything else is no request.
+  if (frame.size() != 8 && !device_->behaviour.short_requests_completed) return;
+  std::copy_n(frame.data.begin(), frame.size(), last_request_.begin());
+  response_id_ = response_id;
+  active_at_ = device_->now;
+  SdoExchange exchange;
+  exchange.channel = channel_;
+  exchange.request = last_request_;
+  exchange.mux = mux_of(exchange.request);
+  conclude(exchange, serve(exchange));
+}
+
+SdoReply SdoServer::serve(SdoExchange& exchange) {
+  if (device_->state == NmtState::stopped && device_->behaviour.sdo.refuses_in_stopped) {
+    return refuse(abort_code::device_state);
+  }
+  const unsigned command = exchange.request[0] >> 5U;
+  auto* receiving = std::get_if<BlockDownload>(&transfer_);
+  if (receiving != nullptr && receiving->in_sub_block()) {
+    // 80h would be sequence number 0: the one frame that cannot be a segment.
+    if (exchange.request[0] != 0x80) return block_segment(exchange, *receiving);
+  }
+  switch (command) {
+    case download_segment_request:
+      exchange.step = SdoStep::download_segment;
+      if (auto* transfer = std::get_if<SegmentedDownload>(&transfer_)) {
+        exchange.mux = transfer->mux();
+        return transfer->segment(exchange.request, *device_);
+      }
+      return out_of_place(exchange);
+    case download_initiate_request: return initiate_download(exchange);
+    case upload_initiate_request: return initiate_upload(exchange);
+    case upload_segment_request:
+      exchange.step = SdoStep::upload_segment;
+      if (auto* transfer = std::get_if<SegmentedUpload>(&transfer_)) {
+        exchange.mux = transfer->mux();
+        return transfer->segment(exchange.request, *device_);
+      }
+      return out_of_place(exchange);
+    case abort_transfer:
+      if (!ignores_abort()) reset();
+      if (device_->behaviour.answers_client_abort) return refuse(abort_code::general_error);
+      return std::nullopt;
+    case block_upload_request: return block_upload(exchange);
+    case block_download_request: return block_download(exchange);
+    default: return refuse(abort_code::command_unknown);
+  }
+}
+
+bool SdoServer::ignores_abort() const {
+  const SdoBlockFaults& fault = device_->behaviour.block;
+  const auto* sending = std::get_if<BlockUpload>(&transfer_);
+  const bool block = sending != nullptr || std::holds_alternative<BlockDownload>(transfer_);
+  return device_->behaviour.ignores_client_abort || (fault.client_abort_ignored && block) ||
+         (fault.abort_waits_for_sub_block && sending != nullptr && sending->has_segment());
+}
+
+SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
+  exchange.mux = running_mux().value_or(Multiplexer{});
+  return refuse(abort_code::command_unknown);
+}
+
+SdoReply SdoServer::initiate_upload(SdoExchange& exchange) {
+  exchange.step = SdoStep::upload_initiate;
+  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
+  reset();
+  Upload data = device_->dictionary.upload(exchange.mux);
+  if (!data) return refuse(data.error());
+  return upload_response(exchange, std::move(*data));
+}
+
+SdoReply SdoServer::upload_response(SdoExchange& exchange, Bytes data) {
+  const SdoChoices& choices = device_->choices.sdo;
+  if (device_->behaviour.long_numbers_truncated && data.size() <= 8) {
+    data.resize(std::min<std::size_t>(data.size(), 4));
+  }
+  const std::size_t size = data.size();
+  const bool short_enough = size >= 1 && size <= 4;
+  if (short_enough && (choices.expedited_upload || !choices.segmented)) {
+    // 010x nnes: expedited with size, n = bytes without data.
+    auto reply = with_mux(static_cast<std::uint8_t>(0x43U | ((4U - size) << 2U)), exchange.mux);
+    std::copy(data.begin(), data.end(), reply.begin() + 4);
+    return reply;
+  }
+  if (!choices.segmented) return refuse(abort_code::unsupported_access);
+  auto reply = with_mux(choices.upload_size_indicated ? 0x41 : 0x40, exchange.mux);
+  if (choices.upload_size_indicated) put_size(reply, size);
+  transfer_ = SegmentedUpload(exchange.mux, std::move(data));
+  return reply;
+}
+
+SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
+  exchange.step = SdoStep::download_initiate;
+  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
+  reset();
+  const std::uint8_t command = exchange.request[0];
+  const bool expedited = (command & 0x02U) != 0;
+  const bool sized = (command & 0x01U) != 0;
+  const auto confirmation = with_mux(0x60, exchange.mux);
+
+  if (expedited) {
+    // Without size the server takes what the object needs; more than four bytes cannot come this way.
+    std::size_t size = 4U - ((command >> 2U) & 0x03U);
+    if (!sized) {
+      const std::size_t capacity = device_->dictionary.capacity(exchange.mux);
+      size = capacity == 0 ? 4 : std::min<std::size_t>(capacity, 4);
+    }
+    const ByteView field = ByteView(exchange.request).subspan(4);
+    const Accepted written = device_->dictionary.download(exchange.mux, field.first(size));
+    if (!written) return refuse(written.error());
+    return confirmation;
+  }
+
+  if (!device_->choices.sdo.segmented) return refuse(abort_code::command_unknown);
+  std::optional<std::size_t> announced;
+  if (sized) announced = size_field(exchange.request);
+  const Accepted granted = device_->dictionary.may_download(exchange.mux, announced);
+  if (!granted) {
+    const bool overlooked =
+        device_->behaviour.segmented_access_unchecked && granted.error() == abort_code::read_only;
+    if (!overlooked) return refuse(granted.error());
+  }
+  transfer_ = SegmentedDownload(exchange.mux, announced);
+  return confirmation;
+}
+
+SdoReply SdoServer::block_upload(SdoExchange& exchange) {
+  const unsigned subcommand = exchange.request[0] & 0x03U;
+  if (subcommand == block_initiate) return initiate_block_upload(exchange);
+  exchange.step = subcommand == block_end ? SdoStep::block_upload_end : SdoStep::block_upload_segment;
+  auto* transfer = std::get_if<BlockUpload>(&transfer_);
+  if (transfer == nullptr) return out_of_place(exchange);
+  exchange.mux = transfer->mux();
+  if (subcommand == block_end) return transfer->confirm_end();
+  const SdoReply reply = subcommand == block_acknowledge
+                             ? transfer->acknowledge(device_->behaviour.block.acknowledged(
+                                   exchange.request, transfer->sequence(), transfer->block_size()))
+                             : transfer->start();
+  // A frame here is the end frame already; segments follow through send_segment().
+  if (reply && *reply) exchange.step = SdoStep::block_upload_end;
+  pacer_.start(device_->now + device_->choices.sdo.turnaround);
+  return reply;
+}
+
+SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
+  const SdoChoices& choices = device_->choices.sdo;
+  exchange.step = SdoStep::block_upload_initiate;
+  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
+  if (!choices.block) return refuse(abort_code::command_unknown);
+  reset();
+  const SdoBlockFaults& fault = device_->behaviour.block;
+  const std::uint8_t block_size = fault.asked(exchange.request[4]);
+  const std::uint8_t threshold = exchange.request[5];
+  Upload data = device_->dictionary.upload(exchange.mux);
+  if (!data) return refuse(data.error());
+  if (!valid_block_size(block_size)) return refuse(abort_code::block_size_invalid);
+  // Protocol switch threshold: up to this size the server may go on with a normal upload; 0 forbids it.
+  const bool switches = choices.protocol_switch && threshold != 0 && data->size() <= threshold;
+  if (fault.switches(data->size(), threshold, switches)) {
+    exchange.step = SdoStep::upload_initiate;
+    return upload_response(exchange, std::move(*data));
+  }
+  auto reply = with_mux(static_cast<std::uint8_t>(0xC0U | (choices.crc ? crc_bit : 0U) |
+                                                  (choices.upload_size_indicated ? size_bit : 0U)),
+                        exchange.mux);
+  if (choices.upload_size_indicated) put_size(reply, data->size());
+  const bool crc = choices.crc && (exchange.request[0] & crc_bit) != 0;
+  transfer_ = BlockUpload(exchange.mux, std::move(*data), block_size, crc);
+  if (fault.starts_at_once) {
+    [[maybe_unused]] const auto no_answer = std::get<BlockUpload>(transfer_).start();
+  }
+  return reply;
+}
+
+SdoReply SdoServer::block_download(SdoExchange& exchange) {
+  if ((exchange.request[0] & 0x01U) == block_initiate) return initiate_block_download(exchange);
+  exchange.step = SdoStep::block_download_end;
+  auto* transfer = std::get_if<BlockDownload>(&transfer_);
+  if (transfer == nullptr) return out_of_place(exchange);
+  exchange.mux = transfer->mux();
+  return transfer->end(exchange.request, *device_);
+}
+
+SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
+  const SdoChoices& choices = device_->choices.sdo;
+  exchange.step = SdoStep::block_download_initiate;
+  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+  if (busy() && device_->choices.sdo.initiate_while_busy)
+    return refuse(*device_->choices.sdo.initiate_while_busy);
+  if (!choices.block) return refuse(abort_code::command_unknown);
+  reset();
+  const std::uint8_t command = exchange.request[0];
+  std::optional<std::size_t> announced;
+  if ((command & size_bit) != 0) announced = size_field(exchange.request);
+  const SdoBlockFaults& fault = device_->behaviour.block;
+  const auto size = fault.length_unchecked ? std::nullopt : announced;
+  const Accepted granted = device_->dictionary.may_download(exchange.mux, size);
+  if (!granted) return refuse(granted.error());
+  const std::uint8_t block_size = fault.offered_size != 0 ? fault.offered_size : choices.block_size;
+  auto reply = with_mux(static_cast<std::uint8_t>(0xA0U | (choices.crc ? crc_bit : 0U)), exchange.mux);
+  reply[4] = block_size;
+  const bool crc = choices.crc && (command & crc_bit) != 0;
+  transfer_ = BlockDownload(exchange.mux, announced, block_size, crc);
+  return reply;
+}
+
+SdoReply SdoServer::block_segment(SdoExchange& exchange, BlockDownload& transfer) {
+  exchange.mux = transfer.mux();
+  exchange.sequence = exchange.request[0] & 0x7FU;
+  SdoReply reply = transfer.segment(exchange.request, *device_);
+  exchange.step = reply && *reply ? SdoStep::block_download_ack : SdoStep::block_download_segment;
+  return reply;
+}
+
+std::optional<Multiplexer> SdoServer::running_mux() const {
+  return std::visit(
+      [](const auto& transfer) -> std::optional<Multiplexer> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(transfer)>, std::monostate>) {
+          return std::nullopt;
+        } else {
+          return transfer.mux();
+        }
+      },
+      transfer_);
+}
+
+bool SdoServer::transfer_finished() const {
+  return std::visit(
+      [](const auto& transfer) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(transfer)>, std::monostate>) {
+          return false;
+        } else {
+          return transfer.finished();
+        }
+      },
+      transfer_);
+}
+
+void SdoServer::conclude(SdoExchange& exchange, const SdoReply& reply) {
+  std::optional<SdoData> data;
+  if (reply) {
+    data = *reply;
+    if (transfer_finished()) reset();
+  } else {
+    exchange.aborted = reply.error();
+    if (!device_->behaviour.abort_keeps_transfer) reset();
+    data = with_mux(0x80, exchange.mux);
+    conform::store_le(std::span(*data).subspan(4), reply.error().value());
+  }
+  send(exchange, data, device_->choices.sdo.turnaround);
+}
+
+void SdoServer::send(const SdoExchange& exchange, const std::optional<SdoData>& data, Duration delay) {
+  std::vector<Outgoing> frames;
+  if (data) frames.push_back({conform::can::data_frame(conform::CanId(response_id_), *data), delay});
+  device_->outbox.send(FilterContext{Service::sdo, device_->node_id, device_->state, &exchange},
+                       std::move(frames), device_->now);
+}
+
+bool SdoServer::send_segment() {
+  auto* transfer = std::get_if<BlockUpload>(&transfer_);
+  if (transfer == nullptr || !transfer->has_segment()) return false;
+  if (!pacer_.may_send(device_->now, device_->outbox.waiting(device_->now),
+                       device_->choices.sdo.sub_block_queued))
+    return false;
+  SdoExchange exchange;
+  exchange.channel = channel_;
+  exchange.request = last_request_;
+  exchange.step = SdoStep::block_upload_segment;
+  exchange.mux = transfer->mux();
+  const SdoData frame = transfer->next_segment();
+  exchange.sequence = transfer->sequence();
+  pacer_.on_segment();
+  active_at_ = device_->now;
+  send(exchange, frame, {});
+  return true;
+}
+
+void SdoServer::on_time() {
+  SdoExchange exchange;
+  exchange.channel = channel_;
+  auto* receiving = std::get_if<BlockDownload>(&transfer_);
+  if (receiving != nullptr) {
+    const auto due = receiving->acknowledge_at(*device_);
+    if (due && *due <= device_->now) {
+      exchange.step = SdoStep::block_download_ack;
+      exchange.mux = receiving->mux();
+      exchange.sequence = receiving->sequence();
+      send(exchange, receiving->acknowledge(*device_), {});
+    }
+  }
+  const auto limit = device_->choices.sdo.time_out;
+  if (!busy() || !limit || device_->now < active_at_ + *limit) return;
+  exchange.step = SdoStep::time_out;
+  exchange.mux = running_mux().value_or(Multiplexer{});
+  conclude(exchange, refuse(abort_code::time_out));
+  reset();
+}
+
+std::optional<BusTime> SdoServer::next_wakeup() const {
+  if (!busy()) return std::nullopt;
+  std::optional<BusTime> next;
+  if (const auto limit = device_->choices.sdo.time_out) next = active_at_ + *limit;
+  if (const auto* transfer = std::get_if<BlockDownload>(&transfer_)) {
+    next = earliest({next, transfer->acknowledge_at(*device_)});
+  }
+  const auto* sending = std::get_if<BlockUpload>(&transfer_);
+  if (sending != nullptr && sending->has_segment()) {
+    // A full queue is announced by on_transmitted(), or forgotten after a while.
+    const bool ahead = pacer_.next() > device_->now;
+    next = earliest({next, ahead ? pacer_.next() : device_->outbox.waiting_ends(device_->now)});
+  }
+  return next;
+}
+
+}  // namespace refnode

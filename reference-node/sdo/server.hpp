@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// One SDO server (CiA 301, 7.2.4): takes the requests of its channel, begins transfers and hands their frames
+// on. Passive: it reacts to frames and time and owns nothing but the state of one transfer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "device/device.hpp"
+#include "sdo/block_download.hpp"
+#include "sdo/block_upload.hpp"
+#include "sdo/frames.hpp"
+#include "sdo/segment_pacer.hpp"
+#include "sdo/segmented.hpp"
+
+namespace refnode {
+
+class SdoServer {
+ public:
+  /// `channel`: 0 is the default server, 1 the one of 1201h and so on.
+  SdoServer(Device& device, std::uint8_t channel) : device_(&device), channel_(channel) {}
+
+  /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
+  void on_request(const Frame& frame, std::uint32_t response_id);
+  /// Drops a running transfer without a word.
+  void reset() { transfer_ = std::monostate{}; }
+
+  void on_time();
+  void on_transmitted() { pacer_.on_transmitted(device_->now); }
+  /// Sends one segment of a block upload if it is time; false when there is none to send now.
+  bool send_segment();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+
+ private:
+  using Transfer =
+      std::variant<std::monostate, SegmentedUpload, SegmentedDownload, BlockUpload, BlockDownload>;
+
+  [[nodiscard]] SdoReply serve(SdoExchange& exchange);
+  [[nodiscard]] SdoReply initiate_upload(SdoExchange& exchange);
+  [[nodiscard]] SdoReply upload_response(SdoExchange& exchange, Bytes data);
+  [[nodiscard]] SdoReply initiate_download(SdoExchange& exchange);
+  [[nodiscard]] SdoReply block_upload(SdoExchange& exchange);
+  [[nodiscard]] SdoReply initiate_block_upload(SdoExchange& exchange);
+  [[nodiscard]] SdoReply block_download(SdoExchange& exchange);
+  [[nodiscard]] SdoReply initiate_block_download(SdoExchange& exchange);
+  [[nodiscard]] SdoReply block_segment(SdoExchange& exchange, BlockDownload& transfer);
+  /// Whether an abort of the client leaves the transfer as it is: never in a conformant server.
+  [[nodiscard]] bool ignores_abort() const;
+  /// A request that belongs to no transfer, or to another kind than the one that is running.
+  [[nodiscard]] SdoReply out_of_place(SdoExchange& exchange) const;
+
+  [[nodiscard]] bool busy() const { return !std::holds_alternative<std::monostate>(transfer_); }
+  [[nodiscard]] std::optional<Multiplexer> running_mux() const;
+  [[nodiscard]] bool transfer_finished() const;
+  void conclude(SdoExchange& exchange, const SdoReply& reply);
+  void send(const SdoExchange& exchange, const std::optional<SdoData>& data, Duration delay);
+
+  Device* device_;
+  std::uint8_t channel_;
+  std::uint32_t response_id_ = 0;
+  Transfer transfer_;
+  BusTime active_at_{};  ///< last frame of the running transfer, in either direction
+  SegmentPacer pacer_;
+  SdoData last_request_{};  ///< used by a defect only
+};
+
+}  // namespace refnode
