@@ -1,32 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 // The known ways to break the node, one row per fault. A row says what is wrong, which requirements that
-// violates, and how it is done: an edit of the dictionary, a filter on outgoing frames, or a switch of
-// Behaviour.
+// violates, and how it is done: by an edit of the dictionary or of the hooks of an entry, by a filter on what
+// comes in or goes out, or by another decision in place of a rule of a service.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include "device/outbox.hpp"
-#include "dictionary/object_dictionary.hpp"
-#include "node/behaviour.hpp"
+#include "node/parts.hpp"
 
 namespace refnode {
 
-/// Changes the finished dictionary before the node starts; the node-ID is given because some defaults hold
-/// it.
+/// Changes the finished dictionary; the node-ID is given because some defaults hold it.
 using DictionaryEdit = std::function<void(ObjectDictionary&, std::uint8_t node_id)>;
 using BehaviourSwitch = std::function<void(Behaviour&)>;
+/// Changes the frames that one received frame has led to, before a service sees them.
+using Reading = std::function<void(Parts&, std::vector<Frame>&)>;
+
+/// How a finished node is changed before it starts. What it is made of is copied for every node, so a filter
+/// may have a memory.
+class Change {
+ public:
+  /// Of a function of the parts, an edit of the dictionary, a filter on the way out or a reading on the way
+  /// in, as a row of a table holds them.
+  template <typename F>
+  Change(F how) {  // NOLINT(google-explicit-constructor)
+    if constexpr (std::invocable<F&, Parts&>) {
+      change_ = std::move(how);
+    } else if constexpr (std::invocable<F&, ObjectDictionary&, std::uint8_t>) {
+      change_ = [how](Parts& parts) { how(parts.device.dictionary, parts.device.node_id); };
+    } else if constexpr (std::invocable<F&, Behaviour&>) {
+      change_ = [how](Parts& parts) { how(parts.device.behaviour); };
+    } else if constexpr (std::invocable<F&, const FilterContext&, std::vector<Outgoing>&>) {
+      change_ = [how](Parts& parts) { parts.device.outbox.add_filter(how); };
+    } else {
+      change_ = [how](Parts& parts) {
+        parts.device.inbox.add_filter(
+            [&parts, how](std::vector<Frame>& frames) mutable { how(parts, frames); });
+      };
+    }
+  }
+
+  void operator()(Parts& parts) const { change_(parts); }
+
+ private:
+  std::function<void(Parts&)> change_;
+};
 
 struct Defect {
   std::string_view id;
   std::string_view summary;
   std::vector<std::string_view> violates;  ///< requirement ids, the one that it proves best first
-  std::variant<DictionaryEdit, Filter, BehaviourSwitch> how;
+  Change how;
 };
 
 /// All rows, in the order of the tables; ids are unique and never reused.

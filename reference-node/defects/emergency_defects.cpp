@@ -1,44 +1,119 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the error register 1001h and of the EMCY producer.
+#include <chrono>
+#include <memory>
 #include <utility>
 
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
 
 using namespace defect;
 
+namespace {
+
+CobIdRules& of_emergency(Parts& parts) { return parts.emergency.cob_id_rules; }
+EmergencyRules& rules_of(Parts& parts) { return parts.emergency.rules; }
+
+bool is_error_reset(const Outgoing& outgoing) {
+  return outgoing.frame.data[0] == 0 && outgoing.frame.data[1] == 0;
+}
+
+/// Other bits of the error register for an error than those of table 54.
+Change sets_bits(int (*changed)(std::uint8_t bits)) {
+  return decides(rules_of, &EmergencyRules::register_bits, [changed](const auto& former, std::uint16_t code) {
+    return static_cast<std::uint8_t>(changed(former(code)));
+  });
+}
+
+Change inhibit_time(Duration (*other)(std::int64_t value)) {
+  return decides(rules_of, &EmergencyRules::inhibit_time,
+                 [other](const auto&, std::int64_t value) { return other(value); });
+}
+
+/// Once there has been an error the generic bit stays, until reset node.
+Change keeps_generic_bit() {
+  return [](Parts& parts) {
+    const auto raised = std::make_shared<bool>(false);
+    parts.device.errors.raise.replace(
+        [raised](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+          *raised = true;
+          former(cause, detail);
+        });
+    const auto shown = [raised](std::uint8_t bits) {
+      return bits == 0 && *raised ? std::uint8_t{0x01} : bits;
+    };
+    reading(0x1001, 0, [shown](Parts&, const Read& former) {
+      Upload bits = former();
+      if (bits) bits->front() = shown(bits->front());
+      return bits;
+    })(parts);
+    parts.device.inbox.add_filter([raised, id = parts.device.node_id](std::vector<Frame>& frames) {
+      for (const Frame& frame : frames) {
+        const bool reset_node = frame.id == 0 && frame.size() == 2 && frame.data[0] == 0x81;
+        if (reset_node && (frame.data[1] == 0 || frame.data[1] == id)) *raised = false;
+      }
+    });
+    parts.device.outbox.add_filter([shown](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::emergency) return;
+      for (Outgoing& outgoing : frames) outgoing.frame.data[2] = shown(outgoing.frame.data[2]);
+    });
+  };
+}
+
+/// What comes while the inhibit time runs is not kept for its end.
+Change lost_while_inhibited() {
+  return [](Parts& parts) {
+    const auto inhibited_until = std::make_shared<BusTime>();
+    const auto inhibit = parts.emergency.rules.inhibit_time;
+    parts.emergency.rules.inhibit_time.replace([](const auto&, std::int64_t) { return Duration::zero(); });
+    parts.device.outbox.add_filter(
+        [&parts, inhibited_until, inhibit](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service == Service::boot_up) *inhibited_until = {};
+          if (context.service != Service::emergency) return;
+          if (context.now < *inhibited_until) return frames.clear();
+          *inhibited_until = context.now + inhibit(parts.device.time_value(0x1015, 0));
+        });
+  };
+}
+
+}  // namespace
+
 DefectTable emergency_defects() {
-  using B = Behaviour;
   return {
       {"errors-never-clear",
        "An error stays until the next reset, whatever becomes of its cause",
        {"EMCY-SEQ-02", "OD-1001-06", "EC-HBC-07"},
-       behave(&Behaviour::errors_never_clear)},
+       Change(
+           [](Parts& parts) { parts.device.errors.clear.replace([](const auto&, const ErrorCause&) {}); })},
       {"1001-not-set-on-error",
        "1001h stays 00h while errors are present",
        {"OD-1001-05", "EMCY-FMT-04"},
-       behave(&B::error_register_never_set)},
+       sets_bits([](std::uint8_t) { return 0x00; })},
       {"1001-specific-bit-without-generic",
        "1001h lacks the generic bit 0",
        {"OD-1001-04", "EMCY-FMT-04", "OD-1001-05"},
-       behave(&B::error_register_without_generic)},
+       sets_bits([](std::uint8_t bits) { return bits & 0xFE; })},
       {"1001-reserved-bit6-set",
        "1001h has the reserved bit 6 set with every error",
        {"OD-1001-03", "EMCY-FMT-04"},
-       behave(&B::error_register_bit6_set)},
+       sets_bits([](std::uint8_t bits) { return bits | 0x40; })},
       {"1001-not-cleared-on-recovery",
        "1001h keeps bit 0 after all errors have gone",
        {"OD-1001-06", "EMCY-SEQ-02", "EC-HBC-07"},
-       behave(&B::error_register_sticks)},
+       keeps_generic_bit()},
       {"1001-differs-from-emcy",
        "EMCY always shows 01h as error register",
        {"OD-1001-07", "EMCY-FMT-03"},
-       behave(&B::emergency_register_always_generic)},
+       reshape(Service::emergency,
+               [](const FilterContext&, Frame& frame) {
+                 if (frame.data[0] != 0 || frame.data[1] != 0) frame.data[2] = 0x01;
+               })},
       {"error-register-bit-wrong",
        "Communication errors do not set bit 4 of 1001h",
        {"EMCY-FMT-05"},
-       behave(&B::communication_bit_missing)},
+       sets_bits([](std::uint8_t bits) { return bits & ~0x10; })},
       {"emcy-dlc-short",
        "EMCY frames have three bytes",
        {"EMCY-FMT-01"},
@@ -59,19 +134,31 @@ DefectTable emergency_defects() {
       {"emcy-reset-missing",
        "The end of all errors is not reported",
        {"EMCY-SEQ-02", "EC-HBC-07"},
-       behave(&B::error_reset_not_sent)},
+       Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+         if (context.service == Service::emergency) std::erase_if(frames, is_error_reset);
+       })},
       {"emcy-reset-register-cleared-too-early",
        "When one of several errors goes, EMCY 0000h claims that none is left",
        {"EMCY-SEQ-05"},
-       behave(&B::error_reset_too_early)},
+       together([](Parts& parts) { parts.emergency.choices.error_reset_for_each = true; },
+                reshape(Service::emergency,
+                        [](const FilterContext&, Frame& frame) {
+                          if (is_error_reset({frame, {}})) frame.data[2] = 0x00;
+                        }))},
       {"emcy-second-error-suppressed",
        "While one error is present a second is not reported",
        {"EMCY-SEQ-04"},
-       behave(&B::second_error_suppressed)},
+       Change([](Parts& parts) {
+         parts.device.outbox.add_filter(
+             [&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+               if (context.service != Service::emergency || parts.emergency.active().size() < 2) return;
+               std::erase_if(frames, [](const Outgoing& outgoing) { return !is_error_reset(outgoing); });
+             });
+       })},
       {"emcy-sent-in-stopped",
        "EMCY is sent in Stopped",
        {"EMCY-NMT-01", "NMT-FSA-23"},
-       behave(&B::emergency_sent_in_stopped)},
+       works_also(Service::emergency, NmtState::stopped)},
       {"emcy-dead-in-preop",
        "EMCY is not sent in Pre-operational",
        {"EMCY-NMT-02"},
@@ -79,23 +166,29 @@ DefectTable emergency_defects() {
       {"1014-sends-emcy-when-invalid",
        "EMCY is sent although 1014h says that it does not exist",
        {"OD-1014-08", "EMCY-COB-03"},
-       behave(&B::emergency_sent_when_not_valid)},
+       decides(of_emergency, &CobIdRules::valid, [](const auto&, std::uint32_t) { return true; })},
       {"1015-inhibit-ignored",
        "The inhibit time of 1015h has no effect",
        {"OD-1015-03", "EMCY-INH-01"},
-       behave(&B::emergency_inhibit_unit_us, 0)},
+       inhibit_time([](std::int64_t) -> Duration { return std::chrono::microseconds(0); })},
       {"1015-unit-10us",
        "1015h counts in 10 us",
        {"OD-1015-03", "EMCY-INH-01"},
-       behave(&B::emergency_inhibit_unit_us, 10)},
+       inhibit_time([](std::int64_t value) -> Duration { return std::chrono::microseconds(value * 10); })},
       {"emcy-lost-while-inhibited",
        "Errors that come during the inhibit time of 1015h are never reported",
        {"EMCY-INH-01"},
-       behave(&B::emergency_lost_while_inhibited)},
+       lost_while_inhibited()},
       {"sync-right-length-reported",
        "A SYNC without data causes EMCY 8240h although no counter is configured",
        {"SYNC-CON-03"},
-       behave(&B::sync_without_data_reported)},
+       Change([](Parts& parts) {
+         // Whatever has the right length is what clears the error of a wrong one.
+         parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {
+           if (cause.source != ErrorSource::sync) return former(cause);
+           parts.device.errors.raise(cause, 0);
+         });
+       })},
       {"emcy-without-error",
        "EMCY 1000h follows the boot-up message although there is no error",
        {"EMCY-SEQ-03"},
@@ -108,7 +201,7 @@ DefectTable emergency_defects() {
       {"sync-length-not-reported",
        "A SYNC with unexpected data causes no EMCY",
        {"SYNC-CON-05", "NMT-SVC-02"},
-       behave(&B::sync_length_not_reported)},
+       unnoticed(ErrorSource::sync)},
   };
 }
 

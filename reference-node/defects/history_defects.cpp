@@ -1,22 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the pre-defined error field 1003h.
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
 
 using namespace defect;
 
+namespace {
+
+bool is_zero(std::uint64_t value) { return value == 0; }
+bool is_not_zero(std::uint64_t value) { return value != 0; }
+bool is_cleared(std::uint64_t, std::uint64_t wanted) { return wanted == 0; }
+
+std::vector<std::uint32_t> newest_first(const ErrorHistory& history) {
+  std::vector<std::uint32_t> out;
+  for (std::uint8_t sub = 1; sub <= history.recorded(); ++sub)
+    out.push_back(static_cast<std::uint32_t>(conform::load_le(*history.read(sub))));
+  return out;
+}
+
+/// What 1003h shows in place of what it holds.
+Change shows_of_history(std::function<std::vector<std::uint32_t>(const ErrorHistory&)> shown) {
+  return together(reading(0x1003, 0,
+                          [shown](Parts& parts, const Read&) -> Upload {
+                            return Bytes{static_cast<std::uint8_t>(shown(parts.emergency.history).size())};
+                          }),
+                  reading_all(0x1003, [shown](Parts& parts, const Read&, std::uint8_t sub) -> Upload {
+                    const auto errors = shown(parts.emergency.history);
+                    if (sub > errors.size()) return refuse(abort_code::no_data);
+                    return conform::to_le(errors[sub - 1U], 4);
+                  }));
+}
+
+/// Another number in place of each field.
+Change shows_in_field(std::uint32_t (*shown)(std::uint32_t field)) {
+  return reading_all(0x1003, [shown](Parts&, const Read& former, std::uint8_t) {
+    Upload field = former();
+    if (field) *field = conform::to_le(shown(static_cast<std::uint32_t>(conform::load_le(*field))), 4);
+    return field;
+  });
+}
+
+Change remembers_more_than_it_shows() {
+  return [](Parts& parts) { parts.emergency.history.choices.depth = 0xFE; };
+}
+
+}  // namespace
+
 DefectTable history_defects() {
-  using B = Behaviour;
   return {
       {"1003-nonzero-write-accepted",
        "1003h:00 confirms any value, but keeps the history",
        {"OD-1003-06", "EMCY-HIS-04"},
-       behave(&B::history_nonzero_write_accepted)},
+       confirms(0x1003, 0, is_not_zero)},
       {"1003-nonzero-write-clears",
        "1003h:00 refuses a non-zero value, yet clears the history",
        {"OD-1003-07"},
-       behave(&B::history_nonzero_write_clears)},
+       checking(0x1003, 0,
+                [](Parts& parts, const Check& former, ByteView bytes) {
+                  parts.emergency.history.clear();
+                  return former(bytes);
+                })},
       {"1003-nonzero-write-wrong-abort",
        "1003h:00 refuses a non-zero value with 0601 0002h instead of 0609 0030h",
        {"OD-1003-06", "EMCY-HIS-04"},
@@ -24,7 +75,10 @@ DefectTable history_defects() {
       {"1003-empty-read-returns-zero",
        "Reading an unused entry of 1003h gives 0000 0000h instead of an abort",
        {"OD-1003-03", "OD-1003-09", "EMCY-HIS-03"},
-       behave(&B::history_empty_reads_zero)},
+       reading_all(0x1003,
+                   [](Parts&, const Read& former, std::uint8_t) -> Upload {
+                     return former().value_or(Bytes(4, 0));
+                   })},
       {"1003-empty-read-0609-0011",
        "Reading 1003h:01 with an empty history aborts with 0609 0011h",
        {"OD-1003-03", "OD-1003-02", "EMCY-HIS-03"},
@@ -32,55 +86,88 @@ DefectTable history_defects() {
       {"1003-clear-rejected",
        "Writing 00h to 1003h:00 is refused with 0800 0000h",
        {"OD-1003-05", "EMCY-HIS-03"},
-       behave(&B::history_clear_rejected)},
+       refuses(0x1003, 0, abort_code::general_error, is_cleared)},
       {"1003-clear-ignored",
        "Writing 00h to 1003h:00 is confirmed without effect",
        {"OD-1003-05", "EMCY-HIS-03"},
-       behave(&B::history_clear_ignored)},
+       confirms(0x1003, 0, is_zero)},
       {"1003-clear-resets-1001",
        "Clearing the history also acknowledges the errors in 1001h",
        {"OD-1003-16"},
-       behave(&B::history_clear_resets_errors)},
+       checking(0x1003, 0,
+                [](Parts& parts, const Check& former, ByteView bytes) {
+                  const Accepted cleared = former(bytes);
+                  const std::vector<ErrorCause> causes = parts.emergency.active();
+                  for (const ErrorCause& cause : causes) {
+                    if (cleared) parts.device.errors.clear(cause);
+                  }
+                  return cleared;
+                })},
       {"1003-error-not-recorded",
        "Errors are reported by EMCY, but not entered into 1003h",
        {"OD-1003-10", "EMCY-HIS-01"},
-       behave(&B::history_not_written)},
+       shows_of_history([](const ErrorHistory&) { return std::vector<std::uint32_t>{}; })},
       {"1003-count-not-updated",
        "1003h:00 stays 00h while errors are recorded",
        {"OD-1003-10", "OD-1003-09", "EMCY-HIS-01"},
-       behave(&B::history_count_not_updated)},
+       reading(0x1003, 0, [](Parts&, const Read&) -> Upload { return Bytes{0}; })},
       {"1003-code-in-upper-half",
        "The error code stands in bits 31-16 of an entry of 1003h",
        {"OD-1003-11", "EMCY-HIS-01"},
-       behave(&B::history_code_in_upper_half)},
+       shows_in_field([](std::uint32_t field) { return field << 16U; })},
       {"1003-code-byte-swapped",
        "The error code in 1003h is in big-endian order",
        {"OD-1003-11", "EMCY-HIS-01"},
-       behave(&B::history_code_byte_swapped)},
+       shows_in_field([](std::uint32_t field) { return ((field & 0xFFU) << 8U) | ((field >> 8U) & 0xFFU); })},
       {"1003-oldest-first",
        "New errors are appended at the end of 1003h",
        {"OD-1003-12", "EMCY-HIS-02"},
-       behave(&B::history_oldest_first)},
+       shows_of_history([](const ErrorHistory& history) {
+         auto errors = newest_first(history);
+         std::ranges::reverse(errors);
+         return errors;
+       })},
       {"1003-no-shift-overwrites",
        "A new error overwrites 1003h:01, older ones are lost",
        {"OD-1003-12", "EMCY-HIS-02"},
-       behave(&B::history_overwrites)},
+       shows_of_history([](const ErrorHistory& history) {
+         auto errors = newest_first(history);
+         errors.resize(std::min<std::size_t>(errors.size(), 1));
+         return errors;
+       })},
       {"1003-full-drops-newest",
        "A full history stops recording",
        {"OD-1003-13", "EMCY-HIS-05"},
-       behave(&B::history_full_drops_newest)},
+       together(remembers_more_than_it_shows(), shows_of_history([](const ErrorHistory& history) {
+                  auto errors = newest_first(history);
+                  const auto surplus = std::max<std::ptrdiff_t>(std::ssize(errors) - ErrorHistory::fields, 0);
+                  errors.erase(errors.begin(), errors.begin() + surplus);
+                  return errors;
+                }))},
       {"1003-count-exceeds-depth",
        "1003h:00 counts on beyond the depth of the array",
        {"OD-1003-13", "OD-1003-09", "EMCY-HIS-05"},
-       behave(&B::history_count_exceeds_depth)},
+       remembers_more_than_it_shows()},
       {"1003-records-error-reset",
        "The end of all errors is entered into 1003h as error 0000h",
        {"OD-1003-15"},
-       behave(&B::records_error_reset)},
+       Change([](Parts& parts) {
+         parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {
+           const bool present = !parts.emergency.active().empty();
+           former(cause);
+           if (present && parts.emergency.active().empty())
+             parts.emergency.history.record(0, cause.source, 0);
+         });
+       })},
       {"1003-default-count-nonzero",
        "1003h holds an entry after every reset",
        {"OD-1003-04"},
-       behave(&B::history_starts_with_error)},
+       Change([](Parts& parts) {
+         parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>&) {
+           if (context.service == Service::boot_up)
+             parts.emergency.history.record(0x1000, ErrorSource::application, 0);
+         });
+       })},
       {"1003-count-is-u32",
        "1003h:00 is an UNSIGNED32",
        {"OD-1003-01", "OD-GEN-10", "OD-1003-14"},

@@ -2,6 +2,7 @@
 // Defects of the error behaviour (1029h) and of the EMCY consumer (1028h).
 #include <iterator>
 
+#include "defects/cob_ids.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -81,7 +82,6 @@ DefectTable error_behaviour_rows() {
 }
 
 DefectTable emergency_consumer_rows() {
-  using C = CobIdFaults;
   return {
       {"1028-sub0-out-of-range", "1028h:00 is 00h", {"OD-1028-01", "OD-GEN-11"}, preset(0x1028, 0, 0)},
       {"1028-sub0-is-u32",
@@ -111,7 +111,7 @@ DefectTable emergency_consumer_rows() {
       {"1028-frame-bit-accepted",
        "1028h accepts bit 29 although the node knows base frames only",
        {"OD-1028-05"},
-       behave(&B::emergency_consumer_cob_id, &C::frame_bit_accepted)},
+       decided(of_emergencies, &CobIdRules::frame_bit_allowed, true)},
       {"1028-frame-bit-wrong-abort",
        "1028h refuses with 0601 0000h instead of 0609 0030h",
        {"OD-1028-05", "OD-1028-06"},
@@ -119,11 +119,11 @@ DefectTable emergency_consumer_rows() {
       {"1028-lock-missing",
        "The CAN-ID of a valid entry of 1028h can be changed",
        {"OD-1028-06", "EMCY-CON-01"},
-       behave(&B::emergency_consumer_cob_id, &C::lock_missing)},
+       decided(of_emergencies, &CobIdRules::locked, false)},
       {"1028-change-refused",
        "1028h refuses another CAN-ID even while the entry is not valid",
        {"OD-1028-07"},
-       behave(&B::emergency_consumer_cob_id, &C::change_refused)},
+       keeps_can_ids(0x1028)},
       {"1028-change-not-stored",
        "Writing 1028h:01 and 1028h:02 is confirmed and forgotten",
        {"OD-1028-07"},

@@ -3,6 +3,7 @@
 // (1019h), the configuration stamp (1020h) and the stored device description (1021h, 1022h).
 #include <iterator>
 
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -88,7 +89,6 @@ DefectTable clock_rows() {
 }
 
 DefectTable counter_rows() {
-  using C = SyncCounterFaults;
   return {
       {"1019-absent",
        "1019h does not exist although the SYNC counter is supported",
@@ -103,7 +103,12 @@ DefectTable counter_rows() {
       {"1019-change-refused",
        "1019h cannot be changed while 1006h is 0",
        {"OD-1019-03", "SYNC-CTR-02"},
-       behave(&B::sync_counter, &C::change_refused)},
+       checking(0x1019, 0,
+                [](Parts& parts, const Check& former, ByteView bytes) {
+                  const Accepted allowed = former(bytes);
+                  const bool changed = conform::load_le(bytes) != parts.device.dictionary.number(0x1019, 0);
+                  return allowed && changed ? refuse(abort_code::device_state) : allowed;
+                })},
       {"1019-not-stored",
        "Writing 1019h is confirmed and forgotten",
        {"OD-1019-03", "SYNC-CTR-02"},
@@ -111,11 +116,15 @@ DefectTable counter_rows() {
       {"1019-reserved-value-accepted",
        "1019h takes reserved values",
        {"OD-1019-04", "SYNC-CTR-01"},
-       behave(&B::sync_counter, &C::reserved_accepted)},
+       checking(0x1019, 0,
+                [](Parts&, const Check& former, ByteView bytes) {
+                  const Accepted allowed = former(bytes);
+                  return allowed || allowed.error() == abort_code::device_state ? allowed : Accepted{};
+                })},
       {"1019-change-while-running-accepted",
        "1019h can be changed while 1006h is not 0",
        {"OD-1019-05", "SYNC-CTR-03"},
-       behave(&B::sync_counter, &C::change_while_running_accepted)},
+       confirms(0x1019, 0, [](std::uint64_t value) { return value == 0 || (value >= 2 && value <= 240); })},
       {"1019-change-while-running-wrong-abort",
        "A change of 1019h while 1006h is not 0 is refused with 0601 0000h",
        {"OD-1019-05", "SYNC-CTR-03"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of additional SDO servers (1201h-127Fh) and of the parameters of SDO clients (1280h-12FFh).
+#include "defects/cob_ids.hpp"
 #include "defects/sdo_block_exchanges.hpp"
 
 namespace refnode {
@@ -59,7 +60,6 @@ DictionaryEdit only_valid_bit(std::uint16_t index) {
 }  // namespace
 
 DefectTable sdo_channel_defects() {
-  using Faults = CobIdFaults;
   return {
       {"1201-absent", "The parameter of a claimed SDO server is missing", {"OD-1201-01"}, absent(0x1201)},
       {"1201-sub0-out-of-range",
@@ -81,11 +81,11 @@ DefectTable sdo_channel_defects() {
       {"1201-valid-bit-ignored",
        "An additional SDO server is in use whatever bit 31 of its COB-IDs says",
        {"OD-1201-04"},
-       behave(&Behaviour::sdo_server_cob_id, &Faults::valid_bit_ignored)},
+       decided(of_sdo_server, &CobIdRules::valid, true)},
       {"1201-valid-bit-polarity-inverted",
        "An additional SDO server is in use while bit 31 of its COB-IDs is 1",
        {"OD-1201-04", "SDO-MUL-01", "OD-1201-05"},
-       behave(&Behaviour::sdo_server_cob_id, &Faults::valid_bit_inverted)},
+       inverted(of_sdo_server, &CobIdRules::valid)},
       {"1201-valid-with-one-cob-id",
        "An additional SDO server is in use as soon as its first COB-ID is valid",
        {"OD-1201-04"},
@@ -93,11 +93,11 @@ DefectTable sdo_channel_defects() {
       {"1201-lock-missing",
        "The COB-IDs of a valid SDO server can be changed",
        {"OD-1201-05"},
-       behave(&Behaviour::sdo_server_cob_id, &Faults::lock_missing)},
+       decided(of_sdo_server, &CobIdRules::locked, false)},
       {"1201-frame-bit-accepted",
        "Bit 29 of the COB-IDs of an SDO server can be set",
        {"OD-1201-06"},
-       behave(&Behaviour::sdo_server_cob_id, &Faults::frame_bit_accepted)},
+       decided(of_sdo_server, &CobIdRules::frame_bit_allowed, true)},
       {"1201-node-id-unchecked",
        "The node-ID of an SDO client may be anything",
        {"OD-1201-07"},
@@ -156,7 +156,7 @@ DefectTable sdo_channel_defects() {
       {"1280-lock-missing",
        "The COB-IDs of a valid SDO client can be changed",
        {"OD-1280-03"},
-       behave(&Behaviour::sdo_client_cob_id, &Faults::lock_missing)},
+       decided(of_sdo_client, &CobIdRules::locked, false)},
       {"1280-fixed-bits-wrong-abort",
        "Only bit 31 of an SDO client can be changed, and the rest is refused as a value that is too high",
        {"OD-1280-04"},
@@ -164,7 +164,7 @@ DefectTable sdo_channel_defects() {
       {"1280-frame-bit-accepted",
        "Bit 29 of the COB-IDs of an SDO client can be set",
        {"OD-1280-05"},
-       behave(&Behaviour::sdo_client_cob_id, &Faults::frame_bit_accepted)},
+       decided(of_sdo_client, &CobIdRules::frame_bit_allowed, true)},
       {"1280-node-id-unchecked",
        "The node-ID of an SDO server may be anything",
        {"OD-1280-06"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all services of the node share: identity, state, time, dictionary and the way out.
+// What all services of the node share: identity, state, time, dictionary, the way in and out, and whom to
+// tell of errors.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,11 @@
 #include <utility>
 
 #include "base/strong.hpp"
+#include "device/errors.hpp"
+#include "device/inbox.hpp"
 #include "device/outbox.hpp"
+#include "device/rule.hpp"
+#include "device/states.hpp"
 #include "dictionary/object_dictionary.hpp"
 #include "node/behaviour.hpp"
 #include "node/choices.hpp"
@@ -25,7 +30,10 @@ struct Device {
   Behaviour behaviour;
   Choices choices;
   ObjectDictionary dictionary;
+  Inbox inbox;
   Outbox outbox;
+  Errors errors;
+  Rule<bool(Service, NmtState)> works{works_in};
   /// The dictionary is that of a device description (twin.hpp): of what this node has beyond the standard
   /// nothing is there.
   bool described = false;
@@ -39,6 +47,9 @@ struct Device {
     constexpr std::uint64_t most = 0xFFFF'FFFF;
     return static_cast<std::int64_t>(std::min(dictionary.number(index, sub), most));
   }
+
+  /// Whether a service works in the present state.
+  [[nodiscard]] bool works_now(Service service) const { return works(service, state); }
 
   /// Sends one frame of a service other than SDO.
   void send(Service service, const Frame& frame) {

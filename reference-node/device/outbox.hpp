@@ -16,21 +16,13 @@
 #include "base/time.hpp"
 #include "can/frame.hpp"
 #include "can/participant.hpp"
+#include "device/states.hpp"
 
 namespace refnode {
 
 using conform::BusTime;
 using conform::Duration;
 using conform::can::Frame;
-
-enum class Service : std::uint8_t { boot_up, heartbeat, guarding, emergency, sdo, tpdo };
-
-enum class NmtState : std::uint8_t {
-  initialising = 0x00,
-  stopped = 0x04,
-  operational = 0x05,
-  pre_operational = 0x7F
-};
 
 enum class SdoStep : std::uint8_t {
   upload_initiate,

@@ -27,12 +27,12 @@ void EmergencyConsumer::bind() {
   if (found == objects.end()) return;
   for (const auto& [sub, entry] : found->second.entries) {
     if (sub == 0 || sub == 0xFF || entry.type != DataType::unsigned32) continue;
-    cob_ids_.emplace_back(*device_, CobIdUse::emergency_consumer, 0x1028, sub, not_valid).bind();
+    cob_ids_.emplace_back(*device_, cob_id_rules, 0x1028, sub, not_valid).bind();
   }
 }
 
 bool EmergencyConsumer::on_frame(const Frame& frame) {
-  for (const CobIdRules& cob_id : cob_ids_) {
+  for (const CobId& cob_id : cob_ids_) {
     if (!cob_id.valid() || frame.id != cob_id.can_id()) continue;
     if (frame.size() != 8) return true;
     if (Entry* last = device_->described ? nullptr : device_->dictionary.entry(0x2F11, 0))

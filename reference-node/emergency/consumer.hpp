@@ -2,9 +2,9 @@
 // Emergencies of other nodes (1028h, CiA 301, 7.5.2.31): the sub-index is the node-ID of the producer.
 #pragma once
 
-#include <deque>
+#include <vector>
 
-#include "cob-id/cob_id_rules.hpp"
+#include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
 
 namespace refnode {
@@ -14,6 +14,10 @@ class EmergencyConsumer {
   static constexpr std::uint8_t producers = 4;  ///< the last one cannot be changed
 
   explicit EmergencyConsumer(Device& device) : device_(&device) {}
+  EmergencyConsumer(const EmergencyConsumer&) = delete;
+  EmergencyConsumer& operator=(const EmergencyConsumer&) = delete;
+
+  CobIdRules cob_id_rules{CobIdUse::emergency_consumer};
 
   /// 1028h, and 2F11h that shows the latest message.
   void add_objects();
@@ -25,7 +29,7 @@ class EmergencyConsumer {
 
  private:
   Device* device_;
-  std::deque<CobIdRules> cob_ids_;  // they do not move: their entries point to them
+  std::vector<CobId> cob_ids_;
 };
 
 }  // namespace refnode

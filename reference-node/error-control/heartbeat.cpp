@@ -112,7 +112,7 @@ Accepted HeartbeatConsumer::check(std::uint8_t sub, ByteView bytes) const {
 
 void HeartbeatConsumer::on_written(std::uint8_t sub) {
   Watch& watch = watches_[sub - 1U];
-  if (watch.lost) emergency_->clear({0x8130, Emergency::heartbeat_source, sub});
+  if (watch.lost) device_->errors.clear({0x8130, ErrorSource::heartbeat, sub});
   watch = {};
   if (device_->choices.consumer_reserved_bits_cleared)
     device_->dictionary.set_number(0x1016, sub, value_of(sub) & 0x00FFFFFFU);
@@ -140,7 +140,7 @@ void HeartbeatConsumer::on_heartbeat(std::uint8_t node, std::uint8_t state) {
     if (!watch.lost) continue;
     watch.lost = false;
     if (!device_->behaviour.consumer_error_never_resolved) {
-      emergency_->clear({0x8130, Emergency::heartbeat_source, sub});
+      device_->errors.clear({0x8130, ErrorSource::heartbeat, sub});
     }
   }
 }
@@ -157,7 +157,7 @@ void HeartbeatConsumer::on_time() {
 void HeartbeatConsumer::lose(std::uint8_t sub) {
   watches_[sub - 1U].lost = true;
   const auto code = static_cast<std::uint16_t>(device_->behaviour.consumer_wrong_code ? 0x1000 : 0x8130);
-  emergency_->raise({code, Emergency::heartbeat_source, sub}, node_of(value_of(sub)));
+  device_->errors.raise({code, ErrorSource::heartbeat, sub}, node_of(value_of(sub)));
   if (on_loss) on_loss();
 }
 

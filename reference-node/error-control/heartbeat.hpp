@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "device/device.hpp"
-#include "emergency/emergency.hpp"
 
 namespace refnode {
 
@@ -40,7 +39,7 @@ class HeartbeatProducer {
 
 class HeartbeatConsumer {
  public:
-  HeartbeatConsumer(Device& device, Emergency& emergency) : device_(&device), emergency_(&emergency) {}
+  explicit HeartbeatConsumer(Device& device) : device_(&device) {}
 
   std::function<void()> on_loss;  ///< error behaviour: what the node does when a producer is lost
 
@@ -71,7 +70,6 @@ class HeartbeatConsumer {
   }
 
   Device* device_;
-  Emergency* emergency_;
   std::vector<Watch> watches_;  ///< of 1016h:01 and so on
 };
 

@@ -8,7 +8,7 @@ namespace refnode {
 namespace {
 
 constexpr std::uint8_t toggle_bit = 0x80;
-constexpr ErrorCause lost{0x8130, Emergency::guarding_source, 0};
+constexpr ErrorCause lost{0x8130, ErrorSource::guarding, 0};
 
 }  // namespace
 
@@ -25,7 +25,7 @@ void NodeGuarding::bind() {
     // Another life time begins with the next request, and what was lost does not count any more.
     entry->written = [this] {
       due_.reset();
-      if (lost_) emergency_->clear(lost);
+      if (lost_) device_->errors.clear(lost);
       lost_ = false;
     };
   }
@@ -52,7 +52,7 @@ bool NodeGuarding::on_remote(const Frame& frame) {
   toggle_ = !toggle_;
   due_.reset();
   if (life_time() > Duration::zero()) due_ = device_->now + life_time();
-  if (lost_) emergency_->clear(lost);
+  if (lost_) device_->errors.clear(lost);
   lost_ = false;
   return true;
 }
@@ -68,7 +68,7 @@ void NodeGuarding::on_time() {
   due_.reset();
   if (!in_use() || device_->behaviour.life_guarding_ignored) return;
   lost_ = true;
-  emergency_->raise(lost);
+  device_->errors.raise(lost, 0);
   if (on_loss) on_loss();
 }
 

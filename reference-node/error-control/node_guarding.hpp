@@ -7,13 +7,12 @@
 #include <optional>
 
 #include "device/device.hpp"
-#include "emergency/emergency.hpp"
 
 namespace refnode {
 
 class NodeGuarding {
  public:
-  NodeGuarding(Device& device, Emergency& emergency) : device_(&device), emergency_(&emergency) {}
+  explicit NodeGuarding(Device& device) : device_(&device) {}
 
   /// 100Ch, 100Dh
   void add_objects();
@@ -32,7 +31,6 @@ class NodeGuarding {
   [[nodiscard]] Duration life_time() const;
 
   Device* device_;
-  Emergency* emergency_;
   bool toggle_ = false;
   bool lost_ = false;
   std::optional<BusTime> due_;  ///< set by the first guard request

@@ -13,24 +13,6 @@
 
 namespace refnode {
 
-/// How the rules of one COB-ID parameter are broken.
-struct CobIdFaults {
-  bool takes_any_frame = false;      ///< SYNC: frames with the CAN-ID of another service, too
-  bool lock_missing = false;         ///< the CAN-ID can be changed while the object exists
-  bool frame_bit_accepted = false;   ///< bit 29
-  bool bit30_accepted = false;       ///< SYNC and TIME: produce; EMCY: reserved
-  bool bit31_refused = false;        ///< SYNC: do not care
-  bool upper_bits_accepted = false;  ///< bits 28-11 with an 11-bit identifier
-  bool restricted_accepted = false;
-  bool rewrite_refused = false;  ///< the value in force is refused
-  bool change_refused = false;   ///< another CAN-ID is refused even while the object does not exist
-  bool new_id_not_used = false;  ///< the default CAN-ID stays in use
-  bool valid_bit_inverted = false;
-  bool valid_bit_ignored = false;
-  bool remote_bit_inverted = false;  ///< TPDO: bit 30
-  bool remote_bit_ignored = false;
-};
-
 /// How the rules of the parameters of a PDO are broken.
 struct PdoFaults {
   bool reserved_type_accepted = false;
@@ -146,7 +128,6 @@ struct Behaviour {
   bool consumer_node_id_unchecked = false;
   bool consumer_timer_not_restarted = false;
   bool consumer_error_never_resolved = false;
-  bool errors_never_clear = false;  ///< none of them, until a reset
   bool consumer_loss_not_detected = false;
   bool consumer_wrong_code = false;
   bool consumer_only_first_entry = false;
@@ -157,50 +138,7 @@ struct Behaviour {
   // Guarding
   bool life_guarding_ignored = false;
 
-  // Error register, EMCY, history
-  bool error_register_never_set = false;
-  bool error_register_without_generic = false;
-  bool error_register_bit6_set = false;
-  bool error_register_sticks = false;
-  bool communication_bit_missing = false;
-  bool second_error_suppressed = false;
-  bool error_reset_too_early = false;
-  bool error_reset_not_sent = false;
-  bool emergency_sent_when_not_valid = false;
-  bool emergency_sent_in_stopped = false;
-  bool emergency_register_always_generic = false;
-  int emergency_inhibit_unit_us = 100;
-  bool emergency_lost_while_inhibited = false;
-  bool records_error_reset = false;
-  bool history_not_written = false;
-  bool history_starts_with_error = false;
-  bool history_count_not_updated = false;
-  bool history_code_in_upper_half = false;
-  bool history_code_byte_swapped = false;
-  bool history_overwrites = false;
-  bool history_oldest_first = false;
-  bool history_full_drops_newest = false;
-  bool history_count_exceeds_depth = false;
-  bool history_empty_reads_zero = false;
-  bool history_nonzero_write_accepted = false;
-  bool history_nonzero_write_clears = false;
-  bool history_clear_rejected = false;
-  bool history_clear_ignored = false;
-  bool history_clear_resets_errors = false;
-  bool sync_length_not_reported = false;
-  bool sync_without_data_reported = false;  ///< EMCY 8240h for every SYNC of the right length
-
-  // COB-ID parameters
-  CobIdFaults sync_cob_id;
-  CobIdFaults time_cob_id;
-  CobIdFaults emergency_cob_id;
-  CobIdFaults emergency_consumer_cob_id;
-  CobIdFaults rpdo_cob_id;
-  CobIdFaults tpdo_cob_id;
-  CobIdFaults sdo_server_cob_id;
-  CobIdFaults sdo_client_cob_id;
   bool dynamic_sdo_stored = false;  ///< also COB-IDs with bit 30 set are kept in non-volatile memory
-  bool time_reserved_bits_kept = false;
 
   // PDO
   PdoFaults rpdo;
@@ -223,7 +161,6 @@ struct Behaviour {
 
   // Single communication objects
   ClockFaults clock;
-  SyncCounterFaults sync_counter;
   StampFaults stamp;
 
   // Storage and power-on values

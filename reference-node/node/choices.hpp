@@ -13,18 +13,6 @@ namespace refnode {
 
 using conform::AbortCode;
 
-/// Codes and freedoms of one COB-ID parameter. CiA 301 names no code for most refusals.
-struct CobIdChoices {
-  AbortCode frame_bit = abort_code::invalid_value;   ///< bit 29 in a device with base frames only
-  AbortCode fixed_bit = abort_code::invalid_value;   ///< bit 30: cannot be produced, or reserved
-  AbortCode upper_bits = abort_code::invalid_value;  ///< bits 28-11 of a base frame
-  AbortCode locked = abort_code::invalid_value;      ///< another CAN-ID while the object exists
-  AbortCode restricted = abort_code::invalid_value;  ///< CiA 301, table 40
-  bool only_valid_bit = false;                       ///< bit 31 can be changed, the CAN-ID cannot
-  bool restricted_always = false;                    ///< refused while the object is not valid, too
-  bool locked_by_former_value = false;               ///< switching off and moving in one write is refused
-};
-
 /// Codes and freedoms of the parameters of a PDO.
 struct PdoChoices {
   AbortCode inhibit_locked = abort_code::invalid_value;
@@ -38,7 +26,6 @@ struct PdoChoices {
   bool synchronous_types = true;     ///< 00h-F0h
   bool event_types = true;           ///< FEh, FFh
   bool remote_types = true;          ///< TPDO: FCh, FDh
-  bool any_remote = true;            ///< TPDO: remote frames at all; without, bit 30 cannot be 0
   bool initial_event = false;        ///< TPDO: entering Operational is an event
   bool sends_at_first_sync = false;  ///< TPDO: type n sends at SYNC 1, n + 1, ...
   bool change_is_event = true;       ///< TPDO: of types 00h, FEh and FFh
@@ -71,29 +58,7 @@ struct Choices {
   AbortCode consumer_reserved_bits = abort_code::invalid_value;
   bool consumer_reserved_bits_cleared = false;  ///< taken, and read back as 00h
 
-  // Error register, EMCY, history
-  bool register_generic_only = false;         ///< no other bit than 0
-  bool error_reset_for_each = false;          ///< EMCY 0000h also while other errors remain
-  bool emergency_dropped_in_stopped = false;  ///< not made up for afterwards
-  std::uint8_t history_depth = 8;             ///< at most as many as 1003h has fields
-  AbortCode nothing_recorded = abort_code::no_data;
-  AbortCode history_unused_field = abort_code::no_data;  ///< from sub-index 02h on
-  bool long_rpdo_reported = false;                       ///< EMCY 8220h
-  bool wrong_sync_reported = true;                       ///< EMCY 8240h
-  bool wrong_sync_used = true;
-
-  // 1019h
-  AbortCode counter_reserved = abort_code::invalid_value;  ///< the values 1 and 241-255
-  AbortCode counter_locked = abort_code::device_state;     ///< a change while 1006h is not 0
-
-  // COB-ID parameters
-  CobIdChoices sync_cob_id;
-  CobIdChoices time_cob_id;
-  CobIdChoices emergency_cob_id;
-  CobIdChoices emergency_consumer_cob_id;
-  CobIdChoices rpdo_cob_id;
-  CobIdChoices tpdo_cob_id;
-  CobIdChoices sdo_cob_id;  ///< 1201h, 1202h, 1280h
+  bool long_rpdo_reported = false;  ///< EMCY 8220h
 
   // 1023h, 1025h, 1026h
   AbortCode nothing_to_deliver = abort_code::no_data;

@@ -6,31 +6,20 @@
 #include <optional>
 #include <utility>
 
-#include "device/device.hpp"
-#include "emergency/consumer.hpp"
-#include "emergency/emergency.hpp"
-#include "error-control/error_behaviour.hpp"
-#include "error-control/heartbeat.hpp"
-#include "error-control/node_guarding.hpp"
-#include "nmt/nmt_slave.hpp"
+#include "emergency/trigger.hpp"
+#include "node/parts.hpp"
 #include "node/switches.hpp"
 #include "objects/application_objects.hpp"
 #include "objects/manufacturer_objects.hpp"
 #include "objects/module_list.hpp"
-#include "objects/operating_system.hpp"
 #include "objects/standard_objects.hpp"
 #include "objects/stored_description.hpp"
-#include "pdo/pdos.hpp"
 #include "sdo/parameters.hpp"
-#include "sdo/servers.hpp"
-#include "storage/parameter_store.hpp"
-#include "sync/sync_time.hpp"
-#include "time/high_resolution_clock.hpp"
 #include "twin/twin.hpp"
 
 namespace refnode {
 
-struct Node::Impl {
+struct Node::Impl : Parts {
   /// `twin`: the dictionary to serve; empty: the node's own.
   Impl(const Options& options, std::optional<Twin> twin);
 
@@ -42,40 +31,10 @@ struct Node::Impl {
   void run_timers();
   void dispatch(const Frame& frame);
 
-  Device device;
-  Emergency emergency;
-  HeartbeatProducer producer;
-  HeartbeatConsumer consumer;
-  SyncConsumer sync;
-  TimeConsumer time;
-  EmergencyConsumer emergencies;
-  HighResolutionClock clock;
-  NodeGuarding guarding;
-  OperatingSystem operating_system;
-  Pdos pdos;
-  ParameterStore store;
-  NmtSlave nmt;
-  ErrorBehaviour error_behaviour;
-  SdoServers sdo;
   TwinRemarks remarks;
 };
 
-Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
-    : device(options.node_id),
-      emergency(device),
-      producer(device),
-      consumer(device, emergency),
-      sync(device, emergency),
-      time(device),
-      emergencies(device),
-      clock(device),
-      guarding(device, emergency),
-      operating_system(device),
-      pdos(device, emergency),
-      store(device, options.storage),
-      nmt(device),
-      error_behaviour(device, nmt),
-      sdo(device) {
+Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(options.node_id, options.storage) {
   device.choices = options.choices;
   nmt.on_reset = [this](Reset kind) { reset(kind); };
   nmt.on_boot_up = [this] { boot_up(); };
@@ -100,7 +59,7 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin)
   pdos.bind();
   store.bind();
   sdo.bind();
-  bind_sdo_clients(device);
+  device.inbox.attach([this](const Frame& frame) { dispatch(frame); });
 }
 
 void Node::Impl::add_own_objects() {
@@ -136,7 +95,7 @@ void Node::Impl::take_over(Twin twin) {
   if (const auto history = objects.find(0x1003); history != objects.end()) {
     const auto fields = std::ranges::count_if(
         history->second.entries, [](const auto& entry) { return entry.first != 0 && entry.first != 0xFF; });
-    device.choices.history_depth = static_cast<std::uint8_t>(fields);
+    emergency.history.choices.depth = static_cast<std::uint8_t>(fields);
   }
   // Without SYNC there are no transmission types that need it.
   if (!objects.contains(0x1005)) {
@@ -146,6 +105,7 @@ void Node::Impl::take_over(Twin twin) {
 }
 
 void Node::Impl::reset(Reset kind) {
+  device.inbox.clear();
   device.outbox.clear();
   if (!device.behaviour.transfer_survives_reset) sdo.reset();
   producer.on_reset();
@@ -182,12 +142,12 @@ void Node::Impl::run_timers() {
   pdos.on_time();
   store.on_time();
   sdo.on_time();
+  device.inbox.on_time(device.now);
   device.outbox.on_time(device.now);
 }
 
 void Node::Impl::dispatch(const Frame& received) {
   Frame frame = received;
-  if (frame.error) return;
   if (device.behaviour.restarts_on && device.behaviour.restarts_on(frame, device.node_id))
     return nmt.start_reset(Reset::node);
   if (device.behaviour.accepts_extended_frames) frame.extended = false;
@@ -200,7 +160,6 @@ void Node::Impl::dispatch(const Frame& received) {
 
   if (device.behaviour.sdo.misread) device.behaviour.sdo.misread(frame, device.node_id);
   if (frame.id == 0x000) return nmt.on_command(frame);
-  if (device.behaviour.sync_cob_id.takes_any_frame && sync.on_frame(frame)) return;
   if (sdo.on_frame(frame)) return;
   if (device.state == NmtState::initialising) return;
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {
@@ -227,8 +186,8 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
     twin = std::move(*made);
   }
   auto impl = std::make_unique<Impl>(options, std::move(twin));
-  if (auto done = apply_variants(options.variants, impl->device); !done) return std::unexpected(done.error());
-  if (auto done = apply_defects(options.defects, impl->device); !done) return std::unexpected(done.error());
+  if (auto done = apply_variants(options.variants, *impl); !done) return std::unexpected(done.error());
+  if (auto done = apply_defects(options.defects, *impl); !done) return std::unexpected(done.error());
   return std::unique_ptr<Node>(new Node(std::move(impl)));
 }
 
@@ -244,7 +203,7 @@ void Node::attach(Sender sender, conform::BusTime now) {
 void Node::on_frame(const conform::can::Frame& frame, conform::BusTime now) {
   impl_->device.now = std::max(impl_->device.now, now);
   impl_->run_timers();
-  impl_->dispatch(frame);
+  if (!frame.error) impl_->device.inbox.receive(frame);
   impl_->sdo.send_segments();
 }
 
@@ -265,7 +224,8 @@ std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.guarding.next_wakeup(),
                    impl.emergency.next_wakeup(), impl.producer.next_wakeup(), impl.pdos.next_wakeup(),
-                   impl.store.next_wakeup(), impl.sdo.next_wakeup(), impl.device.outbox.next_wakeup()});
+                   impl.store.next_wakeup(), impl.sdo.next_wakeup(), impl.device.inbox.next_wakeup(),
+                   impl.device.outbox.next_wakeup()});
 }
 
 }  // namespace refnode

@@ -19,13 +19,6 @@ struct ClockFaults {
   bool writing_ignored = false;   ///< a written time is confirmed and forgotten
 };
 
-/// 1019h: what may be written.
-struct SyncCounterFaults {
-  bool reserved_accepted = false;
-  bool change_while_running_accepted = false;
-  bool change_refused = false;  ///< even while 1006h is 0
-};
-
 /// 1020h: when date and time of the configuration are discarded.
 struct StampFaults {
   bool survives_change = false;

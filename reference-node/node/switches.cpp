@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <string_view>
-#include <variant>
 
 #include "base/text.hpp"
 #include "defects/defect.hpp"
@@ -27,7 +26,7 @@ std::unexpected<conform::Error> unknown(const std::string& kind, const std::stri
 
 }  // namespace
 
-conform::Result<void> apply_variants(const std::vector<std::string>& ids, Device& device) {
+conform::Result<void> apply_variants(const std::vector<std::string>& ids, Parts& parts) {
   std::vector<const Variant*> used;
   for (const std::string& id : ids) {
     const Variant* variant = find_variant(id);
@@ -38,19 +37,18 @@ conform::Result<void> apply_variants(const std::vector<std::string>& ids, Device
       }
     }
     used.push_back(variant);
-    VariantTarget target{device.dictionary, device.choices, device.outbox, device.node_id};
-    variant->how(target);
+    variant->how(parts);
   }
   return {};
 }
 
-conform::Result<void> apply_defects(const std::vector<std::string>& ids, Device& device) {
+conform::Result<void> apply_defects(const std::vector<std::string>& ids, Parts& parts) {
   std::vector<std::string_view> used;
   for (const std::string& id : ids) {
     if (const auto edit = parse_edit(id)) {
-      if (!applies(*edit, device.dictionary))
+      if (!applies(*edit, parts.device.dictionary))
         return conform::fail("the dictionary has nothing for '" + id + "' to change");
-      edit->how()(device.dictionary, device.node_id);
+      edit->how()(parts.device.dictionary, parts.device.node_id);
       continue;
     }
     const Defect* defect = find_defect(id);
@@ -59,13 +57,7 @@ conform::Result<void> apply_defects(const std::vector<std::string>& ids, Device&
       return conform::fail("defect '" + id + "' is named twice");
     }
     used.push_back(defect->id);
-    if (const auto* edit = std::get_if<DictionaryEdit>(&defect->how)) {
-      (*edit)(device.dictionary, device.node_id);
-    } else if (const auto* filter = std::get_if<Filter>(&defect->how)) {
-      device.outbox.add_filter(*filter);
-    } else {
-      std::get<BehaviourSwitch>(defect->how)(device.behaviour);
-    }
+    defect->how(parts);
   }
   return {};
 }

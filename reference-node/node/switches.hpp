@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "device/device.hpp"
+#include "node/parts.hpp"
 
 namespace refnode {
 
 /// Fails with a hint on unknown variants and on those that exclude each other.
-[[nodiscard]] conform::Result<void> apply_variants(const std::vector<std::string>& ids, Device& device);
+[[nodiscard]] conform::Result<void> apply_variants(const std::vector<std::string>& ids, Parts& parts);
 /// Fails with a hint on unknown and repeated defects.
-[[nodiscard]] conform::Result<void> apply_defects(const std::vector<std::string>& ids, Device& device);
+[[nodiscard]] conform::Result<void> apply_defects(const std::vector<std::string>& ids, Parts& parts);
 
 }  // namespace refnode

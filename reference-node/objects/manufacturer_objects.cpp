@@ -108,33 +108,4 @@ void add_sample_objects(Device& device) {
   od.add_variable(0x2007, integer_entry("Scratch value", unsigned32, Access::rw, 0));
 }
 
-void add_error_trigger(Device& device, Emergency& emergency) {
-  ObjectDictionary& od = device.dictionary;
-  Emergency* errors = &emergency;
-  od.add_complex(0x2F00, "Error trigger", ObjectKind::record);
-
-  Entry& raise = od.add_sub(0x2F00, 1, integer_entry("Raise error", DataType::unsigned16, Access::wo, 0));
-  raise.command = true;
-  raise.check = [errors](ByteView bytes) -> Accepted {
-    const auto code = static_cast<std::uint16_t>(conform::load_le(bytes));
-    if (!Emergency::known_class(code)) return refuse(abort_code::invalid_value);
-    errors->raise({code, Emergency::application_source, 0});
-    return {};
-  };
-  Entry& clear = od.add_sub(0x2F00, 2, integer_entry("Clear error", DataType::unsigned16, Access::wo, 0));
-  clear.command = true;
-  clear.check = [errors](ByteView bytes) -> Accepted {
-    const auto code = static_cast<std::uint16_t>(conform::load_le(bytes));
-    if (code == 0) {
-      errors->clear_all(Emergency::application_source);
-    } else {
-      errors->clear({code, Emergency::application_source, 0});
-    }
-    return {};
-  };
-  Entry& active =
-      od.add_sub(0x2F00, 3, integer_entry("Number of active errors", DataType::unsigned8, Access::ro, 0));
-  active.read = [errors]() -> Upload { return Bytes{static_cast<std::uint8_t>(errors->active())}; };
-}
-
 }  // namespace refnode

@@ -43,13 +43,13 @@ void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t
              integer_entry("Number of mapped objects", DataType::unsigned8, Access::rw, mapping.size()));
 }
 
-PdoParameters::PdoParameters(Device& device, PdoDirection direction, std::uint16_t number)
+PdoParameters::PdoParameters(Device& device, const CobIdRules& cob_id_rules, PdoDirection direction,
+                             std::uint16_t number)
     : device_(&device),
       direction_(direction),
       communication_(static_cast<std::uint16_t>(first_communication_index(direction) + number)),
       mapping_(static_cast<std::uint16_t>(communication_ + to_mapping)),
-      cob_id_(device, direction == PdoDirection::receive ? CobIdUse::rpdo : CobIdUse::tpdo, communication_,
-              cob_id_sub, 0) {
+      cob_id_(device, cob_id_rules, communication_, cob_id_sub, 0) {
   ObjectDictionary& od = device.dictionary;
   cob_id_.bind();
   if (Entry* type = od.entry(communication_, type_sub))

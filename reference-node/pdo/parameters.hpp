@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "cob-id/cob_id_rules.hpp"
+#include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
 
 namespace refnode {
@@ -28,13 +28,13 @@ void add_pdo_objects(ObjectDictionary& dictionary, PdoDirection direction, std::
 class PdoParameters {
  public:
   /// Puts the rules behind the entries there are. `number` 0 is the first PDO of its direction.
-  PdoParameters(Device& device, PdoDirection direction, std::uint16_t number);
+  PdoParameters(Device& device, const CobIdRules& cob_id_rules, PdoDirection direction, std::uint16_t number);
   PdoParameters(const PdoParameters&) = delete;  // the entries point here
   PdoParameters& operator=(const PdoParameters&) = delete;
 
   std::function<void()> on_changed;  ///< a communication parameter or the number of mapped objects
 
-  [[nodiscard]] const CobIdRules& cob_id() const { return cob_id_; }
+  [[nodiscard]] const CobId& cob_id() const { return cob_id_; }
   [[nodiscard]] std::uint8_t transmission_type() const;
   [[nodiscard]] Duration inhibit_time() const;
   [[nodiscard]] Duration event_timer() const;
@@ -66,7 +66,7 @@ class PdoParameters {
   PdoDirection direction_;
   std::uint16_t communication_;  ///< index of the communication parameter
   std::uint16_t mapping_;        ///< index of the mapping parameter
-  CobIdRules cob_id_;
+  CobId cob_id_;
   std::uint8_t mapping_entries_ = 0;  ///< highest sub-index that can hold a mapped object
   bool multiplexed_ = false;          ///< described as such; its service is not known here
 };

@@ -24,11 +24,8 @@ void copy_bits(ByteView from, std::size_t first, Bytes& to, std::size_t target, 
 
 }  // namespace
 
-ReceivePdo::ReceivePdo(Device& device, Emergency& emergency, std::uint16_t number)
-    : device_(&device),
-      emergency_(&emergency),
-      number_(number),
-      parameters_(device, PdoDirection::receive, number) {}
+ReceivePdo::ReceivePdo(Device& device, const CobIdRules& cob_id_rules, std::uint16_t number)
+    : device_(&device), number_(number), parameters_(device, cob_id_rules, PdoDirection::receive, number) {}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
   const Behaviour& behaviour = device_->behaviour;
@@ -38,23 +35,23 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   if (size == 0) return true;
   const ErrorCause too_short = cause(0x8210);
   if (frame.size() < size) {
-    if (!behaviour.short_rpdo_not_reported) emergency_->raise(too_short, frame.size());
+    if (!behaviour.short_rpdo_not_reported) device_->errors.raise(too_short, frame.size());
     if (!behaviour.short_rpdo_processed) return true;
   } else {
-    emergency_->clear(too_short);
+    device_->errors.clear(too_short);
   }
   if (frame.size() > size && behaviour.long_rpdo_dropped) return true;
   const ErrorCause too_long = cause(0x8220);
   if (frame.size() <= size) {
-    emergency_->clear(too_long);
+    device_->errors.clear(too_long);
   } else if (device_->choices.long_rpdo_reported) {
-    emergency_->raise(too_long, frame.size());
+    device_->errors.raise(too_long, frame.size());
   }
 
   const Duration limit = parameters_.event_timer();
   deadline_.reset();
   if (limit > Duration::zero()) deadline_ = device_->now + limit;
-  emergency_->clear(cause(0x8250));
+  device_->errors.clear(cause(0x8250));
 
   Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
   const bool synchronous = parameters_.transmission_type() <= last_synchronous_type;
@@ -81,7 +78,7 @@ void ReceivePdo::on_state_change() {
 void ReceivePdo::on_time() {
   if (!deadline_ || device_->now < *deadline_) return;
   deadline_.reset();
-  emergency_->raise(cause(0x8250));
+  device_->errors.raise(cause(0x8250), 0);
 }
 
 void ReceivePdo::apply(const Bytes& data) {
@@ -103,8 +100,8 @@ void ReceivePdo::apply(const Bytes& data) {
   if (on_applied) on_applied();
 }
 
-TransmitPdo::TransmitPdo(Device& device, std::uint16_t number)
-    : device_(&device), parameters_(device, PdoDirection::transmit, number) {
+TransmitPdo::TransmitPdo(Device& device, const CobIdRules& cob_id_rules, std::uint16_t number)
+    : device_(&device), parameters_(device, cob_id_rules, PdoDirection::transmit, number) {
   parameters_.on_changed = [this] { restart(); };
 }
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "device/device.hpp"
-#include "emergency/emergency.hpp"
 #include "pdo/parameters.hpp"
 
 namespace refnode {
@@ -15,7 +14,7 @@ namespace refnode {
 class ReceivePdo {
  public:
   /// `number` 0 is that of 1400h.
-  ReceivePdo(Device& device, Emergency& emergency, std::uint16_t number);
+  ReceivePdo(Device& device, const CobIdRules& cob_id_rules, std::uint16_t number);
 
   std::function<void()> on_applied;  ///< all mapped objects of a PDO have their new values
 
@@ -31,11 +30,10 @@ class ReceivePdo {
  private:
   void apply(const Bytes& data);
   [[nodiscard]] ErrorCause cause(std::uint16_t code) const {
-    return {code, Emergency::rpdo_source, static_cast<std::uint16_t>(number_ + 1)};
+    return {code, ErrorSource::rpdo, static_cast<std::uint16_t>(number_ + 1)};
   }
 
   Device* device_;
-  Emergency* emergency_;
   std::uint16_t number_;
   PdoParameters parameters_;
   bool applying_ = false;
@@ -46,7 +44,7 @@ class ReceivePdo {
 class TransmitPdo {
  public:
   /// `number` 0 is that of 1800h.
-  TransmitPdo(Device& device, std::uint16_t number);
+  TransmitPdo(Device& device, const CobIdRules& cob_id_rules, std::uint16_t number);
 
   /// Something mapped may have changed.
   void on_application_change();

@@ -8,14 +8,18 @@
 #include <optional>
 
 #include "device/device.hpp"
-#include "emergency/emergency.hpp"
 #include "pdo/pdo.hpp"
 
 namespace refnode {
 
 class Pdos {
  public:
-  Pdos(Device& device, Emergency& emergency) : device_(&device), emergency_(&emergency) {}
+  explicit Pdos(Device& device) : device_(&device) {}
+  Pdos(const Pdos&) = delete;
+  Pdos& operator=(const Pdos&) = delete;
+
+  CobIdRules rpdo_cob_id_rules{CobIdUse::rpdo};
+  CobIdRules tpdo_cob_id_rules{CobIdUse::tpdo};
 
   /// The node's own: one RPDO and one TPDO of four bytes each.
   void add_objects();
@@ -36,7 +40,6 @@ class Pdos {
 
  private:
   Device* device_;
-  Emergency* emergency_;
   std::deque<ReceivePdo> receive_;  // PDOs do not move: their entries point to them
   std::deque<TransmitPdo> transmit_;
 };

@@ -23,10 +23,10 @@ void add_record(ObjectDictionary& od, std::uint16_t index, const char* name, con
 }
 
 /// COB-IDs in the order of their sub-indices.
-std::pair<CobIdRules, CobIdRules> bind_record(Device& device, std::uint16_t index, CobIdUse use) {
+std::pair<CobId, CobId> bind_record(Device& device, const CobIdRules& rules, std::uint16_t index) {
   ObjectDictionary& od = device.dictionary;
-  CobIdRules to_server(device, use, index, first_cob_id_sub, not_valid);
-  CobIdRules to_client(device, use, index, second_cob_id_sub, not_valid);
+  CobId to_server(device, rules, index, first_cob_id_sub, not_valid);
+  CobId to_client(device, rules, index, second_cob_id_sub, not_valid);
   to_server.bind();
   to_client.bind();
   if (Entry* node_id = od.entry(index, node_id_sub); node_id != nullptr && !node_id->low && !node_id->high) {
@@ -54,15 +54,14 @@ void add_sdo_client(Device& device) {
   add_record(device.dictionary, first_sdo_client, "SDO client parameter", "Node-ID of the SDO server");
 }
 
-SdoChannel bind_sdo_server(Device& device, std::uint16_t index) {
-  const auto [to_server, to_client] = bind_record(device, index, CobIdUse::sdo_server);
+SdoChannel bind_sdo_server(Device& device, const CobIdRules& rules, std::uint16_t index) {
+  const auto [to_server, to_client] = bind_record(device, rules, index);
   return {to_server, to_client};
 }
 
-void bind_sdo_clients(Device& device) {
+void bind_sdo_clients(Device& device, const CobIdRules& rules) {
   for (const auto& [index, object] : device.dictionary.objects()) {
-    if (index >= first_sdo_client && index <= last_sdo_client)
-      bind_record(device, index, CobIdUse::sdo_client);
+    if (index >= first_sdo_client && index <= last_sdo_client) bind_record(device, rules, index);
   }
 }
 

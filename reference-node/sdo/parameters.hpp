@@ -5,15 +5,15 @@
 
 #include <cstdint>
 
-#include "cob-id/cob_id_rules.hpp"
+#include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
 
 namespace refnode {
 
 /// The two COB-IDs of a channel, named by what the node does: it receives one and sends the other.
 struct SdoChannel {
-  CobIdRules receive;
-  CobIdRules transmit;
+  CobId receive;
+  CobId transmit;
   /// Both have bit 31 = 0.
   [[nodiscard]] bool valid() const { return receive.valid() && transmit.valid(); }
 };
@@ -30,8 +30,8 @@ void add_sdo_client(Device& device);
 
 /// Puts the rules behind the parameter of an additional server and gives its channel. While bit 30 (dynamic)
 /// of one COB-ID is set nothing of the object is stored.
-[[nodiscard]] SdoChannel bind_sdo_server(Device& device, std::uint16_t index);
+[[nodiscard]] SdoChannel bind_sdo_server(Device& device, const CobIdRules& rules, std::uint16_t index);
 /// The same rules behind the parameters of all clients.
-void bind_sdo_clients(Device& device);
+void bind_sdo_clients(Device& device, const CobIdRules& rules);
 
 }  // namespace refnode

@@ -18,6 +18,11 @@ namespace refnode {
 class SdoServers {
  public:
   explicit SdoServers(Device& device);
+  SdoServers(const SdoServers&) = delete;
+  SdoServers& operator=(const SdoServers&) = delete;
+
+  CobIdRules cob_id_rules{CobIdUse::sdo_server};
+  CobIdRules client_cob_id_rules{CobIdUse::sdo_client};
 
   /// Adds the parameter objects of two additional servers.
   void add_objects();

@@ -17,11 +17,14 @@ VariantTable abort_variants() {
       {"abort-below-limit-0609-0030", "a value below its limit is an invalid value", "OD-RNG-02",
        choose([](Choices& c) { c.value_below_limit = abort_code::invalid_value; })},
       {"abort-empty-history-0800-0000", "an empty history is a general error", "OD-1003-03",
-       choose([](Choices& c) { c.nothing_recorded = c.history_unused_field = abort_code::general_error; })},
+       [](Parts& node) {
+         node.emergency.history.choices.nothing_recorded = node.emergency.history.choices.unused_field =
+             abort_code::general_error;
+       }},
       {"abort-unused-history-0609-0011",
        "an unused field of the history does not exist",
        "OD-1003-05, OD-1003-09",
-       choose([](Choices& c) { c.history_unused_field = abort_code::no_sub_index; }),
+       [](Parts& node) { node.emergency.history.choices.unused_field = abort_code::no_sub_index; },
        {},
        {"abort-empty-history-0800-0000"}},
       {"abort-1016-reserved-0609-0031", "reserved bits of 1016h are a value too high", "OD-1016-12",

@@ -10,11 +10,11 @@ namespace {
 
 template <typename Change>
 How everywhere(Change change) {
-  return [change](VariantTarget& target) {
-    Choices& c = target.choices;
-    for (CobIdChoices* each : {&c.sync_cob_id, &c.time_cob_id, &c.emergency_cob_id,
-                               &c.emergency_consumer_cob_id, &c.rpdo_cob_id, &c.tpdo_cob_id})
-      change(*each);
+  return [change](Parts& parts) {
+    for (CobIdRules* each :
+         {&parts.sync.cob_id_rules, &parts.time.cob_id_rules, &parts.emergency.cob_id_rules,
+          &parts.emergencies.cob_id_rules, &parts.pdos.rpdo_cob_id_rules, &parts.pdos.tpdo_cob_id_rules})
+      change(each->choices);
   };
 }
 
@@ -54,11 +54,13 @@ VariantTable cob_id_variants() {
       {"abort-restricted-0800-0000", "a restricted CAN-ID: general error", "CAN-RID-01 to -05",
        restricted_code(abort_code::general_error), "restricted-code"},
       {"abort-static-0800-0000", "bit 30 of SYNC and TIME cannot be set: general error",
-       "OD-1005-03, OD-1012-03", choose([](Choices& c) {
-         c.sync_cob_id.fixed_bit = c.time_cob_id.fixed_bit = abort_code::general_error;
-       })},
+       "OD-1005-03, OD-1012-03",
+       [](Parts& node) {
+         node.sync.cob_id_rules.choices.fixed_bit = node.time.cob_id_rules.choices.fixed_bit =
+             abort_code::general_error;
+       }},
       {"abort-1014-bit-30-0609-0031", "reserved bit 30 of 1014h: value too high", "OD-1014-04",
-       choose([](Choices& c) { c.emergency_cob_id.fixed_bit = abort_code::value_too_high; })},
+       [](Parts& node) { node.emergency.cob_id_rules.choices.fixed_bit = abort_code::value_too_high; }},
       {"restricted-always", "a restricted CAN-ID is refused while the object is not valid, too",
        "CAN-RID-03 to -05", everywhere([](CobIdChoices& c) { c.restricted_always = true; })},
       {"locked-by-former-value", "switching off and moving in one write is a change while valid",
@@ -67,7 +69,10 @@ VariantTable cob_id_variants() {
       {"pdo-only-valid-bit",
        "PDOs can be switched off, their CAN-IDs cannot be changed",
        "OD-1400-12, OD-1800-12",
-       choose([](Choices& c) { c.rpdo_cob_id.only_valid_bit = c.tpdo_cob_id.only_valid_bit = true; }),
+       [](Parts& node) {
+         node.pdos.rpdo_cob_id_rules.choices.only_valid_bit =
+             node.pdos.tpdo_cob_id_rules.choices.only_valid_bit = true;
+       },
        {},
        {"lock-code"},
        {},
@@ -75,10 +80,13 @@ VariantTable cob_id_variants() {
       {.id = "pdo-only-valid-bit-0800-0000",
        .summary = "the same, refused as a general error",
        .legal = "OD-1400-12, OD-1800-12",
-       .how = choose([](Choices& c) {
-         c.rpdo_cob_id.only_valid_bit = c.tpdo_cob_id.only_valid_bit = true;
-         c.rpdo_cob_id.locked = c.tpdo_cob_id.locked = abort_code::general_error;
-       }),
+       .how =
+           [](Parts& node) {
+             node.pdos.rpdo_cob_id_rules.choices.only_valid_bit =
+                 node.pdos.tpdo_cob_id_rules.choices.only_valid_bit = true;
+             node.pdos.rpdo_cob_id_rules.choices.locked = node.pdos.tpdo_cob_id_rules.choices.locked =
+                 abort_code::general_error;
+           },
        .excludes = {"lock-code", "pdo-only-valid-bit"},
        .gains = {"fixed cob-ids"}},
   };

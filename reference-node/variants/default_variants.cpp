@@ -14,10 +14,10 @@ namespace {
 /// Device types of logical devices of the same profile, and FFFFh in the upper half of 1000h (CiA
 /// 301, 7.5.2.1).
 How logical_devices(std::initializer_list<std::uint16_t> described) {
-  return [all = std::vector<std::uint16_t>(described)](VariantTarget& target) {
-    preset(0x1000, 0, 0xFFFF0191)(target);
+  return [all = std::vector<std::uint16_t>(described)](Parts& parts) {
+    preset(0x1000, 0, 0xFFFF0191)(parts);
     for (const std::uint16_t index : all) {
-      target.dictionary.add_variable(
+      parts.device.dictionary.add_variable(
           index, integer_entry("Device type", DataType::unsigned32, Access::ro, 0x00030191));
     }
   };

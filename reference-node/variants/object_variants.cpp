@@ -15,7 +15,7 @@ using namespace variant;
 namespace {
 
 /// Sub-index FFh of every array and record: bits 15-8 data type, 7-0 object code (CiA 301, 7.4.3, 7.5.2).
-void add_structure(VariantTarget& target) {
+void add_structure(Parts& parts) {
   constexpr std::uint8_t array_code = 0x08;
   constexpr std::uint8_t record_code = 0x09;
   const auto record_type = [](std::uint16_t index) -> unsigned {
@@ -29,7 +29,7 @@ void add_structure(VariantTarget& target) {
       default: return 0x40;  // a structure of the manufacturer
     }
   };
-  for (auto& [index, object] : target.dictionary.objects()) {
+  for (auto& [index, object] : parts.device.dictionary.objects()) {
     if (object.kind == ObjectKind::variable) continue;
     const auto first = object.entries.upper_bound(0);
     const bool array = object.kind == ObjectKind::array && first != object.entries.end();
@@ -39,33 +39,33 @@ void add_structure(VariantTarget& target) {
   }
 }
 
-void add_types(VariantTarget& target) {
+void add_types(Parts& parts) {
   constexpr std::uint8_t bits[] = {1, 8, 16, 32, 8, 16, 32};
   for (std::uint16_t type = 1; type <= 7; ++type) {
-    if (target.dictionary.objects().contains(type)) continue;
-    target.dictionary.add_variable(
+    if (parts.device.dictionary.objects().contains(type)) continue;
+    parts.device.dictionary.add_variable(
         type, integer_entry("Data type", DataType::unsigned32, Access::ro, bits[type - 1U]));
   }
 }
 
 /// 1010h, bit 1 of every sub-index.
 How stores_by_itself(Duration rest) {
-  return [rest](VariantTarget& target) {
-    const auto object = target.dictionary.objects().find(0x1010);
-    if (object == target.dictionary.objects().end()) return;
+  return [rest](Parts& parts) {
+    const auto object = parts.device.dictionary.objects().find(0x1010);
+    if (object == parts.device.dictionary.objects().end()) return;
     for (auto& [sub, entry] : object->second.entries) {
       if (sub == 0 || sub == 0xFF) continue;
       entry.default_value[0] |= 2U;
       entry.value = entry.default_value;
     }
-    target.choices.rest_before_storing = rest;
+    parts.device.choices.rest_before_storing = rest;
   };
 }
 
 /// Writable entries of type DOMAIN.
 template <typename Change>
-void change_domains(VariantTarget& target, Change change) {
-  for (auto& [index, object] : target.dictionary.objects()) {
+void change_domains(Parts& parts, Change change) {
+  for (auto& [index, object] : parts.device.dictionary.objects()) {
     for (auto& [sub, entry] : object.entries) {
       if (entry.type == DataType::domain && entry.access == Access::rw) change(entry);
     }
@@ -74,8 +74,8 @@ void change_domains(VariantTarget& target, Change change) {
 
 /// A window on a memory: what is written goes to its beginning, and reading gives all of it.
 How domain_windows(std::size_t bytes) {
-  return [bytes](VariantTarget& target) {
-    change_domains(target, [bytes](Entry& entry) {
+  return [bytes](Parts& parts) {
+    change_domains(parts, [bytes](Entry& entry) {
       entry.value.resize(bytes);
       entry.default_value = entry.value;
       entry.max_size = bytes;
@@ -89,8 +89,8 @@ How domain_windows(std::size_t bytes) {
 }
 
 /// A program for another processor is refused when all of it is there.
-void domains_look_at_content(VariantTarget& target) {
-  change_domains(target, [](Entry& entry) {
+void domains_look_at_content(Parts& parts) {
+  change_domains(parts, [](Entry& entry) {
     entry.check = [&entry](ByteView bytes) -> Accepted {
       if (std::ranges::equal(bytes, entry.value)) return {};
       return refuse(abort_code::invalid_value);
@@ -98,8 +98,8 @@ void domains_look_at_content(VariantTarget& target) {
   });
 }
 
-void empty_domains(VariantTarget& target) {
-  change_domains(target, [](Entry& entry) {
+void empty_domains(Parts& parts) {
+  change_domains(parts, [](Entry& entry) {
     entry.value.clear();
     entry.default_value.clear();
   });
@@ -107,8 +107,8 @@ void empty_domains(VariantTarget& target) {
 
 /// 1010h, bit 1 of one sub-index only.
 How stores_by_itself_as_said_in(std::uint8_t sub) {
-  return [sub](VariantTarget& target) {
-    Entry* entry = target.dictionary.entry(0x1010, sub);
+  return [sub](Parts& parts) {
+    Entry* entry = parts.device.dictionary.entry(0x1010, sub);
     if (entry == nullptr) return;
     entry->default_value[0] |= 2U;
     entry->value = entry->default_value;
@@ -117,8 +117,8 @@ How stores_by_itself_as_said_in(std::uint8_t sub) {
 
 /// A complex data type entry with the types of its elements (CiA 301, 7.4.8).
 How structure(std::uint16_t index, std::vector<std::uint16_t> elements) {
-  return [index, elements = std::move(elements)](VariantTarget& target) {
-    auto& entries = target.dictionary.objects()[index].entries;
+  return [index, elements = std::move(elements)](Parts& parts) {
+    auto& entries = parts.device.dictionary.objects()[index].entries;
     entries[0] = integer_entry("Number of elements", DataType::unsigned8, Access::ro, elements.size());
     std::uint8_t sub = 1;
     for (const auto type : elements)
@@ -127,17 +127,17 @@ How structure(std::uint16_t index, std::vector<std::uint16_t> elements) {
 }
 
 /// 1010h:03 and 1011h:03 are missing, and nothing above 1FFFh is stored with "all parameters" either.
-void store_communication_only(VariantTarget& target) {
-  absent_from(0x1010, 3)(target);
-  absent_from(0x1011, 3)(target);
-  for (auto& [index, object] : target.dictionary.objects()) {
+void store_communication_only(Parts& parts) {
+  absent_from(0x1010, 3)(parts);
+  absent_from(0x1011, 3)(parts);
+  for (auto& [index, object] : parts.device.dictionary.objects()) {
     if (index < 0x2000) continue;
     for (auto& [sub, entry] : object.entries) entry.storable = false;
   }
 }
 
-void remove_range(VariantTarget& target, std::uint16_t first, std::uint16_t last) {
-  std::erase_if(target.dictionary.objects(),
+void remove_range(Parts& parts, std::uint16_t first, std::uint16_t last) {
+  std::erase_if(parts.device.dictionary.objects(),
                 [=](const auto& object) { return object.first >= first && object.first <= last; });
 }
 
@@ -148,11 +148,11 @@ VariantTable object_variants() {
       {"1002-absent", "no manufacturer status register", "7.5.2.3: optional", absent({0x1002})},
       {"1003-absent", "no error history", "7.5.2.4: optional", absent({0x1003}), "1003"},
       {"1003-depth-1", "a history of one error", "7.5.2.4: 1 to 254 fields",
-       both(absent_from(0x1003, 2), choose([](Choices& c) { c.history_depth = 1; })), "1003"},
+       both(absent_from(0x1003, 2), [](Parts& node) { node.emergency.history.choices.depth = 1; }), "1003"},
       {"1003-depth-2", "a history of two errors", "7.5.2.4: 1 to 254 fields",
-       both(absent_from(0x1003, 3), choose([](Choices& c) { c.history_depth = 2; })), "1003"},
+       both(absent_from(0x1003, 3), [](Parts& node) { node.emergency.history.choices.depth = 2; }), "1003"},
       {"1003-depth-7", "a history of seven errors", "7.5.2.4: 1 to 254 fields",
-       both(absent_from(0x1003, 8), choose([](Choices& c) { c.history_depth = 7; })), "1003"},
+       both(absent_from(0x1003, 8), [](Parts& node) { node.emergency.history.choices.depth = 7; }), "1003"},
       {.id = "sync-absent",
        .summary = "no SYNC: 1005h to 1007h and 1019h absent, no synchronous PDO",
        .legal = "7.5.2.5: 1005h is for devices that support SYNC",
@@ -263,9 +263,9 @@ VariantTable object_variants() {
        .excludes = {"tpdo"},
        .lacks = {"rpdo", "tpdo", "variable mapping", "remote frames"}},
       {"manufacturer-objects-absent", "no manufacturer-specific objects", "7.4.1: optional",
-       [](VariantTarget& target) { remove_range(target, 0x2000, 0x5FFF); }, "manufacturer"},
+       [](Parts& parts) { remove_range(parts, 0x2000, 0x5FFF); }, "manufacturer"},
       {"empty-entries-absent", "no object without content", "7.4.7: lengths are the device's own",
-       [](VariantTarget& target) { target.dictionary.remove_sub(0x2005, 1); }},
+       [](Parts& parts) { parts.device.dictionary.remove_sub(0x2005, 1); }},
       {"domain-1000", "every writable DOMAIN is a window of 1000 bytes",
        "7.4.7: lengths are the device's own", domain_windows(1000), "domain"},
       {"domain-1778", "every writable DOMAIN is a window of 1778 bytes: two full sub-blocks",

@@ -10,25 +10,25 @@ using namespace variant;
 namespace {
 
 /// A producer of the time stamp only: what it counts cannot be set.
-void read_only_clock(VariantTarget& target) { access(0x1013, 0, Access::ro)(target); }
+void read_only_clock(Parts& parts) { access(0x1013, 0, Access::ro)(parts); }
 
 /// Nothing is plugged in: sub-index 01h is there and holds nothing.
-void no_modules(VariantTarget& target) {
-  preset(0x1027, 0, 0)(target);
-  target.dictionary.remove_sub(0x1027, 2);
-  if (Entry* entry = target.dictionary.entry(0x1027, 1))
+void no_modules(Parts& parts) {
+  preset(0x1027, 0, 0)(parts);
+  parts.device.dictionary.remove_sub(0x1027, 2);
+  if (Entry* entry = parts.device.dictionary.entry(0x1027, 1))
     entry->read = []() -> Upload { return refuse(abort_code::no_data); };
 }
 
-void empty_description(VariantTarget& target) {
-  if (Entry* entry = target.dictionary.entry(0x1021, 0))
+void empty_description(Parts& parts) {
+  if (Entry* entry = parts.device.dictionary.entry(0x1021, 0))
     entry->read = []() -> Upload { return refuse(abort_code::no_data); };
 }
 
 /// The prompt reads as 00h when there is nothing to read.
-void silent_prompt(VariantTarget& target) {
+void silent_prompt(Parts& parts) {
   for (const std::uint8_t sub : {std::uint8_t{2}, std::uint8_t{3}}) {
-    Entry* entry = target.dictionary.entry(0x1026, sub);
+    Entry* entry = parts.device.dictionary.entry(0x1026, sub);
     if (entry == nullptr) continue;
     entry->read = [read = entry->read]() -> Upload {
       Upload value = read();
@@ -79,9 +79,9 @@ VariantTable optional_object_variants() {
       {"1019-const", "SYNC never has a counter", "OD-1019-08: const", access(0x1019, 0, Access::constant),
        "1019"},
       {"abort-1019-reserved-0800-0000", "a reserved counter overflow: general error", "OD-1019-04",
-       choose([](Choices& c) { c.counter_reserved = abort_code::general_error; })},
+       [](Parts& node) { node.sync.choices.counter_reserved = abort_code::general_error; }},
       {"abort-1019-locked-0800-0000", "a counter overflow in use: general error", "OD-1019-05",
-       choose([](Choices& c) { c.counter_locked = abort_code::general_error; })},
+       [](Parts& node) { node.sync.choices.counter_locked = abort_code::general_error; }},
       {"1020-absent", "no configuration date", "7.5.2.23: optional", absent({0x1020})},
       {"1021-absent", "no device description inside", "7.5.2.24: optional", absent({0x1021, 0x1022}), "1021"},
       {"1021-empty", "no device description has been stored yet", "OD-1021-01: an empty store",
@@ -121,7 +121,7 @@ VariantTable optional_object_variants() {
        access_all(0x1028, Access::rw, Access::constant), "1028"},
       {"abort-1028-bit-30-0609-0031", "reserved bit 30 of 1028h: value too high",
        "7.5.2.31: no code is named",
-       choose([](Choices& c) { c.emergency_consumer_cob_id.fixed_bit = abort_code::value_too_high; })},
+       [](Parts& node) { node.emergencies.cob_id_rules.choices.fixed_bit = abort_code::value_too_high; }},
       {.id = "1029-absent",
        .summary = "the error behaviour cannot be chosen",
        .legal = "7.5.2.32: optional",

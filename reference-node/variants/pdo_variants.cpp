@@ -10,9 +10,10 @@ namespace {
 
 /// Sub-index 04h as older devices have it: one byte, without meaning.
 How compatibility_entry(std::uint16_t index) {
-  return [index](VariantTarget& target) {
-    if (target.dictionary.objects().contains(index))
-      target.dictionary.add_sub(index, 4, integer_entry("Reserved", DataType::unsigned8, Access::rw, 0));
+  return [index](Parts& parts) {
+    if (parts.device.dictionary.objects().contains(index))
+      parts.device.dictionary.add_sub(index, 4,
+                                      integer_entry("Reserved", DataType::unsigned8, Access::rw, 0));
   };
 }
 
@@ -42,7 +43,11 @@ VariantTable pdo_variants() {
       {.id = "tpdo-without-remote-frames",
        .summary = "remote frames are never answered, bit 30 cannot be cleared",
        .legal = "OD-1800-14",
-       .how = choose([](Choices& c) { c.tpdo.any_remote = c.tpdo.remote_types = false; }),
+       .how =
+           [](Parts& node) {
+             node.pdos.tpdo_cob_id_rules.choices.remote_frames = node.device.choices.tpdo.remote_types =
+                 false;
+           },
        .lacks = {"remote frames"}},
       {.id = "tpdo-change-no-event",
        .summary = "a change of mapped data is no event of a TPDO",

@@ -12,8 +12,8 @@ using namespace variant;
 namespace {
 
 /// Bytes of an upload that hold no data are not reserved.
-void fill_unused_bytes(VariantTarget& target) {
-  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+void fill_unused_bytes(Parts& parts) {
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.sdo == nullptr || context.sdo->aborted) return;
     for (Outgoing& outgoing : frames) {
       auto& data = outgoing.frame.data;
@@ -27,22 +27,22 @@ void fill_unused_bytes(VariantTarget& target) {
 }
 
 How turnaround(std::chrono::milliseconds time) {
-  return [time](VariantTarget& target) { target.choices.sdo.turnaround = time; };
+  return [time](Parts& parts) { parts.device.choices.sdo.turnaround = time; };
 }
 
 /// Who takes that long for an answer has nothing that would take hours, and does not soon lose patience with
 /// a client.
 How slow_turnaround(std::chrono::milliseconds time) {
-  return [time](VariantTarget& target) {
-    target.choices.sdo.turnaround = time;
-    target.choices.sdo.time_out = std::chrono::seconds(10);
-    absent({0x1021, 0x1022, 0x2008})(target);
-    gap(0x2000, 0x0F)(target);
+  return [time](Parts& parts) {
+    parts.device.choices.sdo.turnaround = time;
+    parts.device.choices.sdo.time_out = std::chrono::seconds(10);
+    absent({0x1021, 0x1022, 0x2008})(parts);
+    gap(0x2000, 0x0F)(parts);
   };
 }
 
 How filter(Filter change) {
-  return [change = std::move(change)](VariantTarget& target) { target.outbox.add_filter(change); };
+  return [change = std::move(change)](Parts& parts) { parts.device.outbox.add_filter(change); };
 }
 
 /// Another code in place of `usual`, in answers to these steps.
@@ -89,9 +89,9 @@ void refuse_reserved_bits(const FilterContext& context, std::vector<Outgoing>& f
 
 /// 42h: expedited, the size is not told.
 /// A client knows the length by the type; of a string of four characters nobody would.
-void leave_out_size(VariantTarget& target) {
-  const ObjectDictionary& dictionary = target.dictionary;
-  target.outbox.add_filter([&dictionary](const FilterContext& context, std::vector<Outgoing>& frames) {
+void leave_out_size(Parts& parts) {
+  const ObjectDictionary& dictionary = parts.device.dictionary;
+  parts.device.outbox.add_filter([&dictionary](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.sdo == nullptr || context.sdo->aborted || context.sdo->step != SdoStep::upload_initiate)
       return;
     const auto* entry = dictionary.entry(context.sdo->index(), context.sdo->sub());
@@ -103,10 +103,11 @@ void leave_out_size(VariantTarget& target) {
 }
 
 /// Without segmented transfer nothing may be longer than four bytes.
-void expedited_only(VariantTarget& target) {
+void expedited_only(Parts& parts) {
   // Commands and replies are longer, and their records cannot be without them.
-  for (std::uint16_t index = 0x1021; index <= 0x1025; ++index) target.dictionary.remove(index);
-  for (auto object = target.dictionary.objects().begin(); object != target.dictionary.objects().end();) {
+  for (std::uint16_t index = 0x1021; index <= 0x1025; ++index) parts.device.dictionary.remove(index);
+  for (auto object = parts.device.dictionary.objects().begin();
+       object != parts.device.dictionary.objects().end();) {
     auto& entries = object->second.entries;
     std::erase_if(entries, [](const auto& entry) {
       const std::size_t fixed = fixed_size(entry.second.type);
@@ -124,10 +125,10 @@ void expedited_only(VariantTarget& target) {
       if (highest->first == 0xFF) --highest;
       entries.at(0).value = entries.at(0).default_value = Bytes{highest->first};
     }
-    object = nothing_left ? target.dictionary.objects().erase(object) : std::next(object);
+    object = nothing_left ? parts.device.dictionary.objects().erase(object) : std::next(object);
   }
-  target.choices.sdo.segmented = false;
-  target.choices.sdo.block = false;
+  parts.device.choices.sdo.segmented = false;
+  parts.device.choices.sdo.block = false;
 }
 
 }  // namespace

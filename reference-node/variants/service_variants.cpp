@@ -9,8 +9,8 @@ using namespace variant;
 namespace {
 
 /// After boot-up, one EMCY 0000h.
-void announce_no_error(VariantTarget& target) {
-  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+void announce_no_error(Parts& parts) {
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.service != Service::boot_up || frames.empty()) return;
     frames.push_back({conform::can::data_frame(conform::CanId(0x80U + context.node_id),
                                                {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}),
@@ -19,8 +19,8 @@ void announce_no_error(VariantTarget& target) {
 }
 
 /// Bytes 3 to 7 are the manufacturer's.
-void fill_manufacturer_bytes(VariantTarget& target) {
-  target.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+void fill_manufacturer_bytes(Parts& parts) {
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.service != Service::emergency) return;
     for (Outgoing& outgoing : frames) {
       for (std::size_t i = 3; i < 8; ++i) outgoing.frame.data[i] = static_cast<std::uint8_t>(0xA0U + i);
@@ -29,15 +29,16 @@ void fill_manufacturer_bytes(VariantTarget& target) {
 }
 
 /// 1F80h, NMT start-up: bit 2 is 0, so the device starts without an NMT master.
-void start_by_itself(VariantTarget& target) {
-  target.dictionary.add_variable(0x1F80, integer_entry("NMT start-up", DataType::unsigned32, Access::ro, 0));
-  target.choices.self_starting = true;
+void start_by_itself(Parts& parts) {
+  parts.device.dictionary.add_variable(0x1F80,
+                                       integer_entry("NMT start-up", DataType::unsigned32, Access::ro, 0));
+  parts.device.choices.self_starting = true;
 }
 
 /// Storing and restoring take their time.
 How slow_storage(std::chrono::milliseconds delay) {
-  return [delay](VariantTarget& target) {
-    target.outbox.add_filter([delay](const FilterContext& context, std::vector<Outgoing>& frames) {
+  return [delay](Parts& parts) {
+    parts.device.outbox.add_filter([delay](const FilterContext& context, std::vector<Outgoing>& frames) {
       if (context.sdo == nullptr || context.sdo->step != SdoStep::download_initiate || context.sdo->aborted)
         return;
       if (context.sdo->index() != 0x1010 && context.sdo->index() != 0x1011) return;
@@ -86,12 +87,12 @@ VariantTable service_variants() {
       {.id = "register-generic-only",
        .summary = "the error register has bit 0 only",
        .legal = "7.5.2.2: all others are optional; EMCY-FMT-05 is a recommendation",
-       .how = choose([](Choices& c) { c.register_generic_only = true; }),
+       .how = [](Parts& node) { node.emergency.choices.register_generic_only = true; },
        .warns = {"EMCY-FMT-05"}},
       {"error-reset-for-each", "EMCY 0000h for each error that goes, with what is left", "EMCY-SEQ-05",
-       choose([](Choices& c) { c.error_reset_for_each = true; })},
+       [](Parts& node) { node.emergency.choices.error_reset_for_each = true; }},
       {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
-       choose([](Choices& c) { c.emergency_dropped_in_stopped = true; })},
+       [](Parts& node) { node.emergency.choices.dropped_in_stopped = true; }},
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},
       {.id = "emcy-no-error-at-boot-up",
@@ -103,10 +104,10 @@ VariantTable service_variants() {
       {.id = "sync-length-not-reported",
        .summary = "a SYNC with data causes no EMCY",
        .legal = "SYNC-CON-07; NMT-SVC-02 tolerates it",
-       .how = choose([](Choices& c) { c.wrong_sync_reported = false; }),
+       .how = [](Parts& node) { node.sync.choices.wrong_length_reported = false; },
        .warns = {"NMT-SVC-02", "SYNC-CON-05"}},
       {"sync-with-data-ignored", "a SYNC with data is not used", "SYNC-CON-07",
-       choose([](Choices& c) { c.wrong_sync_used = false; })},
+       [](Parts& node) { node.sync.choices.wrong_length_used = false; }},
       {"storing-takes-400ms", "storing takes 400 ms", "OD-1010-07: no limit is set",
        slow_storage(std::chrono::milliseconds(400)), "storing"},
       {"storing-takes-9s", "storing takes 9 s", "OD-1010-07: T_NVM", slow_storage(std::chrono::seconds(9)),

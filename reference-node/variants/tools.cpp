@@ -6,19 +6,19 @@
 namespace refnode::variant {
 
 How absent(std::initializer_list<std::uint16_t> indices) {
-  return [all = std::vector<std::uint16_t>(indices)](VariantTarget& target) {
-    for (const std::uint16_t index : all) target.dictionary.remove(index);
+  return [all = std::vector<std::uint16_t>(indices)](Parts& parts) {
+    for (const std::uint16_t index : all) parts.device.dictionary.remove(index);
   };
 }
 
 How absent_from(std::uint16_t index, std::uint8_t first) {
-  return [index, first](VariantTarget& target) {
-    const auto found = target.dictionary.objects().find(index);
-    if (found == target.dictionary.objects().end()) return;
+  return [index, first](Parts& parts) {
+    const auto found = parts.device.dictionary.objects().find(index);
+    if (found == parts.device.dictionary.objects().end()) return;
     auto& entries = found->second.entries;
     std::erase_if(entries,
                   [first](const auto& entry) { return entry.first >= first && entry.first != 0xFF; });
-    Entry* highest = target.dictionary.entry(index, 0);
+    Entry* highest = parts.device.dictionary.entry(index, 0);
     // 1003h, 16xxh: something else is counted there.
     if (highest == nullptr || highest->access != Access::constant) return;
     std::uint8_t last = 0;
@@ -28,19 +28,19 @@ How absent_from(std::uint16_t index, std::uint8_t first) {
 }
 
 How gap(std::uint16_t index, std::uint8_t sub) {
-  return [index, sub](VariantTarget& target) { target.dictionary.remove_sub(index, sub); };
+  return [index, sub](Parts& parts) { parts.device.dictionary.remove_sub(index, sub); };
 }
 
 How access(std::uint16_t index, std::uint8_t sub, Access access) {
-  return [index, sub, access](VariantTarget& target) {
-    if (Entry* entry = target.dictionary.entry(index, sub)) entry->access = access;
+  return [index, sub, access](Parts& parts) {
+    if (Entry* entry = parts.device.dictionary.entry(index, sub)) entry->access = access;
   };
 }
 
 How access_all(std::uint16_t index, Access from, Access to) {
-  return [index, from, to](VariantTarget& target) {
-    const auto found = target.dictionary.objects().find(index);
-    if (found == target.dictionary.objects().end()) return;
+  return [index, from, to](Parts& parts) {
+    const auto found = parts.device.dictionary.objects().find(index);
+    if (found == parts.device.dictionary.objects().end()) return;
     for (auto& [sub, entry] : found->second.entries) {
       if (entry.access == from) entry.access = to;
     }
@@ -48,8 +48,8 @@ How access_all(std::uint16_t index, Access from, Access to) {
 }
 
 How preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
-  return [index, sub, value](VariantTarget& target) {
-    Entry* entry = target.dictionary.entry(index, sub);
+  return [index, sub, value](Parts& parts) {
+    Entry* entry = parts.device.dictionary.entry(index, sub);
     if (entry == nullptr) return;
     conform::store_le(entry->value, value);
     entry->default_value = entry->value;
@@ -57,12 +57,12 @@ How preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
 }
 
 How preset_with_node_id(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
-  return [index, sub, value](VariantTarget& target) { preset(index, sub, value + target.node_id)(target); };
+  return [index, sub, value](Parts& parts) { preset(index, sub, value + parts.device.node_id)(parts); };
 }
 
 How text(std::uint16_t index, std::string_view value) {
-  return [index, value](VariantTarget& target) {
-    if (Entry* entry = target.dictionary.entry(index, 0)) {
+  return [index, value](Parts& parts) {
+    if (Entry* entry = parts.device.dictionary.entry(index, 0)) {
       entry->value = entry->default_value = Bytes(value.begin(), value.end());
       entry->max_size = value.size();
     }
@@ -70,14 +70,14 @@ How text(std::uint16_t index, std::string_view value) {
 }
 
 How both(How first, How second) {
-  return [first = std::move(first), second = std::move(second)](VariantTarget& target) {
-    first(target);
-    second(target);
+  return [first = std::move(first), second = std::move(second)](Parts& parts) {
+    first(parts);
+    second(parts);
   };
 }
 
 How choose(void (*change)(Choices&)) {
-  return [change](VariantTarget& target) { change(target.choices); };
+  return [change](Parts& parts) { change(parts.device.choices); };
 }
 
 }  // namespace refnode::variant

@@ -10,7 +10,7 @@
 
 namespace refnode::variant {
 
-using How = std::function<void(VariantTarget&)>;
+using How = std::function<void(Parts&)>;
 
 [[nodiscard]] How absent(std::initializer_list<std::uint16_t> indices);
 /// Sub-indices first..FEh go; sub-index 00h tells the highest one that stays.

@@ -9,25 +9,15 @@
 #include <string_view>
 #include <vector>
 
-#include "device/outbox.hpp"
-#include "dictionary/object_dictionary.hpp"
-#include "node/choices.hpp"
+#include "node/parts.hpp"
 
 namespace refnode {
-
-/// What a variant may change, before the node starts.
-struct VariantTarget {
-  ObjectDictionary& dictionary;
-  Choices& choices;
-  Outbox& outbox;
-  std::uint8_t node_id;
-};
 
 struct Variant {
   std::string_view id;
   std::string_view summary;
   std::string_view legal;  ///< clause of CiA 301, or requirements that name this way among those that pass
-  std::function<void(VariantTarget&)> how;
+  std::function<void(Parts&)> how;
   std::string_view group = {};                  ///< of all rows with the same word here one can be chosen
   std::vector<std::string_view> excludes = {};  ///< further ids or groups it cannot be combined with
   std::vector<std::string_view> lacks = {};     ///< features of a device profile that go with it

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "defects/hooks.hpp"
+
+namespace refnode::defect {
+
+namespace {
+
+void put_check(Parts& parts, Entry& entry, std::function<Accepted(Parts&, const Check&, ByteView)> check) {
+  Check former = entry.check ? entry.check : [](ByteView) { return Accepted{}; };
+  entry.check = [&parts, former = std::move(former), check = std::move(check)](ByteView bytes) {
+    return check(parts, former, bytes);
+  };
+}
+
+void put_read(Parts& parts, Entry& entry, std::function<Upload(Parts&, const Read&)> read) {
+  Read former = entry.read ? entry.read : [&entry]() -> Upload { return entry.value; };
+  read_by(entry,
+          [&parts, former = std::move(former), read = std::move(read)] { return read(parts, former); });
+}
+
+template <typename Do>
+void for_all(Parts& parts, std::uint16_t index, Do what) {
+  const auto object = parts.device.dictionary.objects().find(index);
+  if (object == parts.device.dictionary.objects().end()) return;
+  for (auto& [sub, entry] : object->second.entries) {
+    if (sub != 0 && sub != 0xFF) what(sub, entry);
+  }
+}
+
+}  // namespace
+
+Change checking(std::uint16_t index, std::uint8_t sub,
+                std::function<Accepted(Parts&, const Check&, ByteView)> check) {
+  return [=](Parts& parts) {
+    if (Entry* entry = parts.device.dictionary.entry(index, sub)) put_check(parts, *entry, check);
+  };
+}
+
+Change checking_all(std::uint16_t index,
+                    std::function<Accepted(Parts&, const Check&, std::uint8_t, ByteView)> check) {
+  return [=](Parts& parts) {
+    for_all(parts, index, [&](std::uint8_t sub, Entry& entry) {
+      put_check(parts, entry, [check, sub](Parts& node, const Check& former, ByteView bytes) {
+        return check(node, former, sub, bytes);
+      });
+    });
+  };
+}
+
+Change reading(std::uint16_t index, std::uint8_t sub, std::function<Upload(Parts&, const Read&)> read) {
+  return [=](Parts& parts) {
+    if (Entry* entry = parts.device.dictionary.entry(index, sub)) put_read(parts, *entry, read);
+  };
+}
+
+Change reading_all(std::uint16_t index, std::function<Upload(Parts&, const Read&, std::uint8_t)> read) {
+  return [=](Parts& parts) {
+    for_all(parts, index, [&](std::uint8_t sub, Entry& entry) {
+      put_read(parts, entry,
+               [read, sub](Parts& node, const Read& former) { return read(node, former, sub); });
+    });
+  };
+}
+
+Change after_writing(std::uint16_t index, std::uint8_t sub,
+                     std::function<void(Parts&, const std::function<void()>&)> written) {
+  return [=](Parts& parts) {
+    Entry* entry = parts.device.dictionary.entry(index, sub);
+    if (entry == nullptr) return;
+    std::function<void()> former = entry->written ? entry->written : [] {};
+    entry->written = [&parts, former = std::move(former), written] { written(parts, former); };
+  };
+}
+
+Change confirms(std::uint16_t index, std::uint8_t sub, bool (*when)(std::uint64_t value)) {
+  return checking(index, sub, [when](Parts&, const Check& former, ByteView bytes) {
+    return when(conform::load_le(bytes)) ? Accepted{} : former(bytes);
+  });
+}
+
+Change refuses(std::uint16_t index, std::uint8_t sub, AbortCode code,
+               bool (*when)(std::uint64_t present, std::uint64_t wanted)) {
+  return checking(index, sub, [=](Parts& parts, const Check& former, ByteView bytes) -> Accepted {
+    if (when(parts.device.dictionary.number(index, sub), conform::load_le(bytes))) return refuse(code);
+    return former(bytes);
+  });
+}
+
+Change unnoticed(ErrorSource source, std::uint16_t code) {
+  return [=](Parts& parts) {
+    parts.device.errors.raise.replace([=](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+      if (cause.source != source || (code != 0 && cause.code != code)) former(cause, detail);
+    });
+  };
+}
+
+Change works_also(Service service, NmtState state) {
+  return [=](Parts& parts) {
+    parts.device.works.replace([=](const auto& former, Service which, NmtState present) {
+      return (which == service && present == state) || former(which, present);
+    });
+  };
+}
+
+Change deaf_to(std::function<bool(Parts&, const Frame&)> when) {
+  return Reading([when = std::move(when)](Parts& parts, std::vector<Frame>& frames) {
+    std::erase_if(frames, [&](const Frame& frame) { return when(parts, frame); });
+  });
+}
+
+Change misreads(std::function<void(Parts&, Frame&)> change) {
+  return Reading([change = std::move(change)](Parts& parts, std::vector<Frame>& frames) mutable {
+    for (Frame& frame : frames) change(parts, frame);
+  });
+}
+
+}  // namespace refnode::defect

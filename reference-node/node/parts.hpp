@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of the node: its device and the services on it. The node puts them together; legal variants set
+// their choices, defects take hold of their rules and hooks.
+#pragma once
+
+#include <memory>
+
+#include "device/device.hpp"
+#include "emergency/consumer.hpp"
+#include "emergency/emergency.hpp"
+#include "error-control/error_behaviour.hpp"
+#include "error-control/heartbeat.hpp"
+#include "error-control/node_guarding.hpp"
+#include "nmt/nmt_slave.hpp"
+#include "objects/operating_system.hpp"
+#include "pdo/pdos.hpp"
+#include "sdo/servers.hpp"
+#include "storage/memory.hpp"
+#include "storage/parameter_store.hpp"
+#include "sync/consumer.hpp"
+#include "time/consumer.hpp"
+#include "time/high_resolution_clock.hpp"
+
+namespace refnode {
+
+struct Parts {
+  Parts(std::uint8_t node_id, std::shared_ptr<Storage> storage)
+      : device(node_id),
+        emergency(device),
+        producer(device),
+        consumer(device),
+        sync(device),
+        time(device),
+        emergencies(device),
+        clock(device),
+        guarding(device),
+        operating_system(device),
+        pdos(device),
+        store(device, std::move(storage)),
+        nmt(device),
+        error_behaviour(device, nmt),
+        sdo(device) {}
+
+  Device device;
+  Emergency emergency;
+  HeartbeatProducer producer;
+  HeartbeatConsumer consumer;
+  SyncConsumer sync;
+  TimeConsumer time;
+  EmergencyConsumer emergencies;
+  HighResolutionClock clock;
+  NodeGuarding guarding;
+  OperatingSystem operating_system;
+  Pdos pdos;
+  ParameterStore store;
+  NmtSlave nmt;
+  ErrorBehaviour error_behaviour;
+  SdoServers sdo;
+};
+
+}  // namespace refnode
