@@ -40,14 +40,14 @@ Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object, const Mea
   if (!answer || answer->kind != Kind::silence) return answer;
   auto life = look_for_life(session, means);
   if (!life) return std::unexpected(life.error());
-  if (life->life != Life::answers)
+  if (life->life != Alive::answers)
     return fail("the device fell silent when " + to_string(object) + " was looked for", {}, life->tried);
   if (life->at_once) return answer;
   answer = session.peek(object);
   if (!answer || answer->kind != Kind::silence) return answer;
   life = look_for_life(session, means);
   if (!life) return std::unexpected(life.error());
-  if (life->life != Life::answers)
+  if (life->life != Alive::answers)
     return fail("the device falls silent when " + to_string(object) + " is looked for", {}, life->tried);
   return answer;
 }

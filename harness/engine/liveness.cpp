@@ -65,7 +65,7 @@ Revival heard_since(const RunSession& session, std::size_t from, Revival out) {
   const bool heard =
       std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
                   [&session](const can::CapturedFrame& each) { return is_from_node(session, each); });
-  out.life = heard ? Life::there : Life::gone;
+  out.life = heard ? Alive::there : Alive::gone;
   return out;
 }
 
@@ -121,10 +121,10 @@ Result<Liveness> probe(RunSession& session, const Means& means) {
   }
   auto revived = look_for_life(session, means);
   if (!revived) return std::unexpected(revived.error());
-  out.answers = revived->life == Life::answers;
-  if (revived->life == Life::there && !out.alive) out.heard = "a boot-up message, but no SDO answer";
+  out.answers = revived->life == Alive::answers;
+  if (revived->life == Alive::there && !out.alive) out.heard = "a boot-up message, but no SDO answer";
   if (out.answers) out.heard = revived->was_reset ? "SDO answer after a reset" : "SDO answer";
-  out.alive = out.alive || revived->life != Life::gone;
+  out.alive = out.alive || revived->life != Alive::gone;
   if (out.heard.empty()) out.heard = "nothing";
   return out;
 }
@@ -137,7 +137,7 @@ Result<Revival> look_for_life(RunSession& session, const Means& means) {
   out.tried = "no SDO answer, and no frame of it for " + boot_time;
   const auto try_again = [&](auto&& ask) -> Result<bool> {
     auto answered = ask(session);
-    if (answered && *answered) out.life = Life::answers;
+    if (answered && *answered) out.life = Alive::answers;
     return answered;
   };
   if (auto done = try_again(answers); !done || *done) {

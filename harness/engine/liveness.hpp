@@ -22,14 +22,14 @@ struct Means {
   std::function<Result<void>()> power_cycle{};  ///< empty: the power cannot be switched
 };
 
-enum class Life : std::uint8_t {
+enum class Alive : std::uint8_t {
   answers,  ///< its SDO server does
   there,    ///< it was heard, but answers no SDO request
   gone,     ///< nothing was heard of it
 };
 
 struct Revival {
-  Life life = Life::gone;
+  Alive life = Alive::gone;
   bool at_once = false;    ///< it answers, and nothing had to be done or waited for
   bool was_reset = false;  ///< it answers since it was reset
   bool power_was_switched = false;

@@ -54,4 +54,16 @@ void distrust(result::CaseResult& result, const HostTrouble& trouble) {
   result.verdict = verdict;
 }
 
+void withdraw(result::CaseResult& result, std::size_t last_heard) {
+  result.verdict = Verdict::error;
+  for (auto& judgement : result.judgements) {
+    judgement.verdict = Verdict::error;
+    for (auto& finding : judgement.findings) {
+      if (finding.frames_seen >= last_heard) finding.verdict = Verdict::error;
+      judgement.verdict = worst(judgement.verdict, finding.verdict);
+    }
+    result.verdict = worst(result.verdict, judgement.verdict);
+  }
+}
+
 }  // namespace conform::engine

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a case is worth on a host that was late, lost frames or was not alone on the SDO channel.
+// What a case is worth on a host that was late, lost frames or was not alone on the SDO channel, and what one
+// that did not come to its end.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -25,5 +27,10 @@ struct HostTrouble {
 
 /// Makes inconclusive what the trouble puts in doubt.
 void distrust(result::CaseResult& result, const HostTrouble& trouble);
+
+/// The case did not come to its end: nothing of it has passed, and a device that is gone has not violated a
+/// rule by its silence. Only what was found while the device was still heard afterwards remains;
+/// `last_heard`: capture index behind its last frame.
+void withdraw(result::CaseResult& result, std::size_t last_heard);
 
 }  // namespace conform::engine

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/lasting_errors.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/baseline.hpp"
+
+namespace conform::engine {
+namespace {
+
+constexpr Multiplexer error_register{Index(0x1001), SubIndex(0)};
+constexpr Multiplexer emcy_inhibit_time{Index(0x1015), SubIndex(0)};
+
+bool confirmed(const steps::SdoAnswer& answer) { return answer.kind == steps::SdoAnswer::Kind::confirmed; }
+
+}  // namespace
+
+Result<void> LastingErrors::look() {
+  auto errors = has_errors();
+  if (!errors) return std::unexpected(errors.error());
+  none_at_first_ = !*errors;
+  auto inhibit = run_.session.is_present(emcy_inhibit_time, false);
+  if (!inhibit) return std::unexpected(inhibit.error());
+  if (!*inhibit) return {};
+  auto held = run_.session.peek(emcy_inhibit_time);
+  if (!held) return std::unexpected(held.error());
+  if (confirmed(*held) && held->data.size() == 2)
+    emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(held->data));
+  return {};
+}
+
+Result<void> LastingErrors::end_those_of(const result::CaseResult& result) {
+  if (auto done = let_emcy_end(result.first_frame); !done) return done;
+  return clear_what_stays(result);
+}
+
+Result<bool> LastingErrors::has_errors() {
+  const auto held = run_.session.peek(error_register);
+  if (!held) return std::unexpected(held.error());
+  return confirmed(*held) && load_le(held->data) != 0;
+}
+
+/// By a trigger of the profile, or in any other way that it sends an EMCY about.
+bool LastingErrors::has_raised_errors(std::size_t from) const {
+  if (run_.session.find("trigger_delay") != nullptr) return true;
+  const auto& frames = run_.recorder.capture().frames();
+  return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
+                     [this](const can::CapturedFrame& captured) {
+                       const auto& frame = captured.frame;
+                       return captured.direction == can::Direction::received &&
+                              frame.is_data(run_.session.emcy_can_id()) && frame.size() == 8 &&
+                              (frame.data[0] != 0 || frame.data[1] != 0);
+                     });
+}
+
+Result<void> LastingErrors::let_emcy_end(std::size_t from) {
+  auto& session = run_.session;
+  const auto seen_since = [&](std::size_t first) {
+    const auto& frames = run_.recorder.capture().frames();
+    return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
+                       [&](const can::CapturedFrame& captured) {
+                         return captured.direction == can::Direction::received &&
+                                captured.frame.is_data(session.emcy_can_id());
+                       });
+  };
+  constexpr int most_held_back = 16;
+  for (int held = 0; emcy_inhibit_ > Duration::zero() && held < most_held_back && seen_since(from); ++held) {
+    from = run_.recorder.capture().size();
+    const auto margin = std::chrono::milliseconds(10);
+    if (auto waited = session.wait_until(session.now() + emcy_inhibit_ + margin); !waited) return waited;
+  }
+  return {};
+}
+
+/// Where the device knew of no error at first, a reset ends those of the case that did not end by themselves.
+Result<void> LastingErrors::clear_what_stays(const result::CaseResult& result) {
+  if (!none_at_first_ || !run_.may(scenario::Risk::config) || !has_raised_errors(result.first_frame))
+    return {};
+  auto stays = has_errors();
+  if (!stays) return std::unexpected(stays.error());
+  if (!*stays) return {};
+  // Perhaps it has not noticed yet.
+  auto& session = run_.session;
+  if (auto waited = session.wait_until(session.now() + std::chrono::milliseconds(200)); !waited)
+    return waited;
+  stays = has_errors();
+  if (!stays) return std::unexpected(stays.error());
+  if (!*stays) return {};
+  if (auto booted = reset(run_, canopen::NmtCommand::reset_node); !booted)
+    return std::unexpected(booted.error());
+  if (auto ready = enter_pre_operational(run_); !ready) return ready;
+  stays = has_errors();
+  if (!stays) return std::unexpected(stays.error());
+  if (*stays) {
+    none_at_first_ = false;
+    run_.note("since " + result.name() +
+              " the device tells of an error (1001h) that nothing ends, not even a reset");
+  }
+  return {};
+}
+
+}  // namespace conform::engine

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors of the device that outlive the case that raised them.
+#pragma once
+
+#include <cstddef>
+
+#include "base/time.hpp"
+#include "engine/run_context.hpp"
+
+namespace conform::engine {
+
+class LastingErrors {
+ public:
+  explicit LastingErrors(RunContext& run) : run_(run) {}
+
+  /// What the device tells before the first case: its errors (1001h) and its inhibit time (1015h).
+  [[nodiscard]] Result<void> look();
+  /// Behind a case: what the inhibit time still holds back would be taken for an EMCY of the next one, and an
+  /// error that stays would make the next trigger silent.
+  [[nodiscard]] Result<void> end_those_of(const result::CaseResult& result);
+
+ private:
+  [[nodiscard]] Result<bool> has_errors();
+  [[nodiscard]] bool has_raised_errors(std::size_t from) const;
+  [[nodiscard]] Result<void> let_emcy_end(std::size_t from);
+  [[nodiscard]] Result<void> clear_what_stays(const result::CaseResult& result);
+
+  RunContext& run_;
+  bool none_at_first_ = false;  ///< 1001h was 0 before the first case, and a reset makes it 0 again
+  Duration emcy_inhibit_{};     ///< 1015h, as found
+};
+
+}  // namespace conform::engine

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/putting_back.hpp"
+
+#include <utility>
+
+#include "base/text.hpp"
+#include "engine/baseline.hpp"
+#include "engine/discovery.hpp"
+#include "engine/restore.hpp"
+
+namespace conform::engine {
+namespace {
+
+bool confirmed(const steps::SdoAnswer& answer) { return answer.kind == steps::SdoAnswer::Kind::confirmed; }
+
+}  // namespace
+
+Result<void> PuttingBack::look() {
+  auto values = snapshot(run_.session);
+  if (!values) return std::unexpected(values.error());
+  snapshot_ = std::move(*values);
+  auto stores = stores_by_itself();
+  if (!stores) return std::unexpected(stores.error());
+  stores_by_itself_ = *stores;
+  return {};
+}
+
+/// Bit 1 of 1010h:01 to 7Fh (CiA 301, 7.5.2.13), or the profile says so.
+Result<bool> PuttingBack::stores_by_itself() {
+  if (run_.profile.claimed("autonomous storing")) return true;
+  for (const auto& entry : run_.session.known().object(Index(0x1010))) {
+    if (entry.mux.sub == SubIndex(0) || entry.mux.sub > SubIndex(0x7F)) continue;
+    const auto held = run_.session.peek(entry.mux);
+    if (!held) return std::unexpected(held.error());
+    if (confirmed(*held) && (load_le(held->data) & 2U) != 0) return true;
+  }
+  return false;
+}
+
+Result<void> PuttingBack::after_case(const result::CaseResult& result) {
+  auto changes = take_changes();
+  if (changes.empty()) return {};
+  // A stop request waits until everything is back: half a restore is the worst of all.
+  const StopHeld held(run_.recorder);
+  if (auto ready = enter_pre_operational(run_); !ready) return ready;
+  auto report = restore(run_.session, changes);
+  if (!report) return std::unexpected(report.error());
+  if (!report->left.empty() && run_.may(scenario::Risk::config)) {
+    // What cannot be written back is lost with a reset, unless it was stored.
+    auto booted = reset(run_, canopen::NmtCommand::reset_node);
+    if (!booted) return std::unexpected(booted.error());
+    if (auto ready = enter_pre_operational(run_); !ready) return ready;
+    report = restore(run_.session, std::move(changes));
+    if (!report) return std::unexpected(report.error());
+  }
+  for (const auto& left : report->left) run_.note(result.name() + ": could not be put back: " + left);
+  if (!report->left.empty()) run_.session.note_left_changed();
+  return {};
+}
+
+void PuttingBack::give_up(const std::string& why) {
+  for (const auto& change : run_.session.take_journal()) {
+    run_.note("not put back, " + why + ": " + to_string(change.object) + " was " + hex_bytes(change.before));
+  }
+}
+
+void PuttingBack::after_resets() {
+  if (!stores_by_itself_ || run_.session.resets() == resets_looked_at_) return;
+  resets_looked_at_ = run_.session.resets();
+  const StopHeld held(run_.recorder);
+  note_left(what_returned());
+}
+
+void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up) {
+  auto& recorder = run_.recorder;
+  recorder.stop_producing("");
+  const bool usable =
+      recorder.fault() && (recorder.fault()->what == stopped || recorder.fault()->what == flooded);
+  if (!usable) return give_up("the bus or the device is gone");
+  recorder.clear_fault();
+  const StopHeld held(recorder);
+  // An open transfer is ended, also where nothing was changed.
+  run_.session.sdo_channel_dirty();
+  if (auto idle = run_.session.channel().make_idle(); !idle)
+    run_.note("the SDO channel may not be idle: " + idle.error().text());
+  // What is stored in the device only the scenario can put back.
+  if (clean_up) {
+    if (auto done = clean_up(); !done)
+      run_.note("the cleanup of the stopped case did not end: " + done.error().text());
+  }
+  // First the state: in Stopped no SDO would be answered.
+  leave_in_pre_operational();
+  auto report = restore(run_.session, take_changes());
+  if (!report) {
+    run_.note("values may not have been put back: " + report.error().text());
+    return;
+  }
+  note_left(report->left);
+  note_left(what_returned());
+}
+
+void PuttingBack::finish() {
+  {
+    const StopHeld held(run_.recorder);
+    leave_in_pre_operational();
+    // What is left shows in the comparison that follows.
+    if (run_.may(scenario::Risk::config)) (void)what_returned();
+  }
+  // The same entries, whatever has been learnt about access in between.
+  for (const auto& [object, before] : snapshot_) {
+    const auto found = run_.session.peek(object);
+    if (!found) return;
+    if (!confirmed(*found)) {
+      run_.note(to_string(object) + " could be read before the run and cannot any more");
+    } else if (found->data != before) {
+      run_.note(to_string(object) + " was " + hex_bytes(before) + " before the run and is " +
+                hex_bytes(found->data));
+    }
+  }
+}
+
+/// The journal of a case; that its entries were written is remembered: a reset may bring back what was
+/// written.
+std::vector<Change> PuttingBack::take_changes() {
+  auto changes = run_.session.take_journal();
+  for (const auto& change : changes) written_.insert(change.object);
+  return changes;
+}
+
+/// Puts right what a reset has brought back; gives what could not be. What the run never wrote is left alone:
+/// the device changed it.
+std::vector<std::string> PuttingBack::what_returned() {
+  std::vector<Change> returned;
+  for (const auto& [object, before] : snapshot_) {
+    if (!written_.contains(object)) continue;
+    const auto found = run_.session.peek(object);
+    if (!found) return {};
+    if (confirmed(*found) && found->data != before) returned.push_back({object, before});
+  }
+  if (returned.empty()) return {};
+  auto report = restore(run_.session, std::move(returned));
+  // An environment that failed shows in the next step of the run.
+  return report ? std::move(report->left) : std::vector<std::string>{};
+}
+
+/// Says once of each value that it could not be put back.
+void PuttingBack::note_left(const std::vector<std::string>& left) {
+  for (const auto& each : left) {
+    run_.session.note_left_changed();
+    if (left_.insert(each).second) run_.note("could not be put back: " + each);
+  }
+}
+
+/// The state a device is left in; that it could not be commanded is said, not judged.
+void PuttingBack::leave_in_pre_operational() {
+  if (!run_.may(scenario::Risk::config)) return;
+  if (auto done = enter_pre_operational(run_); !done)
+    run_.note("the device may not be in Pre-operational: " + done.error().text());
+}
+
+}  // namespace conform::engine

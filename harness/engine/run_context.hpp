@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all phases of a run share: what was asked for, the device, the bus, and the result so far.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "device/profile.hpp"
+#include "engine/attribution.hpp"
+#include "engine/engine.hpp"
+#include "engine/monitor_cases.hpp"
+#include "engine/recorder.hpp"
+#include "engine/run_session.hpp"
+#include "result/run_result.hpp"
+#include "scenario/catalogue.hpp"
+
+namespace conform::engine {
+
+struct RunContext {
+  RunContext(can::Transport& transport, const device::Profile& device, const scenario::Catalogue& rules,
+             const RunOptions& wanted)
+      : profile(device),
+        catalogue(rules),
+        options(wanted),
+        recorder(transport, wanted.stop),
+        session(recorder, profile, device::dictionary_of(profile)),
+        attribution(facts_of(profile)) {
+    session.try_all_objects(options.plan.all_objects);
+    if (options.observer != nullptr) recorder.set_observer(*options.observer);
+    session.allow(options.plan.allowed);
+  }
+  RunContext(const RunContext&) = delete;
+  RunContext& operator=(const RunContext&) = delete;
+
+  const device::Profile& profile;
+  const scenario::Catalogue& catalogue;
+  const RunOptions& options;
+  Recorder recorder;
+  RunSession session;
+  Attribution attribution;
+  result::RunResult out;
+
+  [[nodiscard]] bool may(scenario::Risk risk) const { return risk <= options.plan.allowed; }
+  /// For the summary.
+  void note(std::string text) { out.notes.push_back(std::move(text)); }
+};
+
+/// While values are put back the bus must be usable, whatever the user wants meanwhile. A second signal still
+/// ends the program.
+class StopHeld {
+ public:
+  explicit StopHeld(Recorder& recorder) : recorder_(recorder) { recorder_.ignore_stop(true); }
+  ~StopHeld() { recorder_.ignore_stop(false); }
+  StopHeld(const StopHeld&) = delete;
+  StopHeld& operator=(const StopHeld&) = delete;
+
+ private:
+  Recorder& recorder_;
+};
+
+}  // namespace conform::engine
