@@ -27,6 +27,7 @@ class Segments final : public Action {
       if (auto parsed = parse_object_at(object, context.names)) out->object_ = *parsed;
     }
     if (const auto pause = fields.optional("pause")) out->pause_ = parse_time_at(pause);
+    if (const auto pauses = fields.optional("pauses")) out->pauses_ = pauses.number(1, 1'000'000);
     if (const auto save = fields.optional("save")) {
       out->save_ = save.text().value_or("");
       context.know(out->save_);
@@ -36,7 +37,9 @@ class Segments final : public Action {
   std::string words(Session& session) const override {
     const auto object = object_.resolve(session);
     return "upload " + (object ? to_string(*object) : object_.text()) + " by segments" +
-           (pause_ ? " with pauses of " + pause_->text() : "");
+           (pause_
+                ? " with " + (pauses_ ? std::to_string(*pauses_) + " " : "") + "pauses of " + pause_->text()
+                : "");
   }
   Measures measures() const override {
     return {"segments", "wrong_toggles", "difference", "unmarked", "empty_last"};
@@ -61,7 +64,7 @@ class Segments final : public Action {
     }
     if (initiate->size_indicated) so_far.announced = initiate->value;
     for (bool toggle = false;; toggle = !toggle) {
-      if (pause_) {
+      if (pause_ && (!pauses_ || so_far.segments < *pauses_)) {
         auto waited = session.wait_until(session.now() + pause_->resolve(session.profile()));
         if (!waited) return std::unexpected(waited.error());
       }
@@ -167,13 +170,14 @@ class Segments final : public Action {
 
   ObjectReference object_;
   std::optional<TimeReference> pause_;
+  std::optional<std::uint64_t> pauses_;  ///< none: before every request
   std::string save_;
 };
 
 constexpr Verb table[] = {
     {"segments",
      "Read an entry of more than four bytes segment by segment, to the end even where the server errs.",
-     "of: the entry\npause: time before each request\nsave: name that the data get\n"
+     "of: the entry\npause: time before each request\npauses: only before the first of them, so many (default: all)\nsave: name that the data get\n"
      "measured: segments (0: expedited), wrong_toggles, difference (of the told size and the bytes that came), unmarked (1: no segment is "
      "marked as the last), empty_last (1: an empty segment ends the transfer)",
      "- segments: {of: 1008h:00, save: name}\n  checks: SDO-SUP-03\n  expect: {wrong_toggles: 0}",
