@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the NMT slave, of boot-up and of what a reset does.
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -7,6 +8,16 @@ namespace refnode {
 using namespace defect;
 
 namespace {
+
+PowerOnRules& of_power_on(Parts& parts) { return parts.store.rules; }
+
+/// Of which groups a reset loads the power-on values; `right` is what the standard says.
+Change reset_loads(bool (*loads)(bool right, Group group, bool whole_node)) {
+  return decides(of_power_on, &PowerOnRules::reset_loads,
+                 [loads](const auto& former, Group group, bool whole_node) {
+                   return loads(former(group, whole_node), group, whole_node);
+                 });
+}
 
 BehaviourSwitch restarts_on(std::function<bool(const Frame&, std::uint8_t node_id)> frame) {
   return [frame = std::move(frame)](Behaviour& behaviour) { behaviour.restarts_on = frame; };
@@ -140,19 +151,23 @@ DefectTable nmt_defects() {
       {"reset-communication-keeps-values",
        "Reset communication keeps the communication parameters",
        {"OD-RST-01", "NMT-FSA-24", "EC-HBP-13", "OD-1014-10", "PDO-MAP-21", "NMT-FSA-29"},
-       behave(&B::reset_communication_keeps_values)},
+       reset_loads([](bool right, Group, bool whole_node) { return right && whole_node; })},
       {"reset-communication-resets-application",
        "Reset communication resets application parameters, too",
        {"OD-RST-02", "NMT-FSA-26"},
-       behave(&B::reset_communication_resets_application)},
+       reset_loads([](bool, Group, bool) { return true; })},
       {"reset-node-keeps-communication",
        "Reset node keeps the communication parameters",
        {"OD-RST-03", "OD-1010-18", "STO-1010-10"},
-       behave(&B::reset_node_keeps_communication)},
+       reset_loads([](bool right, Group group, bool whole_node) {
+         return right && !(whole_node && group == Group::communication);
+       })},
       {"reset-node-keeps-application",
        "Reset node keeps the application parameters",
        {"OD-RST-03", "NMT-FSA-25"},
-       behave(&B::reset_node_keeps_application)},
+       reset_loads([](bool right, Group group, bool whole_node) {
+         return right && !(whole_node && group != Group::communication);
+       })},
   };
 }
 

@@ -28,6 +28,37 @@ DictionaryEdit swapped(std::uint16_t index, std::uint8_t one, std::uint8_t other
   };
 }
 
+ClockRules& of_clock(Parts& parts) { return parts.clock.rules; }
+StampRules& of_stamp(Parts& parts) { return parts.store.stamp.rules; }
+
+/// 1013h starts there after a reset; a time that is written is kept.
+Change clock_starts_at(std::uint32_t start) {
+  return together(reading(0x1013, 0,
+                          [start](Parts&, const Read& former) -> Upload {
+                            const Upload ticks = former();
+                            if (!ticks) return ticks;
+                            return conform::to_le(conform::load_le(*ticks) + start, ticks->size());
+                          }),
+                  checking(0x1013, 0, [start](Parts&, const Check& former, ByteView bytes) {
+                    return former(conform::to_le(conform::load_le(bytes) - start, bytes.size()));
+                  }));
+}
+
+/// What was stored of a group goes when its defaults are restored.
+bool is_restored(const Images& former, const Images& images) { return images.size() < former.size(); }
+
+/// "load" makes date and time of the configuration what 1020h begins with after a reset.
+Change stamp_becomes_default() {
+  return checking_all(0x1011, [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted restored = former(bytes);
+    for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+      Entry* entry = parts.device.dictionary.entry(0x1020, sub);
+      if (restored && entry != nullptr) entry->default_value = entry->value;
+    }
+    return restored;
+  });
+}
+
 DefectTable guarding_rows() {
   return {
       {"100c-absent",
@@ -66,7 +97,6 @@ DefectTable guarding_rows() {
 }
 
 DefectTable clock_rows() {
-  using C = ClockFaults;
   return {
       {"1013-is-u16", "1013h has two bytes", {"OD-1013-01", "OD-LEN-04", "OD-GEN-17"}, type(0x1013, 0, u16)},
       {"1013-not-writable",
@@ -76,15 +106,16 @@ DefectTable clock_rows() {
       {"1013-write-ignored",
        "A time written to 1013h is confirmed and forgotten",
        {"OD-1013-03"},
-       behave(&B::clock, &C::writing_ignored)},
+       confirms(0x1013, 0, [](std::uint64_t) { return true; })},
       {"1013-default-nonzero",
        "1013h does not begin with 0 after a reset",
        {"OD-1013-04"},
-       behave(&B::clock, &C::starts_elsewhere)},
+       clock_starts_at(0x12345678)},
       {"1013-unit-ms",
        "1013h counts milliseconds",
        {"OD-1013-05"},
-       behave(&B::clock, &C::microseconds_per_tick, 1000)},
+       decides(of_clock, &ClockRules::ticks,
+               [](const auto& former, Duration elapsed) { return former(elapsed) / 1000; })},
   };
 }
 
@@ -133,7 +164,6 @@ DefectTable counter_rows() {
 }
 
 DefectTable stamp_rows() {
-  using S = StampFaults;
   return {
       {"1020-sub0-wrong", "1020h:00 is 03h", {"OD-1020-01", "OD-GEN-11"}, preset(0x1020, 0, 3)},
       {"1020-sub0-writable",
@@ -163,11 +193,18 @@ DefectTable stamp_rows() {
       {"1020-stamp-survives-change",
        "1020h stays although another configuration is stored",
        {"OD-1020-05", "STO-1020-03"},
-       behave(&B::stamp, &S::survives_change)},
+       decides(of_stamp, &StampRules::same_configuration,
+               [](const auto& former, const Images& before, const Images& after) {
+                 return !is_restored(before, after) || former(before, after);
+               })},
       {"1020-survives-restore",
        "Restoring the defaults leaves 1020h",
        {"STO-1020-04"},
-       behave(&B::stamp, &S::survives_restore)},
+       together(decides(of_stamp, &StampRules::same_configuration,
+                        [](const auto& former, const Images& before, const Images& after) {
+                          return is_restored(before, after) || former(before, after);
+                        }),
+                stamp_becomes_default())},
   };
 }
 

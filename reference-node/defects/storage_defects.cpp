@@ -1,14 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of storing (1010h) and restoring (1011h) parameters.
+#include <algorithm>
+#include <functional>
+#include <string_view>
+
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
 
 using namespace defect;
 
+namespace {
+
+PowerOnRules& of_power_on(Parts& parts) { return parts.store.rules; }
+
+Bytes bytes_of(std::string_view text) { return Bytes(text.begin(), text.end()); }
+
+bool is_save(std::uint64_t value) { return value == conform::load_le(bytes_of("save")); }
+bool is_load(std::uint64_t value) { return value == conform::load_le(bytes_of("load")); }
+
+/// 1010h or 1011h works as if this had been written in place of what was.
+Change takes_for(std::uint16_t index, std::function<Bytes(Bytes)> other) {
+  return checking_all(index, [other](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    return former(other(Bytes(bytes.begin(), bytes.end())));
+  });
+}
+
+Bytes reversed(Bytes signature) {
+  std::ranges::reverse(signature);
+  return signature;
+}
+
+Bytes lower_case(Bytes signature) {
+  for (std::uint8_t& letter : signature) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<std::uint8_t>(letter - 'A' + 'a');
+  }
+  return signature;
+}
+
+/// Acts first and looks at the signature then.
+Change acts_on_any(std::uint16_t index, std::string_view signature) {
+  return checking_all(index, [signature](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted done = former(bytes_of(signature));
+    return done ? former(bytes) : done;
+  });
+}
+
+/// The signature is confirmed, and nothing done.
+Change without_effect(std::uint16_t index, bool (*is_signature)(std::uint64_t)) {
+  return together(confirms(index, 1, is_signature), confirms(index, 2, is_signature),
+                  confirms(index, 3, is_signature));
+}
+
+/// Whatever the sub-index, it is about all parameters.
+Change means_all_parameters(std::uint16_t index) {
+  return checking_all(index, [index](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) {
+    const Entry* all = parts.device.dictionary.entry(index, 1);
+    return sub != 1 && all != nullptr && all->check ? all->check(bytes) : former(bytes);
+  });
+}
+
+Change confirms_failure(std::uint16_t index) {
+  return checking_all(index, [](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted done = former(bytes);
+    return done || done.error() != abort_code::hardware_error ? done : Accepted{};
+  });
+}
+
+Filter refuses_failure(std::uint16_t index) {
+  return wrong_abort(abort_code::hardware_error, abort_code::cannot_store, {index, index});
+}
+
+bool is_about(std::uint8_t sub, Group group) {
+  return sub == 1 || (sub == 2 && group == Group::communication) || (sub == 3 && group == Group::application);
+}
+
+/// "load" gives the parameters their defaults without waiting for a reset.
+Change defaults_at_once() {
+  return checking_all(0x1011, [](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) {
+    const Accepted restored = former(bytes);
+    for (auto& [index, object] : parts.device.dictionary.objects()) {
+      if (!restored || !is_about(sub, group_of(conform::Index(index)))) continue;
+      for (auto& [which, entry] : object.entries) {
+        const bool writable = entry.access == Access::rw || entry.access == Access::wo;
+        if (writable && !entry.command) entry.value = entry.default_value;
+      }
+    }
+    return restored;
+  });
+}
+
+}  // namespace
+
 DefectTable storage_defects() {
-  using B = Behaviour;
-  using S = StoreFaults;
   const auto signature_at = [](std::uint16_t index) {
     return wrong_abort(abort_code::cannot_store, abort_code::general_error, {index, index});
   };
@@ -30,11 +115,11 @@ DefectTable storage_defects() {
       {"1010-signature-byte-order",
        "1010h wants the signature with its bytes reversed",
        {"OD-1010-07", "OD-1010-08", "STO-1010-03"},
-       behave(&B::store, &S::byte_order_wrong)},
+       takes_for(0x1010, reversed)},
       {"1010-wrong-signature-accepted",
        "1010h stores with any signature",
        {"OD-1010-08", "OD-1010-09", "STO-1010-02", "STO-1010-03"},
-       behave(&B::store, &S::signature_unchecked)},
+       takes_for(0x1010, [](const Bytes&) { return bytes_of("save"); })},
       {"1010-wrong-signature-wrong-abort",
        "A wrong signature in 1010h is aborted with 0800 0000h",
        {"OD-1010-08"},
@@ -42,27 +127,28 @@ DefectTable storage_defects() {
       {"1010-signature-case-insensitive",
        "1010h accepts \"SAVE\"",
        {"OD-1010-08"},
-       behave(&B::store, &S::case_ignored)},
+       takes_for(0x1010, lower_case)},
       {"1010-wrong-signature-still-saves",
        "A wrong signature in 1010h is refused, but stores",
        {"OD-1010-09", "STO-1010-02"},
-       behave(&B::store, &S::acts_on_wrong_signature)},
+       acts_on_any(0x1010, "save")},
       {"1010-save-not-persistent",
        "\"save\" is confirmed without storing anything",
        {"OD-1010-10", "STO-1010-04", "STO-1010-05", "OD-RST-04"},
-       behave(&B::store, &S::without_effect)},
+       without_effect(0x1010, is_save)},
       {"1010-stored-values-ignored",
        "Stored values are not used at start-up",
        {"OD-1010-10", "OD-RST-04", "STO-1010-04", "STO-1010-05", "STO-1010-13"},
-       behave(&B::stored_values_ignored)},
+       decides(of_power_on, &PowerOnRules::stored_values,
+               [](const auto&, const Images&, Group) { return false; })},
       {"1010-sub2-saves-nothing",
        "1010h:02 confirms without storing",
        {"OD-1010-11", "STO-1010-07"},
-       behave(&B::store, &S::sub2_without_effect)},
+       confirms(0x1010, 2, is_save)},
       {"1010-sub3-saves-nothing",
        "1010h:03 confirms without storing",
        {"OD-1010-12", "STO-1010-08"},
-       behave(&B::store, &S::sub3_without_effect)},
+       confirms(0x1010, 3, is_save)},
       {"1010-sub3-refused",
        "1010h:03 says that it stores, and refuses \"save\" as absent",
        {"OD-1010-12", "STO-1010-08"},
@@ -74,15 +160,15 @@ DefectTable storage_defects() {
       {"1010-groups-mixed",
        "Every sub-index of 1010h stores all parameters",
        {"OD-1010-11", "OD-1010-12", "STO-1010-07", "STO-1010-08"},
-       behave(&B::store, &S::groups_mixed)},
+       means_all_parameters(0x1010)},
       {"1010-failed-save-confirmed",
        "A failure to store is confirmed",
        {"OD-1010-14"},
-       behave(&B::store, &S::failure_confirmed)},
+       confirms_failure(0x1010)},
       {"1010-failed-save-wrong-abort",
        "A failure to store is aborted with 0800 0020h",
        {"OD-1010-14"},
-       behave(&B::store, &S::failure_aborted_as_refusal)},
+       refuses_failure(0x1010)},
       {"1011-load-rejected",
        "The signature \"load\" is refused with 0800 0020h",
        {"OD-1011-07", "STO-1011-03"},
@@ -100,11 +186,11 @@ DefectTable storage_defects() {
       {"1011-signature-byte-order",
        "1011h wants the signature with its bytes reversed",
        {"OD-1011-07", "OD-1011-08", "STO-1011-08"},
-       behave(&B::restore, &S::byte_order_wrong)},
+       takes_for(0x1011, reversed)},
       {"1011-wrong-signature-accepted",
        "1011h restores with any signature",
        {"OD-1011-08", "OD-1011-09", "STO-1011-02", "STO-1011-08"},
-       behave(&B::restore, &S::signature_unchecked)},
+       takes_for(0x1011, [](const Bytes&) { return bytes_of("load"); })},
       {"1011-wrong-signature-wrong-abort",
        "A wrong signature in 1011h is aborted with 0800 0000h",
        {"OD-1011-08"},
@@ -112,39 +198,39 @@ DefectTable storage_defects() {
       {"1011-signature-case-insensitive",
        "1011h accepts \"LOAD\"",
        {"OD-1011-08"},
-       behave(&B::restore, &S::case_ignored)},
+       takes_for(0x1011, lower_case)},
       {"1011-wrong-signature-still-restores",
        "A wrong signature in 1011h is refused, but restores",
        {"OD-1011-09", "STO-1011-02"},
-       behave(&B::restore, &S::acts_on_wrong_signature)},
+       acts_on_any(0x1011, "load")},
       {"1011-load-without-effect",
        "\"load\" is confirmed without restoring anything",
        {"OD-1011-10", "STO-1011-03", "OD-RST-05"},
-       behave(&B::restore, &S::without_effect)},
+       without_effect(0x1011, is_load)},
       {"1011-defaults-before-reset",
        "\"load\" makes the defaults valid at once",
        {"OD-1011-11", "STO-1011-04"},
-       behave(&B::restore, &S::effective_at_once)},
+       defaults_at_once()},
       {"1011-sub2-without-effect",
        "1011h:02 confirms without restoring",
        {"OD-1011-12", "STO-1011-05"},
-       behave(&B::restore, &S::sub2_without_effect)},
+       confirms(0x1011, 2, is_load)},
       {"1011-sub3-without-effect",
        "1011h:03 confirms without restoring",
        {"OD-1011-13", "STO-1011-06"},
-       behave(&B::restore, &S::sub3_without_effect)},
+       confirms(0x1011, 3, is_load)},
       {"1011-groups-mixed",
        "Every sub-index of 1011h restores all parameters",
        {"OD-1011-12", "OD-1011-13", "STO-1011-05", "STO-1011-06"},
-       behave(&B::restore, &S::groups_mixed)},
+       means_all_parameters(0x1011)},
       {"1011-failed-load-confirmed",
        "A failure to restore is confirmed",
        {"OD-1011-15"},
-       behave(&B::restore, &S::failure_confirmed)},
+       confirms_failure(0x1011)},
       {"1011-failed-load-wrong-abort",
        "A failure to restore is aborted with 0800 0020h",
        {"OD-1011-15"},
-       behave(&B::restore, &S::failure_aborted_as_refusal)},
+       refuses_failure(0x1011)},
   };
 }
 

@@ -28,21 +28,6 @@ struct PdoFaults {
   bool mapping_writable_while_valid = false;
 };
 
-/// How 1010h or 1011h misbehaves.
-struct StoreFaults {
-  bool signature_unchecked = false;      ///< any value is taken for the signature
-  bool acts_on_wrong_signature = false;  ///< a wrong signature is refused, but acted on
-  bool byte_order_wrong = false;
-  bool case_ignored = false;
-  bool without_effect = false;
-  bool sub2_without_effect = false;
-  bool sub3_without_effect = false;
-  bool groups_mixed = false;  ///< every sub-index means all parameters
-  bool failure_confirmed = false;
-  bool failure_aborted_as_refusal = false;  ///< 0800 0020h in place of the hardware error
-  bool effective_at_once = false;           ///< 1011h: defaults are valid before the reset
-};
-
 /// How additional SDO servers misbehave.
 struct SdoChannelFaults {
   bool second_cob_id_not_needed = false;  ///< valid with the first COB-ID alone
@@ -158,19 +143,6 @@ struct Behaviour {
   bool sync_ratio_off_by_one = false;
   bool tpdo_change_ignored = false;           ///< a change of what is mapped is no event
   bool tpdo_timer_ignores_valid_bit = false;  ///< sent by the event timer while not valid
-
-  // Single communication objects
-  ClockFaults clock;
-  StampFaults stamp;
-
-  // Storage and power-on values
-  StoreFaults store;
-  StoreFaults restore;
-  bool stored_values_ignored = false;
-  bool reset_communication_keeps_values = false;
-  bool reset_communication_resets_application = false;
-  bool reset_node_keeps_communication = false;
-  bool reset_node_keeps_application = false;
 };
 
 }  // namespace refnode

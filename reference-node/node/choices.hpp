@@ -3,7 +3,6 @@
 // The rows of variants/ set these fields and say why it is legal.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 
 #include "dictionary/abort_codes.hpp"
@@ -60,19 +59,9 @@ struct Choices {
 
   bool long_rpdo_reported = false;  ///< EMCY 8220h
 
-  // 1023h, 1025h, 1026h
-  AbortCode nothing_to_deliver = abort_code::no_data;
-
   // PDO
   PdoChoices rpdo;
   PdoChoices tpdo;
-
-  // Storage
-  AbortCode wrong_signature = abort_code::cannot_store;
-  bool storing_needs_pre_operational = false;  ///< 0800 0022h in Operational
-  /// Of a device that stores without a command: it waits for the last of several writes, since each wears the
-  /// memory.
-  conform::Duration rest_before_storing = std::chrono::seconds(4);
 };
 
 }  // namespace refnode

@@ -12,17 +12,4 @@ struct ErrorBehaviourFaults {
   bool two_ignored = false;             ///< 02h changes nothing
 };
 
-/// 1013h: the microsecond clock.
-struct ClockFaults {
-  int microseconds_per_tick = 1;
-  bool starts_elsewhere = false;  ///< not with 0 after a reset
-  bool writing_ignored = false;   ///< a written time is confirmed and forgotten
-};
-
-/// 1020h: when date and time of the configuration are discarded.
-struct StampFaults {
-  bool survives_change = false;
-  bool survives_restore = false;
-};
-
 }  // namespace refnode

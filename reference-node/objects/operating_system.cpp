@@ -88,13 +88,15 @@ void CommandInterpreter::execute(std::string_view command) {
 std::uint8_t CommandInterpreter::status() const { return busy() ? executing : outcome_.status; }
 
 Upload CommandInterpreter::reply() const {
-  if (busy() || outcome_.reply.empty()) return refuse(device_->choices.nothing_to_deliver);
+  if (busy() || outcome_.reply.empty()) return refuse(choices_->nothing_to_deliver);
   return outcome_.reply;
 }
 
 // The debugger knows but 00h and 01h beside FFh.
 OperatingSystem::OperatingSystem(Device& device)
-    : device_(&device), commands_(device, {0x00, 0x01, 0x03}), debugger_(device, {0x00, 0x00, 0x01}) {}
+    : device_(&device),
+      commands_(device, choices, {0x00, 0x01, 0x03}),
+      debugger_(device, choices, {0x00, 0x00, 0x01}) {}
 
 void OperatingSystem::add_objects() {
   commands_.add_objects(0x1023, "OS command");
@@ -118,13 +120,13 @@ void OperatingSystem::add_prompt() {
   };
   od.add_sub(0x1026, 2, integer_entry("StdOut", DataType::unsigned8, Access::ro, 0)).read =
       [this]() -> Upload {
-    if (output_.empty()) return refuse(device_->choices.nothing_to_deliver);
+    if (output_.empty()) return refuse(choices.nothing_to_deliver);
     const std::uint8_t next = output_.front();
     output_.pop_front();
     return Bytes{next};
   };
   od.add_sub(0x1026, 3, integer_entry("StdErr", DataType::unsigned8, Access::ro, 0)).read =
-      [this]() -> Upload { return refuse(device_->choices.nothing_to_deliver); };
+      [this]() -> Upload { return refuse(choices.nothing_to_deliver); };
 }
 
 void OperatingSystem::on_reset() {

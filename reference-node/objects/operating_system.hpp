@@ -14,14 +14,18 @@
 
 namespace refnode {
 
+struct OperatingSystemChoices {
+  AbortCode nothing_to_deliver = abort_code::no_data;  ///< no reply, no output
+};
+
 /// A record of command, status and reply.
 class CommandInterpreter {
  public:
   struct Codes {
     std::uint8_t done, done_with_reply, error_with_reply;
   };
-  CommandInterpreter(Device& device, Codes codes)
-      : device_(&device), codes_(codes), outcome_{codes.done, {}} {}
+  CommandInterpreter(Device& device, const OperatingSystemChoices& choices, Codes codes)
+      : device_(&device), choices_(&choices), codes_(codes), outcome_{codes.done, {}} {}
 
   void add_objects(std::uint16_t index, std::string_view name);
 
@@ -41,6 +45,7 @@ class CommandInterpreter {
   [[nodiscard]] Upload reply() const;
 
   Device* device_;
+  const OperatingSystemChoices* choices_;
   Codes codes_;
   bool keeps_commands_ = false;
   std::vector<Bytes> kept_;
@@ -52,6 +57,10 @@ class CommandInterpreter {
 class OperatingSystem {
  public:
   explicit OperatingSystem(Device& device);
+  OperatingSystem(const OperatingSystem&) = delete;
+  OperatingSystem& operator=(const OperatingSystem&) = delete;
+
+  OperatingSystemChoices choices;
 
   /// 1023h to 1026h
   void add_objects();

@@ -28,7 +28,26 @@ Bytes boot_up_value(const Images& images, Group group, Multiplexer mux, const Ob
   return entry == nullptr ? Bytes{} : entry->default_value;
 }
 
+bool same_after_reset(const Images& one, const Images& other, const ObjectDictionary& dictionary) {
+  const auto covers = [&](const Images& images) {
+    for (const auto& [group, image] : images) {
+      for (const auto& [mux, value] : image) {
+        if (mux.index == conform::Index(stamp_index)) continue;
+        if (boot_up_value(one, group, mux, dictionary) != boot_up_value(other, group, mux, dictionary))
+          return false;
+      }
+    }
+    return true;
+  };
+  return covers(one) && covers(other);
+}
+
 }  // namespace
+
+StampRules::StampRules(const ObjectDictionary& dictionary)
+    : same_configuration([od = &dictionary](const Images& former, const Images& images) {
+        return same_after_reset(former, images, *od);
+      }) {}
 
 void ConfigurationStamp::add_objects() {
   ObjectDictionary& od = device_->dictionary;
@@ -45,39 +64,15 @@ void ConfigurationStamp::bind() {
   }
 }
 
-bool ConfigurationStamp::same_configuration(const Images& one, const Images& other) const {
-  const auto covers = [&](const Images& images) {
-    for (const auto& [group, image] : images) {
-      for (const auto& [mux, value] : image) {
-        if (mux.index == conform::Index(stamp_index)) continue;
-        if (boot_up_value(one, group, mux, device_->dictionary) !=
-            boot_up_value(other, group, mux, device_->dictionary))
-          return false;
-      }
-    }
-    return true;
-  };
-  return covers(one) && covers(other);
-}
-
 bool ConfigurationStamp::before_storing(const Images& former, Images& images, bool stamp_is_stored) const {
-  if (device_->behaviour.stamp.survives_change || same_configuration(former, images)) return false;
+  if (rules.same_configuration(former, images)) return false;
   if (renewed_ && stamp_is_stored) return false;
   clear_in(images);
   return !renewed_;
 }
 
 void ConfigurationStamp::before_restoring(const Images& former, Images& images) const {
-  if (device_->behaviour.stamp.survives_restore) {
-    const auto image = former.find(Group::communication);
-    if (image == former.end()) return;
-    for (const std::uint8_t sub : subs) {
-      if (const auto value = image->second.find(entry_of(sub)); value != image->second.end())
-        images[Group::communication][entry_of(sub)] = value->second;
-    }
-    return;
-  }
-  if (!same_configuration(former, images)) clear_in(images);
+  if (!rules.same_configuration(former, images)) clear_in(images);
 }
 
 void ConfigurationStamp::after_storing(bool clear, bool stamp_is_stored) {

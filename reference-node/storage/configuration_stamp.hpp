@@ -8,9 +8,18 @@
 
 namespace refnode {
 
+struct StampRules {
+  /// Whether what is in the memory means the same configuration as what was there: every entry has the same
+  /// value after a reset, 1020h itself left aside.
+  Rule<bool(const Images& former, const Images& images)> same_configuration;
+  explicit StampRules(const ObjectDictionary& dictionary);
+};
+
 class ConfigurationStamp {
  public:
-  explicit ConfigurationStamp(Device& device) : device_(&device) {}
+  explicit ConfigurationStamp(Device& device) : rules(device.dictionary), device_(&device) {}
+
+  StampRules rules;
 
   /// 1020h
   void add_objects();
@@ -25,8 +34,6 @@ class ConfigurationStamp {
   void after_storing(bool clear, bool stamp_is_stored);
 
  private:
-  [[nodiscard]] bool same_configuration(const Images& one, const Images& other) const;
-
   Device* device_;
   bool renewed_ = false;  ///< written since it was stored
 };

@@ -2,7 +2,6 @@
 #include "storage/parameter_store.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 namespace refnode {
@@ -17,27 +16,16 @@ constexpr std::uint64_t on_command = 1;    // capability, bit 0
 constexpr std::uint64_t autonomously = 2;  // of 1010h only, bit 1
 constexpr Group all_groups[] = {Group::communication, Group::application, Group::manufacturer};
 
-// The signature in transmission order, least significant byte first.
-bool matches(std::string_view wanted, ByteView signature, const StoreFaults& fault) {
-  std::string given(signature.begin(), signature.end());
-  if (fault.byte_order_wrong) std::reverse(given.begin(), given.end());
-  if (fault.case_ignored) {
-    for (char& letter : given) {
-      if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-    }
-  }
-  return given == wanted;
+// The text in transmission order, least significant byte first.
+bool is_signature(std::string_view wanted, ByteView given) {
+  return std::ranges::equal(wanted, given, [](char one, std::uint8_t other) { return one == other; });
 }
 
 bool is_parameter(const Entry& entry) {
   return (entry.access == Access::rw || entry.access == Access::wo) && !entry.command && entry.storable;
 }
 
-std::vector<Group> groups_of(std::uint8_t sub, const StoreFaults& fault) {
-  const bool nothing = (sub == sub_communication && fault.sub2_without_effect) ||
-                       (sub == sub_application && fault.sub3_without_effect);
-  if (nothing) return {};
-  if (fault.groups_mixed) return {std::begin(all_groups), std::end(all_groups)};
+std::vector<Group> groups_of(std::uint8_t sub) {
   switch (sub) {
     case sub_all: return {std::begin(all_groups), std::end(all_groups)};
     case sub_communication: return {Group::communication};
@@ -48,11 +36,15 @@ std::vector<Group> groups_of(std::uint8_t sub, const StoreFaults& fault) {
 
 }  // namespace
 
+PowerOnRules::PowerOnRules()
+    : reset_loads([](Group group, bool whole_node) { return whole_node || group == Group::communication; }),
+      stored_values([](const Images& images, Group group) { return images.contains(group); }) {}
+
 ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
-    : device_(&device), storage_(std::move(storage)), stamp_(device) {}
+    : stamp(device), device_(&device), storage_(std::move(storage)) {}
 
 void ParameterStore::add_objects() {
-  stamp_.add_objects();
+  stamp.add_objects();
   ObjectDictionary& od = device_->dictionary;
   od.add_complex(0x1010, "Store parameters", ObjectKind::array);
   od.add_complex(0x1011, "Restore default parameters", ObjectKind::array);
@@ -69,7 +61,7 @@ void ParameterStore::add_objects() {
 }
 
 void ParameterStore::bind() {
-  stamp_.bind();
+  stamp.bind();
   using Command = Accepted (ParameterStore::*)(std::uint8_t, ByteView);
   const auto bind_object = [this](std::uint16_t index, Command command) {
     const auto object = device_->dictionary.objects().find(index);
@@ -112,24 +104,24 @@ void ParameterStore::store_soon(Multiplexer mux) {
   if (entry == nullptr || !is_parameter(*entry)) return;
   const std::vector<Group> stored = stored_autonomously();
   if (std::ranges::find(stored, group_of(mux.index)) == stored.end()) return;
-  store_at_ = device_->now + device_->choices.rest_before_storing;
-  if (device_->choices.rest_before_storing == Duration::zero()) on_time();
+  store_at_ = device_->now + choices.rest_before_storing;
+  if (choices.rest_before_storing == Duration::zero()) on_time();
 }
 
 void ParameterStore::on_time() {
   if (!store_at_ || device_->now < *store_at_) return;
   store_at_.reset();
   // Nobody asked, so nobody can be told that it failed.
-  [[maybe_unused]] const auto kept = store(stored_autonomously(), {});
+  [[maybe_unused]] const auto kept = store(stored_autonomously());
 }
 
-Accepted ParameterStore::store(const std::vector<Group>& groups, const StoreFaults& fault) {
+Accepted ParameterStore::store(const std::vector<Group>& groups) {
   Images images = storage_->images();
   for (const Group group : groups) images[group] = image_of(group, images[group]);
   const bool with_stamp = std::ranges::find(groups, Group::communication) != groups.end();
-  const bool outdated = stamp_.before_storing(storage_->images(), images, with_stamp);
-  if (auto kept = keep(std::move(images), fault); !kept) return kept;
-  stamp_.after_storing(outdated, with_stamp);
+  const bool outdated = stamp.before_storing(storage_->images(), images, with_stamp);
+  if (auto kept = keep(std::move(images)); !kept) return kept;
+  stamp.after_storing(outdated, with_stamp);
   return {};
 }
 
@@ -154,71 +146,47 @@ Entry* ParameterStore::storage_fault() const {
   return device_->described ? nullptr : device_->dictionary.entry(0x2F20, 0);
 }
 
-Accepted ParameterStore::keep(Images images, const StoreFaults& fault) {
+Accepted ParameterStore::keep(Images images) {
   const Entry* armed = storage_fault();
-  const bool failed =
-      (armed != nullptr && conform::load_le(armed->value) != 0) || !storage_->replace(std::move(images));
-  if (!failed || fault.failure_confirmed) return {};
-  return refuse(fault.failure_aborted_as_refusal ? abort_code::cannot_store : abort_code::hardware_error);
+  if (armed != nullptr && armed->number() != 0) return refuse(abort_code::hardware_error);
+  if (!storage_->replace(std::move(images))) return refuse(abort_code::hardware_error);
+  return {};
 }
 
 Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
-  const StoreFaults& fault = device_->behaviour.store;
-  const bool good = matches("save", signature, fault);
-  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature)
-    return refuse(device_->choices.wrong_signature);
-  if (good && device_->choices.storing_needs_pre_operational && device_->state == NmtState::operational)
+  if (!is_signature("save", signature)) return refuse(choices.wrong_signature);
+  if (choices.storing_needs_pre_operational && device_->state == NmtState::operational)
     return refuse(abort_code::device_state);
-  if (!fault.without_effect) {
-    if (auto kept = store(groups_of(sub, fault), fault); !kept) return kept;
-    for (const Group group : groups_of(sub, fault)) restored_.erase(group);
-  }
-  if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
+  if (auto kept = store(groups_of(sub)); !kept) return kept;
+  for (const Group group : groups_of(sub)) restored_.erase(group);
   return {};
 }
 
+// The stored values go at once, the present ones stay until the reset that makes the defaults valid.
 Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
-  const StoreFaults& fault = device_->behaviour.restore;
-  const bool good = matches("load", signature, fault);
-  if (!good && !fault.signature_unchecked && !fault.acts_on_wrong_signature)
-    return refuse(device_->choices.wrong_signature);
-  if (!fault.without_effect) {
-    // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
-    Images images = storage_->images();
-    for (const Group group : groups_of(sub, fault)) images.erase(group);
-    stamp_.before_restoring(storage_->images(), images);
-    if (auto kept = keep(std::move(images), fault); !kept) return kept;
-    for (const Group group : groups_of(sub, fault)) restored_.insert(group);
-    if (fault.effective_at_once) {
-      for (const Group group : groups_of(sub, fault)) load(group);
-    }
-  }
-  if (!good && !fault.signature_unchecked) return refuse(device_->choices.wrong_signature);
+  if (!is_signature("load", signature)) return refuse(choices.wrong_signature);
+  Images images = storage_->images();
+  for (const Group group : groups_of(sub)) images.erase(group);
+  stamp.before_restoring(storage_->images(), images);
+  if (auto kept = keep(std::move(images)); !kept) return kept;
+  for (const Group group : groups_of(sub)) restored_.insert(group);
   return {};
-}
-
-bool ParameterStore::keeps(Group group, bool whole_node) const {
-  const Behaviour& behaviour = device_->behaviour;
-  if (group == Group::communication) {
-    return whole_node ? behaviour.reset_node_keeps_communication : behaviour.reset_communication_keeps_values;
-  }
-  return whole_node ? behaviour.reset_node_keeps_application
-                    : !behaviour.reset_communication_resets_application;
 }
 
 void ParameterStore::load_power_on_values(bool whole_node) {
   store_at_.reset();
   restored_.clear();
-  stamp_.on_reset();
+  stamp.on_reset();
   for (const Group group : all_groups) {
-    if (!keeps(group, whole_node)) load(group);
+    if (rules.reset_loads(group, whole_node)) load(group);
   }
   if (Entry* armed = storage_fault(); armed != nullptr && whole_node) armed->value = armed->default_value;
 }
 
 void ParameterStore::load(Group group) {
-  const auto stored = storage_->images().find(group);
-  const bool usable = stored != storage_->images().end() && !device_->behaviour.stored_values_ignored;
+  static const Image nothing;
+  const Images& images = storage_->images();
+  const Image& stored = rules.stored_values(images, group) ? images.at(group) : nothing;
   for (auto& [index, object] : device_->dictionary.objects()) {
     if (group_of(conform::Index(index)) != group) continue;
     for (auto& [sub, entry] : object.entries) {
@@ -228,9 +196,8 @@ void ParameterStore::load(Group group) {
         continue;
       }
       entry.value = entry.default_value;
-      if (!usable) continue;
-      const auto value = stored->second.find({conform::Index(index), conform::SubIndex(sub)});
-      if (value == stored->second.end()) continue;
+      const auto value = stored.find({conform::Index(index), conform::SubIndex(sub)});
+      if (value == stored.end()) continue;
       // An image of another version of the device may hold another length: such a value is left out.
       const std::size_t fixed = fixed_size(entry.type);
       const std::size_t size = value->second.size();

@@ -2,6 +2,7 @@
 // Storing (1010h), restoring (1011h) and the power-on values (CiA 301, 7.5.2.13, 7.5.2.14, 7.3.2.2.1).
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,9 +14,32 @@
 
 namespace refnode {
 
+struct StoreChoices {
+  AbortCode wrong_signature = abort_code::cannot_store;
+  bool storing_needs_pre_operational = false;  ///< 0800 0022h in Operational
+  /// Of a device that stores without a command: it waits for the last of several writes, since each wears the
+  /// memory.
+  Duration rest_before_storing = std::chrono::seconds(4);
+};
+
+/// The power-on values (7.3.2.2.1).
+struct PowerOnRules {
+  /// Reset node gives all groups their power-on values, reset communication 1000h-1FFFh.
+  Rule<bool(Group, bool whole_node)> reset_loads;
+  /// They are the values stored last; while nothing is stored, the defaults.
+  Rule<bool(const Images&, Group)> stored_values;
+  PowerOnRules();
+};
+
 class ParameterStore {
  public:
   ParameterStore(Device& device, std::shared_ptr<Storage> storage);
+  ParameterStore(const ParameterStore&) = delete;
+  ParameterStore& operator=(const ParameterStore&) = delete;
+
+  StoreChoices choices;
+  PowerOnRules rules;
+  ConfigurationStamp stamp;
 
   /// 1010h and 1011h, and 2F20h that makes them fail.
   void add_objects();
@@ -30,9 +54,9 @@ class ParameterStore {
 
  private:
   /// Takes the present values of these groups into the memory, and 1020h with them where it has to go.
-  [[nodiscard]] Accepted store(const std::vector<Group>& groups, const StoreFaults& fault);
+  [[nodiscard]] Accepted store(const std::vector<Group>& groups);
   /// Makes `images` the content of the memory. Fails while the storage fault (2F20h) is armed.
-  [[nodiscard]] Accepted keep(Images images, const StoreFaults& fault);
+  [[nodiscard]] Accepted keep(Images images);
   [[nodiscard]] Entry* storage_fault() const;
   [[nodiscard]] Accepted save(std::uint8_t sub, ByteView signature);
   [[nodiscard]] Accepted restore(std::uint8_t sub, ByteView signature);
@@ -43,13 +67,11 @@ class ParameterStore {
   [[nodiscard]] std::vector<Group> stored_autonomously() const;
   /// What is written is stored without a command, when no more is written for a while.
   void store_soon(Multiplexer mux);
-  [[nodiscard]] bool keeps(Group group, bool whole_node) const;
 
   Device* device_;
   std::shared_ptr<Storage> storage_;
   std::optional<BusTime> store_at_;  ///< something of them has been written; a reset forgets it
   std::set<Group> restored_;  ///< their defaults wait for the reset: not stored without a command until then
-  ConfigurationStamp stamp_;
 };
 
 }  // namespace refnode

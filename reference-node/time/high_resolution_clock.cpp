@@ -5,11 +5,10 @@
 
 namespace refnode {
 
-namespace {
-
-constexpr std::uint32_t stray_start = 0x12345678;
-
-}  // namespace
+ClockRules::ClockRules()
+    : ticks([](Duration elapsed) -> std::int64_t {
+        return std::chrono::duration_cast<std::chrono::microseconds>(elapsed).count();
+      }) {}
 
 void HighResolutionClock::add_objects() {
   device_->dictionary.add_variable(
@@ -22,21 +21,19 @@ void HighResolutionClock::bind() {
   entry->storable = false;
   entry->read = [this]() -> Upload { return conform::to_le(ticks(), 4); };
   entry->check = [this](ByteView bytes) -> Accepted {
-    if (!device_->behaviour.clock.writing_ignored)
-      offset_ = static_cast<std::uint32_t>(conform::load_le(bytes)) - elapsed();
+    offset_ = static_cast<std::uint32_t>(conform::load_le(bytes)) - elapsed();
     return {};
   };
 }
 
 void HighResolutionClock::on_reset() {
   started_ = device_->now;
-  offset_ = device_->behaviour.clock.starts_elsewhere ? stray_start : 0;
+  offset_ = 0;
 }
 
 // 32 bits: the clock starts again after 71 minutes.
 std::uint32_t HighResolutionClock::elapsed() const {
-  const auto time = std::chrono::duration_cast<std::chrono::microseconds>(device_->now - started_).count();
-  return static_cast<std::uint32_t>(time / device_->behaviour.clock.microseconds_per_tick);
+  return static_cast<std::uint32_t>(rules.ticks(device_->now - started_));
 }
 
 std::uint32_t HighResolutionClock::ticks() const { return elapsed() + offset_; }

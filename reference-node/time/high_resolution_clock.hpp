@@ -3,13 +3,25 @@
 // written time is where the clock goes on from.
 #pragma once
 
+#include <cstdint>
+
 #include "device/device.hpp"
 
 namespace refnode {
 
+struct ClockRules {
+  /// 1013h counts microseconds.
+  Rule<std::int64_t(Duration elapsed)> ticks;
+  ClockRules();
+};
+
 class HighResolutionClock {
  public:
   explicit HighResolutionClock(Device& device) : device_(&device) {}
+  HighResolutionClock(const HighResolutionClock&) = delete;
+  HighResolutionClock& operator=(const HighResolutionClock&) = delete;
+
+  ClockRules rules;
 
   /// 1013h
   void add_objects();

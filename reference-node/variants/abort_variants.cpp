@@ -6,6 +6,14 @@ namespace refnode {
 
 using namespace variant;
 
+namespace {
+
+How wrong_signature(AbortCode code) {
+  return [code](Parts& node) { node.store.choices.wrong_signature = code; };
+}
+
+}  // namespace
+
 VariantTable abort_variants() {
   return {
       {"abort-too-long-0607-0010", "too many bytes are refused as a wrong length", "OD-LEN-02",
@@ -40,13 +48,13 @@ VariantTable abort_variants() {
        .how = choose([](Choices& c) { c.duplicate_consumer = abort_code::general_error; }),
        .warns = {"OD-1016-06"}},
       {"abort-signature-0800-0021", "a wrong signature: local control", "OD-1010-08, OD-1011-08",
-       choose([](Choices& c) { c.wrong_signature = conform::AbortCode(0x08000021); }), "signature"},
+       wrong_signature(conform::AbortCode(0x08000021)), "signature"},
       {"abort-signature-0800-0022", "a wrong signature: device state", "OD-1010-08, OD-1011-08",
-       choose([](Choices& c) { c.wrong_signature = abort_code::device_state; }), "signature"},
+       wrong_signature(abort_code::device_state), "signature"},
       {"abort-signature-0800-0024", "a wrong signature: no data", "OD-1010-08, OD-1011-08",
-       choose([](Choices& c) { c.wrong_signature = abort_code::no_data; }), "signature"},
+       wrong_signature(abort_code::no_data), "signature"},
       {"storing-in-pre-operational-only", "storing is refused in Operational", "STO-1010-12",
-       choose([](Choices& c) { c.storing_needs_pre_operational = true; })},
+       [](Parts& node) { node.store.choices.storing_needs_pre_operational = true; }},
       {"abort-pdo-inhibit-0601-0000", "the locked inhibit time: unsupported access", "OD-1400-18, OD-1800-18",
        choose([](Choices& c) {
          c.rpdo.inhibit_locked = c.tpdo.inhibit_locked = abort_code::unsupported_access;

@@ -58,7 +58,7 @@ How stores_by_itself(Duration rest) {
       entry.default_value[0] |= 2U;
       entry.value = entry.default_value;
     }
-    parts.device.choices.rest_before_storing = rest;
+    parts.store.choices.rest_before_storing = rest;
   };
 }
 

@@ -99,7 +99,8 @@ VariantTable optional_object_variants() {
       {.id = "abort-os-nothing-0800-0000",
        .summary = "nothing to deliver: general error",
        .legal = "OD-1023-01, OD-1025-01, OD-1026-03",
-       .how = choose([](Choices& c) { c.nothing_to_deliver = abort_code::general_error; }),
+       .how =
+           [](Parts& node) { node.operating_system.choices.nothing_to_deliver = abort_code::general_error; },
        .warns = {"OD-GEN-11"}},
       {.id = "1027-absent",
        .summary = "not modular",
