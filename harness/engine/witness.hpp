@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a step saw, as a finding: the frames around it, how it differs, where the description tells of it, and
+// which rule below the judged one it breaks.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/attribution.hpp"
+#include "engine/run_session.hpp"
+#include "result/run_result.hpp"
+#include "scenario/catalogue.hpp"
+#include "steps/step.hpp"
+
+namespace conform::engine {
+
+/// An answer that did not come, or that says that ours came too late.
+[[nodiscard]] bool is_late(const steps::Actual& actual, const RunSession& session);
+
+class Witness {
+ public:
+  Witness(RunSession& session, Attribution& attribution) : session_(session), attribution_(attribution) {}
+
+  /// `about`: the object a case of for_each is about.
+  void begin_case(const result::CaseResult& result, std::optional<Multiplexer> about) {
+    result_ = &result;
+    about_ = about;
+    timed_ = false;
+  }
+  void begin_step() { step_begin_ = session_.capture().size(); }
+  /// From here on what the case finds has rested on time or on silence.
+  void note_time() { timed_ = true; }
+
+  [[nodiscard]] result::Finding finding(const steps::Step& step, const std::string& requirement,
+                                        const steps::Grade& grade, const steps::Actual& actual);
+  /// The frames around the decisive one, or around the end of the trace, with their meaning. `first_frame`:
+  /// of the case, `begin`: of the step.
+  [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t first_frame, std::size_t begin,
+                                                            std::optional<std::size_t> decisive) const;
+  /// Where the description tells of what a step is about, or that it does not; empty without a description.
+  [[nodiscard]] std::string declared_at(const steps::Step& step, const steps::Actual& actual) const;
+  /// What came breaks rules below the one that is judged: those have failed, and this one cannot be judged.
+  [[nodiscard]] std::optional<std::string> rule_below(const std::string& requirement,
+                                                      const steps::Actual& actual,
+                                                      const scenario::Catalogue& catalogue);
+
+ private:
+  RunSession& session_;
+  Attribution& attribution_;
+  const result::CaseResult* result_ = nullptr;
+  std::optional<Multiplexer> about_;
+  std::size_t step_begin_ = 0;
+  bool timed_ = false;
+};
+
+}  // namespace conform::engine
