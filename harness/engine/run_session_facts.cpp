@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+// What steps and conditions ask about the device: looked up in the profile and the description, or found out
+// once by trying, and what the answer rests on.
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+#include "canopen/pdo.hpp"
+#include "engine/mapping_probe.hpp"
+#include "engine/run_session.hpp"
+
+namespace conform::engine {
+namespace {
+
+/// 101x or 110x: initiate request of a block upload (its block size, no CRC) or download (its size).
+std::array<std::uint8_t, 8> block_initiate(std::uint8_t command, Multiplexer object, std::uint8_t size) {
+  return {command,
+          static_cast<std::uint8_t>(object.index.value() & 0xFFU),
+          static_cast<std::uint8_t>(object.index.value() >> 8U),
+          object.sub.value(),
+          size,
+          0,
+          0,
+          0};
+}
+
+/// The aborts of a server without block transfer: 0504 0001h, and what is tolerated in its place.
+bool refuses_block_transfer(const std::array<std::uint8_t, 8>& answer) {
+  if (answer[0] != 0x80) return false;
+  const auto code = load_le(ByteView(answer).subspan(4));
+  return code == 0x0504'0001 || code == 0x0800'0000 || code == 0x0601'0000;
+}
+
+std::string refusal_words(const std::array<std::uint8_t, 8>& answer, Multiplexer object) {
+  const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(answer).subspan(4))));
+  return "abort " + canopen::describe(code) + " when tried with " + to_string(object);
+}
+}  // namespace
+
+const steps::Value* RunSession::find(std::string_view name) const {
+  const auto found = names_.find(name);
+  if (found != names_.end()) return &found->second;
+  if (!name.starts_with("profile.")) return nullptr;
+  const auto time = profile_.duration(name.substr(8));
+  if (!time) return nullptr;
+  return &profile_names_.insert_or_assign(std::string(name), steps::Value::of_duration(*time)).first->second;
+}
+
+Result<steps::Value> RunSession::current() {
+  if (object_ == nullptr) return fail("'current' needs a step about an entry", "scenario");
+  const auto object = object_->resolve(*this);
+  if (!object) return std::unexpected(object.error());
+  return read(*object);
+}
+
+Result<steps::Value> RunSession::read(Multiplexer object) {
+  auto answer = peek(object);
+  if (!answer) return std::unexpected(answer.error());
+  if (answer->kind == steps::SdoAnswer::Kind::confirmed) return steps::Value::of_bytes(answer->data);
+  return fail("the value of " + to_string(object) + " cannot be read: " + answer->refusal(), "scenario");
+}
+
+Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared what) {
+  const auto* found = entry(object);
+  static const device::Entry nothing;
+  const auto& known = found != nullptr ? *found : nothing;
+  const auto& bytes = what == steps::Declared::low_limit    ? known.low
+                      : what == steps::Declared::high_limit ? known.high
+                                                            : known.default_value;
+  if (!bytes && what == steps::Declared::default_value && object.index == Index(0x1018)) {
+    const auto& identity = profile_.identity;
+    const std::optional<std::uint32_t> wanted[] = {identity.vendor, identity.product, identity.revision,
+                                                   identity.serial};
+    const auto sub = object.sub.value();
+    if (sub >= 1 && sub <= 4 && wanted[sub - 1]) return steps::Value::of_bytes(to_le(*wanted[sub - 1], 4));
+  }
+  if (!bytes) return fail("the description of " + to_string(object) + " does not say it", "scenario");
+  auto value = steps::Value::of_bytes(*bytes);
+  if (value.number && canopen::is_signed(known.type) && bytes->size() < 8 && (bytes->back() & 0x80U) != 0) {
+    *value.number |= ~std::uint64_t{0} << (8 * bytes->size());
+  }
+  return value;
+}
+
+Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
+  if (whole_object) {
+    for (const auto& candidate : dictionary_.object(object.index)) {
+      const auto known = present_.find(candidate.mux);
+      if (known != present_.end() && known->second) return true;
+    }
+    object.sub = SubIndex(0);
+  }
+  const auto known = present_.find(object);
+  if (known != present_.end()) return known->second;
+  auto answer = peek(object);
+  if (!answer) return std::unexpected(answer.error());
+  using Kind = steps::SdoAnswer::Kind;
+  // Silence is neither: to take it for absence would excuse the device from every rule about the entry.
+  if (answer->kind == Kind::silence)
+    return fail("no answer when " + to_string(object) + " was looked for", "scenario");
+  const bool present = answer->kind != Kind::aborted || (answer->code != canopen::abort::no_object &&
+                                                         answer->code != canopen::abort::no_sub_index);
+  note_present(object, present, present ? "" : "abort " + canopen::describe(answer->code));
+  return present;
+}
+
+void RunSession::note_present(Multiplexer object, bool present, std::string why) {
+  present_[object] = present;
+  grounds_[{steps::Asked::presence, object}] = std::move(why);
+}
+
+std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
+  using steps::Asked;
+  const auto noted = [this](Asked what, Multiplexer about) {
+    const auto found = grounds_.find({what, about});
+    return found == grounds_.end() ? std::string() : found->second;
+  };
+  const auto absent = [&] {
+    const auto known = present_.find(object);
+    return known != present_.end() && !known->second;
+  };
+  const auto access = [&] {
+    const auto* found = entry(object);
+    if (found == nullptr) return std::string();
+    return std::string(device::to_string(found->access)) +
+           (found->declared_at.empty() ? "" : ", " + found->declared_at);
+  };
+  switch (asked) {
+    case Asked::presence: return noted(asked, object);
+    case Asked::mapping: {
+      const auto pdo = canopen::pdo_communication(object.index);
+      return pdo ? noted(asked, {*pdo, SubIndex(0)}) : std::string();
+    }
+    case Asked::reading: return absent() ? noted(Asked::presence, object) : access();
+    case Asked::writing: {
+      if (profile_.is_untouchable(object)) return "untouchable in the profile";
+      if (absent()) return noted(Asked::presence, object);
+      const auto tried = noted(asked, object);
+      return tried.empty() ? access() : tried;
+    }
+    case Asked::factory_defaults:
+      return left_changed_ && profile_.factory_defaults
+                 ? "the run could not put back every value, so factory defaults may not be active any more"
+                 : "";
+    default: return noted(asked, Multiplexer{});
+  }
+}
+
+bool RunSession::is_claimed(Multiplexer object, bool whole_object) const {
+  const auto claimed = [](const device::Entry& entry) {
+    return entry.presence() != device::Presence::unclaimed;
+  };
+  if (whole_object) return std::ranges::any_of(dictionary_.object(object.index), claimed);
+  const auto* found = entry(object);
+  return found != nullptr && claimed(*found);
+}
+
+Result<bool> RunSession::is_readable(Multiplexer object) {
+  const auto* found = entry(object);
+  if (found != nullptr && !found->readable()) return false;
+  return is_present(object, false);
+}
+
+Result<bool> RunSession::is_writable(Multiplexer object) {
+  if (profile_.is_untouchable(object)) return false;
+  auto present = is_present(object, false);
+  if (!present || !*present) return present;
+  const auto* found = entry(object);
+  if (found != nullptr && !found->access_open) return found->writable();
+  const auto probed = writable_.find(object);
+  if (probed != writable_.end()) return probed->second;
+  // The standard leaves rw or const open here: writing back what is there tells, and changes nothing. A
+  // command is not tried.
+  if (found != nullptr && found->command) return found->writable();
+  if (!guard_.may_write(object)) return false;
+  const auto what = "try whether " + to_string(object) + " is writable";
+  if (auto allowed = guard_.needs({steps::Tier::config, what}); !allowed)
+    return std::unexpected(allowed.error());
+  auto value = peek(object);
+  if (!value) return std::unexpected(value.error());
+  const auto silent = [object] {
+    return fail("no answer when " + to_string(object) + " was tried", "scenario");
+  };
+  if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
+  // An entry that cannot be read, or is answered against the protocol, was not tried.
+  const auto not_tried = [object](std::string_view done, const steps::SdoAnswer& came) {
+    return fail("whether " + to_string(object) + " is writable cannot be tried: its value was not " +
+                    std::string(done) + ": " + came.refusal(),
+                "scenario");
+  };
+  if (value->kind != steps::SdoAnswer::Kind::confirmed) return not_tried("read", *value);
+  auto answer = channel_.download(object, value->data, canopen::SdoDownload::Mode::automatic, std::nullopt);
+  if (!answer) return std::unexpected(answer.error());
+  if (answer->kind == steps::SdoAnswer::Kind::silence) return silent();
+  const bool aborted = answer->kind == steps::SdoAnswer::Kind::aborted;
+  if (!aborted && answer->kind != steps::SdoAnswer::Kind::confirmed)
+    return not_tried("written back", *answer);
+  const bool refused = aborted && answer->code == canopen::abort::read_only;
+  if (refused)
+    grounds_[{steps::Asked::writing, object}] =
+        "its own value was refused: abort " + canopen::describe(answer->code);
+  writable_[object] = !refused;
+  if (refused) {
+    if (auto* known = dictionary_.find(object)) known->access = device::Access::constant;
+  }
+  return !refused;
+}
+
+Result<bool> RunSession::offers_block_transfer(bool upload) {
+  auto& known = upload ? offers_block_upload_ : offers_block_download_;
+  if (known) return *known;
+  if (!upload) {
+    auto tried = try_block_download();
+    if (tried) known = *tried;
+    return tried;
+  }
+  auto answer = channel_.try_block_initiate(block_initiate(0xA0, {Index(0x1000), SubIndex(0)}, 0x14));
+  if (!answer) return std::unexpected(answer.error());
+  if (!*answer) return fail("no answer when a block upload was tried", "scenario");
+  known = !refuses_block_transfer(**answer);
+  if (!*known)
+    grounds_[{steps::Asked::block_upload, {}}] = refusal_words(**answer, {Index(0x1000), SubIndex(0)});
+  return *known;
+}
+
+Result<bool> RunSession::has_variable_mapping(Multiplexer object) {
+  constexpr std::string_view feature = "variable mapping";
+  if (profile_.claimed(feature)) return true;
+  const auto pdo = canopen::pdo_communication(object.index);
+  if (!pdo) return fail(to_string(object) + " is not a PDO", "scenario");
+  const Multiplexer count{canopen::pdo_mapping(*pdo), SubIndex(0)};
+  auto& why = grounds_[{steps::Asked::mapping, {*pdo, SubIndex(0)}}];
+  if (profile_.not_claimed.contains(feature)) {
+    why = "the profile says so";
+    return false;
+  }
+  const auto known = variable_mappings_.find(*pdo);
+  if (known != variable_mappings_.end()) return known->second;
+  auto writable = is_writable(count);
+  if (!writable) return writable;
+  if (!*writable) {
+    why = grounds(steps::Asked::writing, count);
+    return false;
+  }
+  if (auto allowed = guard_.needs({steps::Tier::config, "try whether a PDO can be mapped anew"}); !allowed)
+    return std::unexpected(allowed.error());
+  auto fixed = why_mapping_is_fixed(*this, *pdo);
+  if (!fixed) return std::unexpected(fixed.error());
+  why = fixed->value_or("");
+  return variable_mappings_[*pdo] = !fixed->has_value();
+}
+
+/// An entry that may be written: an access error of another one could not be told from "no block transfer".
+Result<bool> RunSession::try_block_download() {
+  if (auto allowed = guard_.needs({steps::Tier::config, "try a block download"}); !allowed)
+    return std::unexpected(allowed.error());
+  std::vector<Multiplexer> candidates{{Index(0x1017), SubIndex(0)}, {Index(0x100C), SubIndex(0)}};
+  for (const auto& candidate : dictionary_.entries()) {
+    const auto size = candidate.size();
+    if (candidate.safe && candidate.readable() && candidate.writable() && !candidate.command && size &&
+        *size <= 4)
+      candidates.push_back(candidate.mux);
+  }
+  for (const auto object : candidates) {
+    const auto* found = entry(object);
+    if (found == nullptr || profile_.is_untouchable(object)) continue;
+    auto present = is_present(object, false);
+    if (!present) return std::unexpected(present.error());
+    if (!*present) continue;
+    const auto size = static_cast<std::uint8_t>(found->size().value_or(0));
+    auto answer = channel_.try_block_initiate(block_initiate(0xC2, object, size));
+    if (!answer) return std::unexpected(answer.error());
+    if (!*answer) return fail("no answer when a block download was tried", "scenario");
+    const auto& data = **answer;
+    const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(data).subspan(4))));
+    if (data[0] == 0x80 && code == canopen::abort::read_only) continue;
+    const bool refused = refuses_block_transfer(data);
+    if (refused) grounds_[{steps::Asked::block_download, {}}] = refusal_words(data, object);
+    return !refused;
+  }
+  grounds_[{steps::Asked::block_download, {}}] =
+      "there is nothing to try it with: 1017h and 100Ch cannot be written, and no other number is in safe_objects";
+  return false;
+}
+
+/// A node that is there shows within some seconds: by its heartbeat, its PDOs, or because somebody talks to
+/// it.
+Result<std::string> RunSession::others_heard() {
+  constexpr auto listened = std::chrono::seconds(5);
+  const auto& frames = capture().frames();
+  if (!frames.empty() && now() - frames.front().time < listened) {
+    if (auto waited = wait_until(frames.front().time + listened); !waited)
+      return std::unexpected(waited.error());
+  }
+  return others_.heard(capture()).value_or("");
+}
+
+std::string RunSession::access_of(Multiplexer object) const {
+  const auto* found = entry(object);
+  return found == nullptr ? "" : std::string(device::to_string(found->access));
+}
+
+bool RunSession::may_change(Multiplexer object) const {
+  // The history is the device's to write, whether its fields are described or not.
+  if (object.index == Index(0x1003)) return true;
+  const auto* found = entry(object);
+  return found != nullptr && found->may_change;
+}
+
+bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
+
+std::size_t RunSession::error_triggers() const {
+  // A heartbeat can stay away only from a device that consumes heartbeats.
+  const auto consumer = present_.find({Index(0x1016), SubIndex(1)});
+  const bool consumes = consumer != present_.end() && consumer->second;
+  return static_cast<std::size_t>(std::ranges::count_if(
+      profile_.errors,
+      [this, consumes](const auto& trigger) { return trigger.raise || (consumes && may_play_nodes()); }));
+}
+
+}  // namespace conform::engine
