@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "cli/commands.hpp"
-#include "cli/guardian.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/run/guardian.hpp"
 
 namespace {
 

@@ -5,7 +5,6 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
-#include "canopen/nmt.hpp"
 #include "steps/step.hpp"
 
 namespace conform::steps {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whom a run blames: that the table of what rests on what names rules that there are, and that runs against
 // defects show one cause. All defects take minutes: `selftest --blame`.
-#include "cli/blame.hpp"
+#include "cli/proof/blame.hpp"
 
 #include <algorithm>
 #include <set>

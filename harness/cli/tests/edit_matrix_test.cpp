@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // No edit of the dictionary that can be seen from outside goes unnoticed.
-#include "cli/edit_matrix.hpp"
+#include "cli/proof/edit_matrix.hpp"
 
 #include <algorithm>
 #include <map>

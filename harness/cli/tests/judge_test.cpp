@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recorded trace is judged like the run it came from; and the suite makes no finding of a monitor against a
 // conformant node.
-#include "cli/judge.hpp"
+#include "cli/run/judge.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,7 +10,7 @@
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
 #include "catch.hpp"
-#include "cli/selftest.hpp"
+#include "cli/proof/selftest.hpp"
 #include "device/profile.hpp"
 #include "engine/monitor_cases.hpp"
 #include "monitor/watch.hpp"

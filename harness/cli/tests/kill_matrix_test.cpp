@@ -6,7 +6,7 @@
 #include "base/files.hpp"
 #include "base/text.hpp"
 #include "catch.hpp"
-#include "cli/selftest.hpp"
+#include "cli/proof/selftest.hpp"
 #include "device/profile.hpp"
 #include "shipped.hpp"
 

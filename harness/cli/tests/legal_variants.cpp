@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 #include "can/simulated_bus.hpp"
-#include "cli/variant_profile.hpp"
+#include "cli/proof/variant_profile.hpp"
 #include "engine/engine.hpp"
 #include "neighbours.hpp"
 #include "node/node.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/shell.hpp"
+#include "cli/run/shell.hpp"
 
 #include <unistd.h>
 

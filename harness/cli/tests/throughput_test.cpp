@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In virtual time throughput depends on no machine: what keeps the bus idle is a mistake.
-#include "cli/throughput.hpp"
+#include "cli/proof/throughput.hpp"
 #include "catch.hpp"
 
 using namespace conform;

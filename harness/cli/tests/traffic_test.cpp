@@ -6,8 +6,8 @@
 #include <set>
 
 #include "catch.hpp"
-#include "cli/selftest.hpp"
-#include "cli/variant_profile.hpp"
+#include "cli/proof/selftest.hpp"
+#include "cli/proof/variant_profile.hpp"
 #include "device/profile.hpp"
 #include "node/node.hpp"
 #include "shipped.hpp"

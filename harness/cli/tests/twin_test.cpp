@@ -9,7 +9,7 @@
 
 #include "base/text.hpp"
 #include "catch.hpp"
-#include "cli/selftest.hpp"
+#include "cli/proof/selftest.hpp"
 #include "device/profile.hpp"
 #include "eds/read.hpp"
 #include "node/node.hpp"

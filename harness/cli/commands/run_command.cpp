@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: Apache-2.0
+// `run`: the suite against a device on an interface, or against the reference node on the simulated bus.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <system_error>
+
+#include "base/text.hpp"
+#include "can/interface_lock.hpp"
+#include "can/socketcan_interface.hpp"
+#include "can/socketcan_transport.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/proof/selftest.hpp"
+#include "cli/proof/variant_profile.hpp"
+#include "cli/run/guardian.hpp"
+#include "cli/run/known_device.hpp"
+#include "cli/run/run_journal.hpp"
+#include "cli/run/run_reports.hpp"
+#include "cli/run/run_watch.hpp"
+#include "cli/run/shell.hpp"
+#include "cli/run/terminal.hpp"
+#include "cli/suite_folder.hpp"
+#include "engine/monitor_cases.hpp"
+#include "node/node.hpp"
+#include "reports/console.hpp"
+
+namespace conform::cli {
+namespace {
+
+std::atomic<int> stop_signal{0};
+
+/// The first signal ends the run in good order; the second one at once.
+void on_signal(int signal) {
+  if (stop_signal.exchange(signal) != 0) ::_exit(128 + signal);
+}
+
+void catch_signals() {
+  struct sigaction action{};
+  action.sa_handler = on_signal;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  // A closed terminal must not leave the device changed; nohup has its way.
+  struct sigaction hangup{};
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
+  // A closed pipe (| head) must not cost the reports.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+Result<KnownDevice> device_of(const RunCommand& options, const std::string& suites) {
+  DeviceWords words{options.device, options.eds, options.node};
+  const bool of_reference_node = options.simulate && words.profile.empty() && words.eds.empty();
+  if (of_reference_node) words.profile = suites + "/devices/reference-node.yaml";
+  auto known = known_device(words, options.simulate ? std::optional(NodeId(5)) : std::nullopt);
+  if (known && of_reference_node && !options.variants.empty()) {
+    auto node = refnode::Node::create(
+        {.node_id = known->profile.node.value(), .defects = {}, .variants = options.variants});
+    if (!node) return std::unexpected(node.error());
+    known->profile = profile_of_variants(known->profile, (*node)->dictionary(), options.variants);
+  }
+  if (known && !options.interface.empty()) known->profile.interface = options.interface;
+  return known;
+}
+
+/// What the command line knows of a run.
+struct Facts {
+  std::string host;
+  std::int64_t started = 0;
+  std::vector<result::Property> properties;
+  std::vector<std::string> notes;
+
+  void complete(result::RunResult& run) const {
+    run.tool = tool;
+    run.host = host;
+    run.started_utc_ns = started;
+    run.properties.insert(run.properties.begin(), properties.begin(), properties.end());
+    run.notes.insert(run.notes.begin(), notes.begin(), notes.end());
+  }
+  void add(std::string name, std::string value) { properties.push_back({std::move(name), std::move(value)}); }
+
+  static constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
+};
+
+/// Says what the run before left in the device, before anything else is done to it.
+void tell_what_was_left(const RunJournal& journal, Facts& facts) {
+  if (journal.left().empty()) return;
+  std::string text =
+      journal.earlier_was_killed()
+          ? "an earlier run on this interface and node was killed and left values of the device changed:"
+          : "an earlier run on this interface and node could not put back all that it changed:";
+  for (const auto& each : journal.left()) {
+    const auto what = to_string(each.object) + " was " + hex_bytes(each.before) +
+                      (each.during.empty() ? "" : " before " + each.during);
+    text += "\n  " + what;
+    facts.notes.push_back("left changed by an earlier run: " + what);
+  }
+  report_error({text, {}, "canopen-conform recover " + journal.path() + " puts them back"}, 0);
+}
+
+void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Monitors& monitors,
+                const scenario::Catalogue& catalogue) {
+  std::string out;
+  std::size_t held_back = 0;
+  for (const auto& planned : plan) {
+    const auto result = engine::planned_result(planned, catalogue);
+    if (!planned.held_back.empty() || !planned.not_applicable.empty()) ++held_back;
+    const char* what = !planned.held_back.empty()        ? "held back"
+                       : !planned.not_applicable.empty() ? "not appl."
+                                                         : "would run";
+    out += fmt::format("{:9}  {:9}  {}  {}\n", what, steps::word_of(planned.scenario->risk), result.name(),
+                       join(result.requirements, ", "));
+  }
+  for (const auto* rule : monitors) {
+    const auto result = monitor::planned_case(*rule, [](std::string_view) { return result::Verdict::fail; });
+    out += fmt::format("{:9}  {:9}  {}  {}\n", "watches", "", result.name(), join(result.requirements, ", "));
+  }
+  out += fmt::format("{} cases, {} would run; nothing was sent\n", plan.size(), plan.size() - held_back);
+  print(out);
+}
+
+int run(const RunCommand& options, RunReports& reports) {
+  const auto refuse = [&reports](const Error& error, int code) {
+    reports.not_begun(Facts::tool, error);
+    return report_error(error, code);
+  };
+  if (options.simulate == !options.interface.empty() && (options.simulate || options.device.empty())) {
+    return refuse(
+        {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
+        exit_usage);
+  }
+  for (const auto& [option, ids] :
+       {std::pair{"--defect", &options.defects}, {"--variant", &options.variants}}) {
+    if (options.simulate || ids->empty()) continue;
+    return refuse({std::string(option) + " belongs to --simulate",
+                   {},
+                   std::string("on a real interface: canopen-refnode ") + option + " ID"},
+                  exit_usage);
+  }
+  auto root = find_suites(options.suites, options.device);
+  if (!root) return refuse(root.error(), exit_usage);
+  const bool colour = use_colour(options.color, 1);
+  auto suites = load_suites(*root, use_colour(options.color, 2));
+  if (!suites) return refuse(suites.error(), exit_usage);
+  auto known = device_of(options, root->root);
+  if (!known) return refuse(known.error(), exit_usage);
+  auto* const profile = &known->profile;
+
+  engine::RunOptions run_options;
+  run_options.strict = options.strict;
+  run_options.stop = &stop_signal;
+  constexpr Duration power_limit = std::chrono::seconds(60);
+  if (!options.simulate && !profile->power_cycle.empty())
+    run_options.power_cycle = [profile, power_limit] { return run_shell(profile->power_cycle, power_limit); };
+  run_options.plan.selection = {options.select, options.requirements, options.exclude};
+  run_options.plan.seed = options.seed;
+  run_options.plan.all_objects = options.all_objects;
+  run_options.plan.slow = options.slow || options.simulate;
+  for (const auto& id : options.requirements) {
+    if (id.find('*') == std::string::npos && suites->catalogue.find(id) == nullptr) {
+      const auto near = did_you_mean(id, suites->catalogue.ids());
+      return refuse({"unknown requirement '" + id + "'",
+                     {},
+                     near.empty() ? "" : "did you mean '" + std::string(near) + "'?"},
+                    exit_usage);
+    }
+  }
+  {
+    auto everything = run_options.plan;
+    everything.allowed = scenario::Risk::motion;
+    if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty() &&
+        !engine::names_a_monitor(everything.selection, suites->catalogue)) {
+      return refuse(
+          {"nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is"},
+          exit_usage);
+    }
+  }
+
+  std::optional<can::InterfaceLock> lock;
+  std::unique_ptr<can::SocketCanTransport> transport;
+  if (!options.simulate && !options.dry_run) {
+    if (profile->interface.empty())
+      return refuse({"no interface is named", {}, "--interface can0, or interface: in the device profile"},
+                    exit_usage);
+    auto opened = can::SocketCanTransport::open(profile->interface);
+    if (!opened) return refuse(opened.error(), exit_environment);
+    transport = std::move(*opened);
+    auto taken = can::InterfaceLock::take(profile->interface);
+    if (!taken) return refuse(taken.error(), exit_environment);
+    lock.emplace(std::move(*taken));
+  }
+  // A real machine may hang on a real interface: without --allow nothing is written to it.
+  const bool is_virtual = options.simulate || (transport != nullptr && transport->info().is_virtual);
+  run_options.plan.allowed = is_virtual ? scenario::Risk::motion : scenario::Risk::read_only;
+  if (!options.allow.empty()) {
+    const auto risk = steps::parse_tier(options.allow);
+    if (!risk)
+      return refuse({"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"},
+                    exit_usage);
+    run_options.plan.allowed = *risk;
+  }
+  if (options.dry_run && options.allow.empty() && !options.simulate) {
+    auto facts = can::interface_facts(profile->interface);
+    if (facts && facts->is_virtual) run_options.plan.allowed = scenario::Risk::motion;
+  }
+  // Without a list of what may be written, the user who allows motion allows all that the description calls
+  // writable.
+  profile->writes_described =
+      run_options.plan.allowed == scenario::Risk::motion && profile->safe_objects.empty();
+  if (options.dry_run) {
+    print_plan(
+        engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), run_options.plan),
+        engine::chosen_monitors(run_options.plan.selection, suites->catalogue), suites->catalogue);
+    return 0;
+  }
+
+  Facts facts;
+  char host[256] = "unknown";
+  if (!options.simulate) ::gethostname(host, sizeof host - 1);
+  facts.host = options.simulate ? "simulation" : host;
+  facts.started = options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000;
+  facts.notes = known->notes;
+  facts.properties = suite_properties(*root);
+  if (known->description) facts.add("dut.description", known->description->name);
+  facts.add("run.seed", std::to_string(options.seed));
+  facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));
+  if (transport != nullptr) {
+    const auto info = transport->info();
+    facts.add("can.interface", info.name);
+    facts.add("can.driver", info.driver);
+    if (info.bit_rate > 0) facts.add("can.bit_rate", std::to_string(info.bit_rate));
+    facts.add("can.receive_buffer", std::to_string(info.receive_buffer));
+  } else {
+    facts.add("can.interface", "simulated");
+    if (!options.defects.empty()) facts.add("simulation.defects", join(options.defects, " "));
+    if (!options.variants.empty()) facts.add("simulation.variants", join(options.variants, " "));
+  }
+
+  can::CaptureInfo info;
+  info.interface_name = options.simulate ? "simulated" : profile->interface;
+  info.epoch_ns = transport != nullptr ? transport->info().epoch_ns : 0;
+  info.tool = Facts::tool;
+  info.comment = profile->name;
+  if (auto opened = reports.stream(info); !opened) return refuse(opened.error(), exit_environment);
+
+  // A run of which no file is asked, and that touches no device, leaves nothing to look after.
+  std::optional<RunJournal> kept;
+  std::optional<journal::Writer> journal;
+  std::optional<Guardian> guardian;
+  if (!options.simulate || !options.journal.empty() || !reports.none()) {
+    auto opened = RunJournal::open(options.journal, info.interface_name, profile->node.value(),
+                                   options.simulate, reports.first());
+    if (!opened) return refuse(opened.error(), exit_environment);
+    kept.emplace(std::move(*opened));
+    if (!options.simulate) tell_what_was_left(*kept, facts);
+    if (!kept->why_not_usual().empty())
+      facts.notes.push_back("the journal is not at its usual place, so the next run will not find it: " +
+                            kept->why_not_usual());
+    journal.emplace(kept->descriptor());
+    result::RunResult begun;
+    facts.complete(begun);
+    begun.device = profile->name;
+    journal->begin({.interface = info.interface_name,
+                    .node = profile->node.value(),
+                    .simulated = options.simulate,
+                    .profile = absolute(options.device),
+                    .eds = absolute(options.eds),
+                    .epoch_ns = info.epoch_ns,
+                    .reports = reports.paths()},
+                   begun);
+    for (auto value : kept->left()) {
+      value.during.clear();
+      journal->changing(value);
+    }
+    if (journal->error() != 0)
+      return refuse({"cannot write the journal: " + std::generic_category().message(journal->error()),
+                     kept->path(), "--journal FILE puts it elsewhere"},
+                    exit_environment);
+    guardian.emplace(*kept);
+    record_faults_in(kept->descriptor());
+    if (options.simulate) watch_progress(kept->descriptor());
+  }
+
+  const bool live = ::isatty(1) != 0 && !options.quiet;
+  const reports::Style style{colour, terminal_width(), 0};
+  RunWatch watch({live, options.quiet, style}, reports, journal ? &*journal : nullptr,
+                 [&facts](result::RunResult& run) { facts.complete(run); });
+  run_options.observer = &watch;
+
+  result::RunResult run;
+  can::Capture capture;
+  if (options.simulate) {
+    auto simulated = simulate(
+        {.defects = options.defects, .variants = options.variants, .description = known->description},
+        *profile, suites->suite, suites->catalogue, run_options, options.seed);
+    stop_watching();
+    if (!simulated) return refuse(simulated.error(), exit_usage);
+    run = std::move(simulated->result);
+    capture = std::move(simulated->capture);
+  } else {
+    run = engine::run(*transport, *profile, suites->suite, suites->catalogue, run_options, capture);
+  }
+  if (live) print("\r\x1B[K");
+  facts.complete(run);
+  if (journal) journal->finished(run);
+  if (journal && journal->error() != 0)
+    run.unwritten.push_back((kept->path().empty() ? "the journal" : kept->path()) +
+                            ": cannot write: " + std::generic_category().message(journal->error()));
+  info.comment = run.device;
+  reports.write(run, capture, info);
+  if (journal) journal->reported();
+  print(reports::summary(run, style));
+  std::fflush(stdout);
+  return result::exit_code(run);
+}
+
+}  // namespace
+
+int run_command(const RunCommand& options) {
+  catch_signals();
+  // Also into a file, so that what was said is there when the program is killed.
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  RunReports reports({absolute(options.junit), absolute(options.markdown), absolute(options.capture),
+                      absolute(options.candump)});
+  if (options.dry_run) {
+    RunReports none({});
+    return run(options, none);
+  }
+  if (auto begun = reports.begin(Facts::tool, {options.device, options.eds, options.journal}); !begun)
+    return report_error(begun.error(), exit_environment);
+  return run(options, reports);
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects that show several causes, or another rule first, and why that is so. The list may only become
+// shorter.
+#include <algorithm>
+#include <array>
+
+#include "cli/proof/blame.hpp"
+
+namespace conform::cli {
+namespace {
+
+struct Reason {
+  std::string_view defect, why;
+};
+
+constexpr auto reasons = std::to_array<Reason>({
+    {"mux-stale-subindex",
+     "what a response about another sub-index spoils is seen in PDO set-ups and a heartbeat "
+     "test, which read nothing wrong themselves"},
+    {"sdo-double-response",
+     "a second copy of every frame is a frame of its own to each kind of block transfer"},
+    {"sdo-drops-every-nth-request",
+     "which request is lost is chance: each rule is broken once, and none more than another"},
+    {"sdo-second-request-gets-data-of-the-first",
+     "data of the request before is found in block uploads, too, where nobody sends two "
+     "requests"},
+    {"sdo-late-response", "an answer behind the time-out falls into the next case, whatever that is about"},
+    {"abort-request-with-reserved-bits-hangs",
+     "the frame that stops the server comes in one case only; the restart behind it clears the "
+     "traces"},
+    {"abort-repeated-later", "the second abort comes 100 ms later, into the next step of any case"},
+    {"abort-code-always-general",
+     "every refusal of the dictionary has the same wrong code; which rule comes first is the "
+     "order of the run"},
+    {"data-big-endian",
+     "a wrong order of bytes is another value for each object, and each object has its own "
+     "rules about values"},
+    {"stale-data-returned",
+     "set-ups of PDOs and TIME write what they read wrongly, and see the effect without an SDO "
+     "answer"},
+    {"expedited-size-one-too-low",
+     "COB-IDs read one byte short are used by SYNC and TPDO scenarios, which see the effect "
+     "without an SDO answer"},
+    {"empty-entry-command-byte-53h",
+     "an empty text after a download is the same impossible command byte, seen by the rule of "
+     "that download"},
+    {"empty-entry-silent",
+     "an empty entry has no rule of its own in the scenario that meets the silence, and its "
+     "time-out falls into block uploads"},
+    {"long-entries-silent",
+     "the rule about empty entries meets the silence first; all long entries are silent"},
+    {"new-initiate-returns-old-object",
+     "the frame names another object and the answer is that of the transfer before: two rules, "
+     "both broken"},
+    {"expedited-length-ignored",
+     "a length that is not heeded breaks the rules about stored values and those about wrong lengths"},
+    {"four-bytes-taken-for-two",
+     "a length that is misread breaks the rules about stored values and those about wrong lengths"},
+    {"reset-communication-keeps-values", "mappings that are kept have a rule of their own"},
+    {"foreign-heartbeat-ends-a-transfer",
+     "the heartbeat that ends the transfer is not seen by the heartbeat consumer either: two "
+     "services are broken"},
+    {"client-abort-ignored-and-busy",
+     "where a transfer cannot be ended and none begun, the first long upload fails before a "
+     "rule about aborts is asked"},
+    {"block-upload-never-closed", "the upload before blocks the next, which breaks the rule of that one"},
+    {"block-upload-repeats-for-ever", "frames that never end fall into every case that follows"},
+    {"block-upload-returns-old-data",
+     "the old transfer's end frame carries a CRC that was not asked for, which the monitor "
+     "sees"},
+    {"missing-object-returns-zero",
+     "absent objects with values are a cause for the absent ones, and one for the sub-indices "
+     "below them"},
+    {"ro-writable-by-segmented-download",
+     "the strings of the device have rules of their own beside those of the manufacturer's "
+     "entries"},
+    {"heartbeat-stops-in-stopped",
+     "Stopped is seen through the heartbeat: where none comes, the command is blamed"},
+});
+
+}  // namespace
+
+std::optional<std::string_view> reason_of_blame(std::string_view defect) {
+  const auto found = std::ranges::find(reasons, defect, &Reason::defect);
+  return found == reasons.end() ? std::nullopt : std::optional(found->why);
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/proof/selftest.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "can/simulated_bus.hpp"
+#include "cli/proof/blame.hpp"
+#include "cli/proof/verdicts.hpp"
+#include "cli/proof/workers.hpp"
+#include "defects/defect.hpp"
+#include "node/node.hpp"
+
+namespace conform::cli {
+
+using result::Verdict;
+
+Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
+                              const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                              engine::RunOptions options, std::uint64_t seed) {
+  auto node = refnode::Node::create({.node_id = profile.node.value(),
+                                     .defects = switches.defects,
+                                     .variants = switches.variants,
+                                     .description = switches.description});
+  if (!node) return std::unexpected(node.error());
+  can::SimulatedBus::Options bus_options;
+  bus_options.seed = seed;
+  can::SimulatedBus bus(bus_options);
+  bus.attach(**node, "reference node");
+  options.plan.seed = seed;
+  SimulatedRun out;
+  out.result = engine::run(bus.transport(), profile, suite, catalogue, options, out.capture);
+  out.result.host = "simulation";
+  return out;
+}
+
+bool KillMatrix::ok() const {
+  const auto counts = conformant.counts();
+  return counts.fail + counts.warn + counts.inconclusive + counts.error == 0 && counts.pass > 0 &&
+         survivors().empty();
+}
+
+std::vector<std::string> KillMatrix::survivors() const {
+  std::vector<std::string> out;
+  for (const auto& defect : defects) {
+    if (defect.killed_by.empty()) out.push_back(defect.id);
+  }
+  return out;
+}
+
+namespace {
+
+/// Runs the suite, or what judges one of `requirements`, and adds what became worse.
+Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::string> requirements,
+                    bool slow) {
+  engine::RunOptions options;
+  options.plan.slow = slow;
+  options.plan.selection.requirements = std::move(requirements);
+  const auto worse = worse_with(defect.id, bench, std::move(options));
+  if (!worse) return std::unexpected(worse.error());
+  const auto add = [](std::vector<std::string>& to, const std::string& text) {
+    if (std::ranges::find(to, text) == to.end()) to.push_back(text);
+  };
+  for (const auto& [key, verdict] : *worse) {
+    const auto& [requirement, name] = key;
+    if (std::ranges::find(defect.violates, requirement) != defect.violates.end()) {
+      add(defect.killed_by, requirement + " " + std::string(to_string(verdict)) + " in " + name);
+      add(defect.proves, requirement);
+    } else {
+      add(defect.bystanders, requirement);
+    }
+  }
+  return {};
+}
+
+/// `monitored`: judged by a monitor, so that any frame of any scenario may show a violation.
+Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>& monitored,
+                                 const refnode::Defect& row, bool whole) {
+  DefectVerdict defect;
+  defect.id = row.id;
+  defect.summary = row.summary;
+  for (const auto id : row.violates) {
+    if (const auto canonical = bench.catalogue.canonical(id)) {
+      if (std::ranges::find(defect.violates, *canonical) == defect.violates.end())
+        defect.violates.push_back(*canonical);
+    } else {
+      defect.unknown.emplace_back(id);
+    }
+  }
+  if (!whole) {
+    // Scenarios of long transfers take ten times as long as all others together and are needed by few
+    // defects.
+    for (const bool slow : {false, true}) {
+      if (!defect.killed_by.empty()) break;
+      if (auto done = expose(bench, defect, defect.violates, slow); !done)
+        return std::unexpected(done.error());
+    }
+    // What one scenario leaves behind may show in the next, and a monitor may need the traffic of scenarios
+    // that judge something else.
+    whole = defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
+              return monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
+            });
+  }
+  for (const bool slow : {false, true}) {
+    if (!whole || (slow && !defect.killed_by.empty())) break;
+    if (auto done = expose(bench, defect, {}, slow); !done) return std::unexpected(done.error());
+  }
+  std::ranges::sort(defect.proves);
+  return defect;
+}
+
+}  // namespace
+
+Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
+                               const scenario::Catalogue& catalogue, const KillOptions& options) {
+  KillMatrix out;
+  auto conformant = simulate({}, profile, suite, catalogue, {}, options.seed);
+  if (!conformant) return std::unexpected(conformant.error());
+  out.conformant = std::move(conformant->result);
+  const auto good = verdicts_of(out.conformant);
+  std::set<std::string> proven, judged, monitored;
+  for (const auto& [key, verdict] : good) {
+    if (verdict == Verdict::not_applicable) continue;
+    judged.insert(key.first);
+    if (key.second.starts_with("monitor/")) monitored.insert(key.first);
+  }
+  const Bench bench{profile, suite, catalogue, options.seed, good};
+  std::vector<const refnode::Defect*> rows;
+  for (const auto& row : refnode::defects()) {
+    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
+      rows.push_back(&row);
+  }
+  // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
+  std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
+  in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
+    verdicts[i].emplace(verdict_of(bench, monitored, *rows[i], options.whole));
+  });
+  std::vector<std::optional<Result<Blame>>> blames(options.blame ? rows.size() : 0);
+  in_parallel(blames.size(), options.jobs, [&](std::size_t i) {
+    blames[i].emplace(*verdicts[i] ? blame_of(std::string(rows[i]->id), (**verdicts[i]).violates, bench)
+                                   : Blame{});
+  });
+  for (auto& blame : blames) {
+    if (!*blame) return std::unexpected(blame->error());
+    out.blames.push_back(std::move(**blame));
+  }
+  const auto pairs = pairs_of(out.blames, options.pairs, options.seed);
+  std::vector<std::optional<Result<PairBlame>>> pair_blames(pairs.size());
+  in_parallel(pairs.size(), options.jobs,
+              [&](std::size_t i) { pair_blames[i].emplace(blame_of(pairs[i], bench)); });
+  for (auto& blame : pair_blames) {
+    if (!*blame) return std::unexpected(blame->error());
+    out.pairs.push_back(std::move(**blame));
+  }
+  for (auto& verdict : verdicts) {
+    if (!*verdict) return std::unexpected(verdict->error());
+    proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());
+    out.defects.push_back(std::move(**verdict));
+  }
+  std::ranges::set_difference(judged, proven, std::back_inserter(out.unproven));
+  out.proven.assign(proven.begin(), proven.end());
+  return out;
+}
+
+}  // namespace conform::cli

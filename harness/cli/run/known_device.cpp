@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/known_device.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "device/description.hpp"
+#include "eds/read.hpp"
+
+namespace conform::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_notes = 5;
+
+/// Tells what of the description says nothing: it is not expected of the device, and the user should know.
+std::vector<std::string> notes_of(const device::Description& description) {
+  const auto count = description.unused.size() + description.unused_left_out;
+  if (count == 0) return {};
+  std::vector<std::string> out;
+  for (const auto& each : description.unused) {
+    if (out.size() == most_notes) break;
+    out.push_back(each.where + ": " + each.what);
+  }
+  if (count > most_notes) {
+    out.push_back(fmt::format("and {} more in {}: 'canopen-conform eds lint' tells what is wrong there",
+                              count - most_notes, description.file));
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId> fallback) {
+  KnownDevice out;
+  bool node_known = false;
+  std::string path = words.eds;
+  if (words.profile.empty()) {
+    out.profile = device::default_profile(NodeId(1));
+  } else {
+    auto document = device::load_profile_file(words.profile);
+    if (!document) return std::unexpected(document.error());
+    if (document->diagnostics.has_errors())
+      return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), words.profile);
+    out.profile = std::move(document->profile);
+    node_known = true;
+    // The profile's own word is relative to its folder.
+    if (path.empty() && !out.profile.eds.empty())
+      path = (fs::path(words.profile).parent_path() / out.profile.eds).string();
+  }
+  if (!path.empty()) {
+    auto file = eds::read_file(path);
+    if (!file) return std::unexpected(file.error());
+    auto description = device::describe(*file);
+    if (!description) return std::unexpected(description.error());
+    if (!node_known && description->node) {
+      out.profile.node = *description->node;
+      node_known = true;
+    }
+    out.notes = notes_of(*description);
+    if (out.profile.name.empty() && !file->device_info.product_name.empty())
+      out.profile.name = printable(file->device_info.product_name.text);
+    out.description = std::make_shared<const eds::EdsFile>(std::move(*file));
+    device::add_description(out.profile, std::move(*description));
+  }
+  if (auto done = device::complete_writes(out.profile); !done) {
+    auto error = done.error();
+    error.where = words.profile + ":" + error.where;
+    return std::unexpected(std::move(error));
+  }
+  if (words.node) {
+    out.profile.node = NodeId(static_cast<std::uint8_t>(*words.node));
+  } else if (!node_known) {
+    if (!fallback) return fail("the node-ID of the device is missing", {}, "--node 1..127, or --device FILE");
+    out.profile.node = *fallback;
+  }
+  return out;
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/run_reports.hpp"
+
+#include <array>
+#include <filesystem>
+#include <system_error>
+
+#include "base/files.hpp"
+#include "can/candump_log.hpp"
+#include "can/pcapng.hpp"
+#include "cli/run/terminal.hpp"
+#include "reports/junit.hpp"
+#include "reports/markdown.hpp"
+#include "result/annotate.hpp"
+
+namespace conform::cli {
+namespace {
+
+constexpr std::uint64_t largest_capture = std::uint64_t{4} << 30U;
+
+}  // namespace
+
+std::string absolute(const std::string& path) {
+  if (path.empty()) return {};
+  std::error_code ignored;
+  const auto whole = std::filesystem::absolute(path, ignored);
+  return ignored ? path : whole.string();
+}
+
+std::string RunReports::first() const {
+  for (const auto& path : {paths_.junit, paths_.markdown, paths_.capture, paths_.candump}) {
+    if (!path.empty()) return path;
+  }
+  return {};
+}
+
+Result<void> RunReports::begin(const std::string& tool, const std::vector<std::string>& inputs) {
+  const std::array all{&paths_.junit, &paths_.markdown, &paths_.capture, &paths_.candump};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i]->empty()) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (*all[k] == *all[i]) return fail("two reports would be written to one file", *all[i]);
+    }
+    for (const auto& input : inputs) {
+      if (absolute(input) == *all[i])
+        return fail("a report would be written over an input of the run", *all[i]);
+    }
+  }
+  return say(tool, "the run has not ended: it goes on, or it was killed before its reports could be made");
+}
+
+void RunReports::not_begun(const std::string& tool, const Error& why) {
+  // Whoever made the paths fail has been told already.
+  if (!say(tool, "the run did not begin: " + why.text())) return;
+}
+
+Result<void> RunReports::say(const std::string& tool, const std::string& what) {
+  result::RunResult run;
+  run.tool = tool;
+  run.aborted = what;
+  if (!paths_.junit.empty()) {
+    const auto text = reports::junit(run);
+    if (auto written = write_file_atomically(paths_.junit, text); !written) return written;
+  }
+  if (!paths_.markdown.empty()) {
+    if (auto written = write_file_atomically(paths_.markdown, reports::markdown(run)); !written)
+      return written;
+  }
+  can::CaptureInfo info;
+  info.tool = tool;
+  info.comment = what;
+  if (!paths_.capture.empty()) {
+    if (auto written = write_file_atomically(paths_.capture, can::write_pcapng({}, info)); !written)
+      return written;
+  }
+  if (!paths_.candump.empty()) {
+    // Its readers know lines of frames only, so an empty log is all it can say.
+    if (auto written = write_file_atomically(paths_.candump, std::string_view()); !written) return written;
+  }
+  return {};
+}
+
+Result<void> RunReports::stream(const can::CaptureInfo& info) {
+  using Format = can::CaptureStream::Format;
+  for (auto* const one : {&pcapng_, &candump_}) {
+    const bool is_pcapng = one == &pcapng_;
+    const auto& path = is_pcapng ? paths_.capture : paths_.candump;
+    if (path.empty()) continue;
+    auto opened = can::CaptureStream::create(path, is_pcapng ? Format::pcapng : Format::candump, info);
+    if (!opened) return std::unexpected(opened.error());
+    one->emplace(std::move(*opened));
+  }
+  return {};
+}
+
+void RunReports::recorded(const can::CapturedFrame& frame) {
+  if (pcapng_) pcapng_->add(frame);
+  if (candump_) candump_->add(frame);
+}
+
+void RunReports::waited(BusTime now) {
+  if (pcapng_) pcapng_->waited(now);
+  if (candump_) candump_->waited(now);
+}
+
+void RunReports::flush() {
+  if (pcapng_) pcapng_->flush();
+  if (candump_) candump_->flush();
+}
+
+void RunReports::put(result::RunResult& run, const std::string& path, ByteView bytes) {
+  if (path.empty()) return;
+  if (auto written = write_file_atomically(path, bytes); !written) {
+    run.unwritten.push_back(written.error().text());
+    report_error(written.error(), 0);
+  }
+}
+
+void RunReports::put(result::RunResult& run, const std::string& path, const std::string& text) {
+  put(run, path, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+void RunReports::write_words(result::RunResult& run) {
+  if (!paths_.markdown.empty()) put(run, paths_.markdown, reports::markdown(run));
+  if (!paths_.junit.empty()) put(run, paths_.junit, reports::junit(run));
+}
+
+void RunReports::write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info) {
+  flush();
+  const bool log_is_whole = candump_ && candump_->error() == 0;
+  pcapng_.reset();
+  candump_.reset();
+  // Anew, because now the frames that decided something are known and can say so.
+  if (!paths_.capture.empty()) put(run, paths_.capture, can::write_pcapng(capture, info));
+  if (!paths_.candump.empty() && !log_is_whole)
+    put(run, paths_.candump, can::write_candump_log(capture, info));
+  write_words(run);
+}
+
+void RunReports::write_left(result::RunResult& run) {
+  if (!paths_.capture.empty()) {
+    const auto bytes = read_file(paths_.capture, largest_capture);
+    auto loaded = bytes ? can::read_pcapng(
+                              ByteView(reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()),
+                              paths_.capture)
+                        : Result<can::LoadedCapture>(std::unexpected(bytes.error()));
+    if (loaded) {
+      result::annotate(loaded->capture, run);
+      loaded->info.tool = run.tool;
+      loaded->info.comment = run.device + (run.aborted ? "; " + *run.aborted : "");
+      put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
+    } else {
+      run.unwritten.push_back(loaded.error().text());
+      report_error(loaded.error(), 0);
+    }
+  }
+  write_words(run);
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/run_watch.hpp"
+
+#include <cstdio>
+
+#include "cli/run/guardian.hpp"
+#include "cli/run/terminal.hpp"
+
+namespace conform::cli {
+
+void RunWatch::recorded(const can::CapturedFrame& frame) {
+  now_ = frame.time;
+  note_progress();
+  reports_.recorded(frame);
+}
+
+void RunWatch::waited(BusTime now) {
+  now_ = now;
+  note_progress();
+  reports_.waited(now);
+}
+
+void RunWatch::planned(const result::RunResult& run) {
+  if (journal_ == nullptr) return;
+  auto whole = run;
+  complete_(whole);
+  journal_->planned(whole);
+}
+
+void RunWatch::case_begun(const result::RunResult& run, std::size_t index) {
+  running_ = run.cases[index].name();
+  if (journal_ != nullptr) journal_->case_begun(index, now_);
+  if (!console_.live) return;
+  print("\r\x1B[K" + reports::progress(index + 1, run.cases.size(), running_, counts_, console_.style));
+  std::fflush(stdout);
+}
+
+void RunWatch::case_ended(const result::RunResult& run, std::size_t index) {
+  const auto& one = run.cases[index];
+  counts_.add(one.verdict);
+  running_.clear();
+  reports_.flush();
+  if (journal_ != nullptr) journal_->case_ended(index, one);
+  const bool quiet_verdict =
+      one.verdict == result::Verdict::pass || one.verdict == result::Verdict::not_applicable;
+  if (console_.live) {
+    if (!quiet_verdict) print("\r\x1B[K" + reports::case_line(one, console_.style) + "\n");
+  } else if (!console_.quiet || !quiet_verdict) {
+    print(reports::case_line(one, console_.style) + "\n");
+  }
+}
+
+void RunWatch::changing(Multiplexer object, const Bytes& before) {
+  if (journal_ != nullptr) journal_->changing({object, before, running_.empty() ? "the run" : running_});
+}
+
+void RunWatch::commanding(Multiplexer object) {
+  if (journal_ != nullptr) journal_->commanding(object);
+}
+
+void RunWatch::put_back(Multiplexer object, const Bytes& value) {
+  if (journal_ != nullptr) journal_->put_back(object, value);
+}
+
+}  // namespace conform::cli
