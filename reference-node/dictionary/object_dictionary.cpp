@@ -6,7 +6,6 @@
 
 #include "base/check.hpp"
 #include "node/behaviour.hpp"
-#include "node/choices.hpp"
 
 namespace refnode {
 
@@ -183,21 +182,21 @@ Upload ObjectDictionary::upload(Multiplexer mux) const {
 Accepted ObjectDictionary::check_size(const Entry& found, std::size_t size) const {
   const std::size_t fixed = fixed_size(found.type);
   if (fixed == 0) {
-    if (size > found.max_size) return refuse(choices_->value_too_long);
+    if (size > found.max_size) return refuse(choices.value_too_long);
     // UNICODE_STRING is made of 16-bit characters.
     if (found.type == DataType::unicode_string && size % 2 != 0) return refuse(abort_code::length_mismatch);
     return {};
   }
-  if (size > fixed && !behaviour_->accepts_long_values) return refuse(choices_->value_too_long);
-  if (size < fixed && !behaviour_->accepts_short_values) return refuse(choices_->value_too_short);
+  if (size > fixed && !behaviour_->accepts_long_values) return refuse(choices.value_too_long);
+  if (size < fixed && !behaviour_->accepts_short_values) return refuse(choices.value_too_short);
   return {};
 }
 
 template <typename Value>
 Accepted ObjectDictionary::compare(Value value, const std::optional<Value>& low,
                                    const std::optional<Value>& high) const {
-  if (high && value > *high) return refuse(choices_->value_above_limit);
-  if (low && value < *low) return refuse(choices_->value_below_limit);
+  if (high && value > *high) return refuse(choices.value_above_limit);
+  if (low && value < *low) return refuse(choices.value_below_limit);
   return {};
 }
 
@@ -238,7 +237,7 @@ Accepted ObjectDictionary::download(Multiplexer mux, ByteView bytes) {
   if (const std::size_t fixed = fixed_size(found.type); fixed != 0) value.resize(fixed);
 
   Accepted valid = check_limits(found, value);
-  if (!valid && behaviour_->clamps_to_high_limit && valid.error() == choices_->value_above_limit) {
+  if (!valid && behaviour_->clamps_to_high_limit && valid.error() == choices.value_above_limit) {
     value = conform::to_le(static_cast<std::uint64_t>(*found.high), value.size());
     valid = {};
   }

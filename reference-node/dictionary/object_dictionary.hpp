@@ -25,7 +25,6 @@ using conform::ByteView;
 using conform::Multiplexer;
 
 struct Behaviour;
-struct Choices;
 
 /// Numbers of CiA 301, 7.4.7.1.
 enum class DataType : std::uint16_t {
@@ -110,10 +109,19 @@ struct Object {
 [[nodiscard]] Entry text_entry(std::string name, Access access, std::string_view text,
                                std::size_t max_size = 0);
 
+/// CiA 301 names several codes for these.
+struct DictionaryChoices {
+  AbortCode value_too_long = abort_code::length_too_high;
+  AbortCode value_too_short = abort_code::length_too_low;
+  AbortCode value_above_limit = abort_code::value_too_high;
+  AbortCode value_below_limit = abort_code::value_too_low;
+};
+
 class ObjectDictionary {
  public:
-  ObjectDictionary(const Behaviour& behaviour, const Choices& choices)
-      : behaviour_(&behaviour), choices_(&choices) {}
+  explicit ObjectDictionary(const Behaviour& behaviour) : behaviour_(&behaviour) {}
+
+  DictionaryChoices choices;
 
   Entry& add_variable(std::uint16_t index, Entry entry);
   /// An array or record without entries; sub-index 00h is const and counts up with add_sub().
@@ -154,7 +162,6 @@ class ObjectDictionary {
                                  const std::optional<Value>& high) const;
 
   const Behaviour* behaviour_;
-  const Choices* choices_;
   std::map<std::uint16_t, Object> objects_;
 };
 

@@ -12,6 +12,7 @@
 #include "base/check.hpp"
 #include "fuzz/client_program.hpp"
 #include "node/node.hpp"
+#include "node/parts.hpp"
 
 namespace {
 
@@ -49,8 +50,9 @@ class World {
   explicit World(Input& input) {
     Options options;
     options.node_id = node_id;
-    options.choices.sdo = choices_of(input);
-    time_out_ = options.choices.sdo.time_out;
+    const SdoChoices choices = choices_of(input);
+    options.adjust = [choices](Parts& parts) { parts.sdo.choices = choices; };
+    time_out_ = choices.time_out;
     delivery_ = input.u8() % 3U;
     node_ = std::move(*Node::create(std::move(options)));
     for (const auto& [index, object] : node_->dictionary().objects()) {

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "base/time.hpp"
 #include "dictionary/abort_codes.hpp"
-#include "sdo/choices.hpp"
 
 namespace refnode {
 
@@ -36,14 +36,6 @@ struct PdoChoices {
 enum class BootUpOfProducer : std::uint8_t { heartbeat, new_start, loss };
 
 struct Choices {
-  SdoChoices sdo;
-
-  // Object dictionary
-  AbortCode value_too_long = abort_code::length_too_high;
-  AbortCode value_too_short = abort_code::length_too_low;
-  AbortCode value_above_limit = abort_code::value_too_high;
-  AbortCode value_below_limit = abort_code::value_too_low;
-
   // NMT, error control
   int node_start_up_ms = 20;
   int communication_start_up_ms = 5;

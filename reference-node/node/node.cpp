@@ -35,7 +35,6 @@ struct Node::Impl : Parts {
 };
 
 Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(options.node_id, options.storage) {
-  device.choices = options.choices;
   nmt.on_reset = [this](Reset kind) { reset(kind); };
   nmt.on_boot_up = [this] { boot_up(); };
   nmt.on_change = [this](NmtState from) { change_state(from); };
@@ -186,6 +185,7 @@ conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
     twin = std::move(*made);
   }
   auto impl = std::make_unique<Impl>(options, std::move(twin));
+  if (options.adjust) options.adjust(*impl);
   if (auto done = apply_variants(options.variants, *impl); !done) return std::unexpected(done.error());
   if (auto done = apply_defects(options.defects, *impl); !done) return std::unexpected(done.error());
   return std::unique_ptr<Node>(new Node(std::move(impl)));

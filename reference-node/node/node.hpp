@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,9 +13,7 @@
 #include "base/error.hpp"
 #include "base/time.hpp"
 #include "can/participant.hpp"
-#include "defects/defect.hpp"
 #include "dictionary/object_dictionary.hpp"
-#include "node/choices.hpp"
 #include "storage/memory.hpp"
 #include "twin/remarks.hpp"
 
@@ -24,12 +23,14 @@ struct EdsFile;
 
 namespace refnode {
 
+struct Parts;
+
 struct Options {
-  std::uint8_t node_id = 1;             ///< 1..127
-  std::vector<std::string> defects{};   ///< ids of defects()
-  std::shared_ptr<Storage> storage{};   ///< non-volatile memory; empty: fresh memory that lives with the node
-  Choices choices{};                    ///< what the standard leaves open
-  std::vector<std::string> variants{};  ///< ids of variants(), compatible with each other
+  std::uint8_t node_id = 1;            ///< 1..127
+  std::vector<std::string> defects{};  ///< ids of defects()
+  std::shared_ptr<Storage> storage{};  ///< non-volatile memory; empty: fresh memory that lives with the node
+  std::function<void(Parts&)> adjust{};  ///< what else to set before the node starts
+  std::vector<std::string> variants{};   ///< ids of variants(), compatible with each other
   /// The device to be; empty: the reference node itself.
   std::shared_ptr<const conform::eds::EdsFile> description{};
 };

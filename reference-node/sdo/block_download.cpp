@@ -14,9 +14,9 @@ constexpr std::uint8_t last_segment_bit = 0x80;
 
 }  // namespace
 
-BlockDownload::BlockDownload(Multiplexer mux, std::optional<std::size_t> announced, std::uint8_t block_size,
-                             bool crc)
-    : mux_(mux), announced_(announced), block_size_(block_size), crc_agreed_(crc) {}
+BlockDownload::BlockDownload(const SdoChoices& choices, Multiplexer mux, std::optional<std::size_t> announced,
+                             std::uint8_t block_size, bool crc)
+    : choices_(&choices), mux_(mux), announced_(announced), block_size_(block_size), crc_agreed_(crc) {}
 
 std::size_t BlockDownload::limit(const Device& device) const {
   return announced_.value_or(device.dictionary.capacity(mux_));
@@ -32,10 +32,9 @@ SdoReply BlockDownload::segment(const SdoData& frame, const Device& device) {
       (number == 0 && fault.number_0_accepted) || (number > block_size_ && fault.number_above_size_accepted);
   if (any_number) number = static_cast<std::uint8_t>(taken_ + 1);
   const bool last = (frame[0] & last_segment_bit) != 0;
-  const SdoChoices& choices = device.choices.sdo;
   if (number == 0 || number > block_size_) {
-    spoiled_ = choices.invalid_sequence_spoils;
-    if (choices.invalid_sequence_ignored) return std::nullopt;
+    spoiled_ = choices_->invalid_sequence_spoils;
+    if (choices_->invalid_sequence_ignored) return std::nullopt;
     return refuse(abort_code::sequence_invalid);
   }
   heard_at_ = device.now;
@@ -56,23 +55,23 @@ SdoReply BlockDownload::segment(const SdoData& frame, const Device& device) {
     if (too_long && !fault.drops_surplus()) return refuse(abort_code::length_too_high);
   }
   const bool gap = number > taken_;
-  if (gap && choices.ack_gap_at_once) {
-    const SdoData reply = acknowledge(device);
+  if (gap && choices_->ack_gap_at_once) {
+    const SdoData reply = acknowledge();
     skips_to_first_ = true;
     return reply;
   }
-  if (last || number == block_size_) return acknowledge(device);
+  if (last || number == block_size_) return acknowledge();
   return std::nullopt;
 }
 
-std::optional<BusTime> BlockDownload::acknowledge_at(const Device& device) const {
+std::optional<BusTime> BlockDownload::acknowledge_at() const {
   if (phase_ != Phase::segments || !heard_at_) return std::nullopt;
-  return *heard_at_ + device.choices.sdo.sub_block_time_out;
+  return *heard_at_ + choices_->sub_block_time_out;
 }
 
-SdoData BlockDownload::acknowledge(const Device& device) {
+SdoData BlockDownload::acknowledge() {
   const std::uint8_t received = taken_;
-  if (device.choices.sdo.next_block_size != 0) block_size_ = device.choices.sdo.next_block_size;
+  if (choices_->next_block_size != 0) block_size_ = choices_->next_block_size;
   taken_ = 0;
   spoiled_ = false;
   skips_to_first_ = false;

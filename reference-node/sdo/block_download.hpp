@@ -8,13 +8,15 @@
 #include <optional>
 
 #include "device/device.hpp"
+#include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
 
 namespace refnode {
 
 class BlockDownload {
  public:
-  BlockDownload(Multiplexer mux, std::optional<std::size_t> announced, std::uint8_t block_size, bool crc);
+  BlockDownload(const SdoChoices& choices, Multiplexer mux, std::optional<std::size_t> announced,
+                std::uint8_t block_size, bool crc);
 
   /// Every frame but an abort is a segment now, whatever its first byte would mean elsewhere.
   [[nodiscard]] bool in_sub_block() const { return phase_ == Phase::segments; }
@@ -24,8 +26,8 @@ class BlockDownload {
   [[nodiscard]] SdoReply end(const SdoData& request, Device& device);
 
   /// When an unfinished sub-block has to be acknowledged for want of segments.
-  [[nodiscard]] std::optional<BusTime> acknowledge_at(const Device& device) const;
-  [[nodiscard]] SdoData acknowledge(const Device& device);
+  [[nodiscard]] std::optional<BusTime> acknowledge_at() const;
+  [[nodiscard]] SdoData acknowledge();
 
   /// Number of the segment taken last in this sub-block.
   [[nodiscard]] std::uint8_t sequence() const { return taken_; }
@@ -39,6 +41,7 @@ class BlockDownload {
   void add_to_crc(std::size_t end);
   void distort_length(const Device& device);
 
+  const SdoChoices* choices_;
   Multiplexer mux_;
   std::optional<std::size_t> announced_;
   std::uint8_t block_size_;

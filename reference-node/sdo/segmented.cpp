@@ -11,8 +11,8 @@ constexpr unsigned toggle_bit = 0x10;
 constexpr unsigned last_bit = 0x01;
 
 // A repeated segment may be ignored or refused.
-SdoReply toggle_error(const Device& device) {
-  if (device.choices.sdo.toggle_errors_ignored) return std::nullopt;
+SdoReply toggle_error(const SdoChoices& choices) {
+  if (choices.toggle_errors_ignored) return std::nullopt;
   return refuse(abort_code::toggle_not_alternated);
 }
 
@@ -20,7 +20,7 @@ SdoReply toggle_error(const Device& device) {
 
 SdoReply SegmentedUpload::segment(const SdoData& request, const Device& device) {
   const bool toggle = (request[0] & toggle_bit) != 0;
-  if (toggle != toggle_ && !device.behaviour.upload_toggle_unchecked) return toggle_error(device);
+  if (toggle != toggle_ && !device.behaviour.upload_toggle_unchecked) return toggle_error(*choices_);
   const std::size_t left = data_.size() - position_;
   const std::size_t count = std::min<std::size_t>(left, 7);
   const bool last = count == left;
@@ -43,7 +43,7 @@ SdoReply SegmentedUpload::segment(const SdoData& request, const Device& device) 
 
 SdoReply SegmentedDownload::segment(const SdoData& request, Device& device) {
   const bool toggle = (request[0] & toggle_bit) != 0;
-  if (toggle != toggle_ && !device.behaviour.download_toggle_unchecked) return toggle_error(device);
+  if (toggle != toggle_ && !device.behaviour.download_toggle_unchecked) return toggle_error(*choices_);
   const std::size_t count = 7U - ((request[0] >> 1U) & 0x07U);
   const bool last = (request[0] & last_bit) != 0;
   const std::size_t limit = announced_.value_or(device.dictionary.capacity(mux_));

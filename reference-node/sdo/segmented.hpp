@@ -6,19 +6,22 @@
 #include <optional>
 
 #include "device/device.hpp"
+#include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
 
 namespace refnode {
 
 class SegmentedUpload {
  public:
-  SegmentedUpload(Multiplexer mux, Bytes data) : mux_(mux), data_(std::move(data)) {}
+  SegmentedUpload(const SdoChoices& choices, Multiplexer mux, Bytes data)
+      : choices_(&choices), mux_(mux), data_(std::move(data)) {}
 
   [[nodiscard]] SdoReply segment(const SdoData& request, const Device& device);
   [[nodiscard]] Multiplexer mux() const { return mux_; }
   [[nodiscard]] bool finished() const { return finished_; }
 
  private:
+  const SdoChoices* choices_;
   Multiplexer mux_;
   Bytes data_;
   std::size_t position_ = 0;  ///< next byte to send
@@ -28,8 +31,8 @@ class SegmentedUpload {
 
 class SegmentedDownload {
  public:
-  SegmentedDownload(Multiplexer mux, std::optional<std::size_t> announced)
-      : mux_(mux), announced_(announced) {}
+  SegmentedDownload(const SdoChoices& choices, Multiplexer mux, std::optional<std::size_t> announced)
+      : choices_(&choices), mux_(mux), announced_(announced) {}
 
   [[nodiscard]] SdoReply segment(const SdoData& request, Device& device);
   [[nodiscard]] Multiplexer mux() const { return mux_; }
@@ -38,6 +41,7 @@ class SegmentedDownload {
  private:
   [[nodiscard]] Accepted store(Device& device, std::size_t limit);
 
+  const SdoChoices* choices_;
   Multiplexer mux_;
   std::optional<std::size_t> announced_;
   Bytes data_;           ///< received so far; grows with what comes, whatever was announced

@@ -94,8 +94,7 @@ SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
 SdoReply SdoServer::initiate_upload(SdoExchange& exchange) {
   exchange.step = SdoStep::upload_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && device_->choices.sdo.initiate_while_busy)
-    return refuse(*device_->choices.sdo.initiate_while_busy);
+  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
   reset();
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return refuse(data.error());
@@ -103,30 +102,28 @@ SdoReply SdoServer::initiate_upload(SdoExchange& exchange) {
 }
 
 SdoReply SdoServer::upload_response(SdoExchange& exchange, Bytes data) {
-  const SdoChoices& choices = device_->choices.sdo;
   if (device_->behaviour.long_numbers_truncated && data.size() <= 8) {
     data.resize(std::min<std::size_t>(data.size(), 4));
   }
   const std::size_t size = data.size();
   const bool short_enough = size >= 1 && size <= 4;
-  if (short_enough && (choices.expedited_upload || !choices.segmented)) {
+  if (short_enough && (choices_->expedited_upload || !choices_->segmented)) {
     // 010x nnes: expedited with size, n = bytes without data.
     auto reply = with_mux(static_cast<std::uint8_t>(0x43U | ((4U - size) << 2U)), exchange.mux);
     std::copy(data.begin(), data.end(), reply.begin() + 4);
     return reply;
   }
-  if (!choices.segmented) return refuse(abort_code::unsupported_access);
-  auto reply = with_mux(choices.upload_size_indicated ? 0x41 : 0x40, exchange.mux);
-  if (choices.upload_size_indicated) put_size(reply, size);
-  transfer_ = SegmentedUpload(exchange.mux, std::move(data));
+  if (!choices_->segmented) return refuse(abort_code::unsupported_access);
+  auto reply = with_mux(choices_->upload_size_indicated ? 0x41 : 0x40, exchange.mux);
+  if (choices_->upload_size_indicated) put_size(reply, size);
+  transfer_ = SegmentedUpload(*choices_, exchange.mux, std::move(data));
   return reply;
 }
 
 SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
   exchange.step = SdoStep::download_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && device_->choices.sdo.initiate_while_busy)
-    return refuse(*device_->choices.sdo.initiate_while_busy);
+  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
   reset();
   const std::uint8_t command = exchange.request[0];
   const bool expedited = (command & 0x02U) != 0;
@@ -146,7 +143,7 @@ SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
     return confirmation;
   }
 
-  if (!device_->choices.sdo.segmented) return refuse(abort_code::command_unknown);
+  if (!choices_->segmented) return refuse(abort_code::command_unknown);
   std::optional<std::size_t> announced;
   if (sized) announced = size_field(exchange.request);
   const Accepted granted = device_->dictionary.may_download(exchange.mux, announced);
@@ -155,7 +152,7 @@ SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
         device_->behaviour.segmented_access_unchecked && granted.error() == abort_code::read_only;
     if (!overlooked) return refuse(granted.error());
   }
-  transfer_ = SegmentedDownload(exchange.mux, announced);
+  transfer_ = SegmentedDownload(*choices_, exchange.mux, announced);
   return confirmation;
 }
 
@@ -173,17 +170,15 @@ SdoReply SdoServer::block_upload(SdoExchange& exchange) {
                              : transfer->start();
   // A frame here is the end frame already; segments follow through send_segment().
   if (reply && *reply) exchange.step = SdoStep::block_upload_end;
-  pacer_.start(device_->now + device_->choices.sdo.turnaround);
+  pacer_.start(device_->now + choices_->turnaround);
   return reply;
 }
 
 SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
-  const SdoChoices& choices = device_->choices.sdo;
   exchange.step = SdoStep::block_upload_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && device_->choices.sdo.initiate_while_busy)
-    return refuse(*device_->choices.sdo.initiate_while_busy);
-  if (!choices.block) return refuse(abort_code::command_unknown);
+  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
+  if (!choices_->block) return refuse(abort_code::command_unknown);
   reset();
   const SdoBlockFaults& fault = device_->behaviour.block;
   const std::uint8_t block_size = fault.asked(exchange.request[4]);
@@ -192,16 +187,16 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   if (!data) return refuse(data.error());
   if (!valid_block_size(block_size)) return refuse(abort_code::block_size_invalid);
   // Protocol switch threshold: up to this size the server may go on with a normal upload; 0 forbids it.
-  const bool switches = choices.protocol_switch && threshold != 0 && data->size() <= threshold;
+  const bool switches = choices_->protocol_switch && threshold != 0 && data->size() <= threshold;
   if (fault.switches(data->size(), threshold, switches)) {
     exchange.step = SdoStep::upload_initiate;
     return upload_response(exchange, std::move(*data));
   }
-  auto reply = with_mux(static_cast<std::uint8_t>(0xC0U | (choices.crc ? crc_bit : 0U) |
-                                                  (choices.upload_size_indicated ? size_bit : 0U)),
+  auto reply = with_mux(static_cast<std::uint8_t>(0xC0U | (choices_->crc ? crc_bit : 0U) |
+                                                  (choices_->upload_size_indicated ? size_bit : 0U)),
                         exchange.mux);
-  if (choices.upload_size_indicated) put_size(reply, data->size());
-  const bool crc = choices.crc && (exchange.request[0] & crc_bit) != 0;
+  if (choices_->upload_size_indicated) put_size(reply, data->size());
+  const bool crc = choices_->crc && (exchange.request[0] & crc_bit) != 0;
   transfer_ = BlockUpload(exchange.mux, std::move(*data), block_size, crc);
   if (fault.starts_at_once) {
     [[maybe_unused]] const auto no_answer = std::get<BlockUpload>(transfer_).start();
@@ -219,12 +214,10 @@ SdoReply SdoServer::block_download(SdoExchange& exchange) {
 }
 
 SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
-  const SdoChoices& choices = device_->choices.sdo;
   exchange.step = SdoStep::block_download_initiate;
   if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && device_->choices.sdo.initiate_while_busy)
-    return refuse(*device_->choices.sdo.initiate_while_busy);
-  if (!choices.block) return refuse(abort_code::command_unknown);
+  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
+  if (!choices_->block) return refuse(abort_code::command_unknown);
   reset();
   const std::uint8_t command = exchange.request[0];
   std::optional<std::size_t> announced;
@@ -233,11 +226,11 @@ SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
   const auto size = fault.length_unchecked ? std::nullopt : announced;
   const Accepted granted = device_->dictionary.may_download(exchange.mux, size);
   if (!granted) return refuse(granted.error());
-  const std::uint8_t block_size = fault.offered_size != 0 ? fault.offered_size : choices.block_size;
-  auto reply = with_mux(static_cast<std::uint8_t>(0xA0U | (choices.crc ? crc_bit : 0U)), exchange.mux);
+  const std::uint8_t block_size = fault.offered_size != 0 ? fault.offered_size : choices_->block_size;
+  auto reply = with_mux(static_cast<std::uint8_t>(0xA0U | (choices_->crc ? crc_bit : 0U)), exchange.mux);
   reply[4] = block_size;
-  const bool crc = choices.crc && (command & crc_bit) != 0;
-  transfer_ = BlockDownload(exchange.mux, announced, block_size, crc);
+  const bool crc = choices_->crc && (command & crc_bit) != 0;
+  transfer_ = BlockDownload(*choices_, exchange.mux, announced, block_size, crc);
   return reply;
 }
 
@@ -284,7 +277,7 @@ void SdoServer::conclude(SdoExchange& exchange, const SdoReply& reply) {
     data = with_mux(0x80, exchange.mux);
     conform::store_le(std::span(*data).subspan(4), reply.error().value());
   }
-  send(exchange, data, device_->choices.sdo.turnaround);
+  send(exchange, data, choices_->turnaround);
 }
 
 void SdoServer::send(const SdoExchange& exchange, const std::optional<SdoData>& data, Duration delay) {
@@ -297,8 +290,7 @@ void SdoServer::send(const SdoExchange& exchange, const std::optional<SdoData>& 
 bool SdoServer::send_segment() {
   auto* transfer = std::get_if<BlockUpload>(&transfer_);
   if (transfer == nullptr || !transfer->has_segment()) return false;
-  if (!pacer_.may_send(device_->now, device_->outbox.waiting(device_->now),
-                       device_->choices.sdo.sub_block_queued))
+  if (!pacer_.may_send(device_->now, device_->outbox.waiting(device_->now), choices_->sub_block_queued))
     return false;
   SdoExchange exchange;
   exchange.channel = channel_;
@@ -318,15 +310,15 @@ void SdoServer::on_time() {
   exchange.channel = channel_;
   auto* receiving = std::get_if<BlockDownload>(&transfer_);
   if (receiving != nullptr) {
-    const auto due = receiving->acknowledge_at(*device_);
+    const auto due = receiving->acknowledge_at();
     if (due && *due <= device_->now) {
       exchange.step = SdoStep::block_download_ack;
       exchange.mux = receiving->mux();
       exchange.sequence = receiving->sequence();
-      send(exchange, receiving->acknowledge(*device_), {});
+      send(exchange, receiving->acknowledge(), {});
     }
   }
-  const auto limit = device_->choices.sdo.time_out;
+  const auto limit = choices_->time_out;
   if (!busy() || !limit || device_->now < active_at_ + *limit) return;
   exchange.step = SdoStep::time_out;
   exchange.mux = running_mux().value_or(Multiplexer{});
@@ -337,9 +329,9 @@ void SdoServer::on_time() {
 std::optional<BusTime> SdoServer::next_wakeup() const {
   if (!busy()) return std::nullopt;
   std::optional<BusTime> next;
-  if (const auto limit = device_->choices.sdo.time_out) next = active_at_ + *limit;
+  if (const auto limit = choices_->time_out) next = active_at_ + *limit;
   if (const auto* transfer = std::get_if<BlockDownload>(&transfer_)) {
-    next = earliest({next, transfer->acknowledge_at(*device_)});
+    next = earliest({next, transfer->acknowledge_at()});
   }
   const auto* sending = std::get_if<BlockUpload>(&transfer_);
   if (sending != nullptr && sending->has_segment()) {

@@ -10,6 +10,7 @@
 #include "device/device.hpp"
 #include "sdo/block_download.hpp"
 #include "sdo/block_upload.hpp"
+#include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
 #include "sdo/segment_pacer.hpp"
 #include "sdo/segmented.hpp"
@@ -19,7 +20,8 @@ namespace refnode {
 class SdoServer {
  public:
   /// `channel`: 0 is the default server, 1 the one of 1201h and so on.
-  SdoServer(Device& device, std::uint8_t channel) : device_(&device), channel_(channel) {}
+  SdoServer(Device& device, const SdoChoices& choices, std::uint8_t channel)
+      : device_(&device), choices_(&choices), channel_(channel) {}
 
   /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
   void on_request(const Frame& frame, std::uint32_t response_id);
@@ -57,6 +59,7 @@ class SdoServer {
   void send(const SdoExchange& exchange, const std::optional<SdoData>& data, Duration delay);
 
   Device* device_;
+  const SdoChoices* choices_;
   std::uint8_t channel_;
   std::uint32_t response_id_ = 0;
   Transfer transfer_;

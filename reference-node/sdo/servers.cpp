@@ -3,7 +3,8 @@
 
 namespace refnode {
 
-SdoServers::SdoServers(Device& device) : device_(&device), default_(device, 0), servers_{&default_} {}
+SdoServers::SdoServers(Device& device)
+    : device_(&device), default_(device, choices, 0), servers_{&default_} {}
 
 void SdoServers::add_objects() {
   for (const std::uint8_t number : {std::uint8_t{1}, std::uint8_t{2}}) add_sdo_server(*device_, number);
@@ -13,7 +14,8 @@ void SdoServers::bind() {
   for (const auto& [index, object] : device_->dictionary.objects()) {
     if (index <= first_sdo_server || index > last_sdo_server) continue;
     const auto channel = static_cast<std::uint8_t>(index - first_sdo_server);
-    additional_.push_back({bind_sdo_server(*device_, cob_id_rules, index), SdoServer(*device_, channel)});
+    additional_.push_back(
+        {bind_sdo_server(*device_, cob_id_rules, index), SdoServer(*device_, choices, channel)});
     servers_.push_back(&additional_.back().server);
   }
   bind_sdo_clients(*device_, client_cob_id_rules);

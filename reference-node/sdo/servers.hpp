@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "device/device.hpp"
+#include "sdo/choices.hpp"
 #include "sdo/parameters.hpp"
 #include "sdo/server.hpp"
 
@@ -21,6 +22,7 @@ class SdoServers {
   SdoServers(const SdoServers&) = delete;
   SdoServers& operator=(const SdoServers&) = delete;
 
+  SdoChoices choices;
   CobIdRules cob_id_rules{CobIdUse::sdo_server};
   CobIdRules client_cob_id_rules{CobIdUse::sdo_client};
 

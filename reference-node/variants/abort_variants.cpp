@@ -17,13 +17,13 @@ How wrong_signature(AbortCode code) {
 VariantTable abort_variants() {
   return {
       {"abort-too-long-0607-0010", "too many bytes are refused as a wrong length", "OD-LEN-02",
-       choose([](Choices& c) { c.value_too_long = abort_code::length_mismatch; })},
+       [](Parts& node) { node.device.dictionary.choices.value_too_long = abort_code::length_mismatch; }},
       {"abort-too-short-0607-0010", "too few bytes are refused as a wrong length", "OD-LEN-01",
-       choose([](Choices& c) { c.value_too_short = abort_code::length_mismatch; })},
+       [](Parts& node) { node.device.dictionary.choices.value_too_short = abort_code::length_mismatch; }},
       {"abort-above-limit-0609-0030", "a value above its limit is an invalid value", "OD-RNG-01",
-       choose([](Choices& c) { c.value_above_limit = abort_code::invalid_value; })},
+       [](Parts& node) { node.device.dictionary.choices.value_above_limit = abort_code::invalid_value; }},
       {"abort-below-limit-0609-0030", "a value below its limit is an invalid value", "OD-RNG-02",
-       choose([](Choices& c) { c.value_below_limit = abort_code::invalid_value; })},
+       [](Parts& node) { node.device.dictionary.choices.value_below_limit = abort_code::invalid_value; }},
       {"abort-empty-history-0800-0000", "an empty history is a general error", "OD-1003-03",
        [](Parts& node) {
          node.emergency.history.choices.nothing_recorded = node.emergency.history.choices.unused_field =

@@ -26,16 +26,20 @@ void fill_unused_bytes(Parts& parts) {
   });
 }
 
+How choose(void (*change)(SdoChoices&)) {
+  return [change](Parts& parts) { change(parts.sdo.choices); };
+}
+
 How turnaround(std::chrono::milliseconds time) {
-  return [time](Parts& parts) { parts.device.choices.sdo.turnaround = time; };
+  return [time](Parts& parts) { parts.sdo.choices.turnaround = time; };
 }
 
 /// Who takes that long for an answer has nothing that would take hours, and does not soon lose patience with
 /// a client.
 How slow_turnaround(std::chrono::milliseconds time) {
   return [time](Parts& parts) {
-    parts.device.choices.sdo.turnaround = time;
-    parts.device.choices.sdo.time_out = std::chrono::seconds(10);
+    parts.sdo.choices.turnaround = time;
+    parts.sdo.choices.time_out = std::chrono::seconds(10);
     absent({0x1021, 0x1022, 0x2008})(parts);
     gap(0x2000, 0x0F)(parts);
   };
@@ -127,8 +131,8 @@ void expedited_only(Parts& parts) {
     }
     object = nothing_left ? parts.device.dictionary.objects().erase(object) : std::next(object);
   }
-  parts.device.choices.sdo.segmented = false;
-  parts.device.choices.sdo.block = false;
+  parts.sdo.choices.segmented = false;
+  parts.sdo.choices.block = false;
 }
 
 }  // namespace
@@ -148,7 +152,7 @@ VariantTable sdo_variants() {
        .legal = "SDO-GEN-18, tolerated: T_SDO is one second",
        // A client that takes three times that for silence needs more than the usual second in between.
        .how = both(turnaround(milliseconds(250)),
-                   choose([](Choices& c) { c.sdo.time_out = milliseconds(1500); })),
+                   choose([](SdoChoices& c) { c.time_out = milliseconds(1500); })),
        .group = "turnaround",
        .warns = {"SDO-GEN-18"}},
       {.id = "sdo-turnaround-400ms",
@@ -170,14 +174,14 @@ VariantTable sdo_variants() {
       {.id = "sdo-busy-0504-0001",
        .summary = "a new initiate request while a transfer is open is refused with 0504 0001h and ends it",
        .legal = "SDO-SUP-11, -12, SDO-SDN-17, SDO-BUP-29, tolerated",
-       .how = choose([](Choices& c) { c.sdo.initiate_while_busy = abort_code::command_unknown; }),
+       .how = choose([](SdoChoices& c) { c.initiate_while_busy = abort_code::command_unknown; }),
        .group = "sdo-busy",
        .warns = {"SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17", "SDO-BUP-29", "SDO-BUP-25", "SDO-BDN-25",
                  "SDO-SUP-18", "SDO-SDN-25", "SDO-GEN-20"}},
       {.id = "sdo-busy-0800-0022",
        .summary = "a new initiate request while a transfer is open is refused with 0800 0022h and ends it",
        .legal = "SDO-SUP-11, -12, SDO-SDN-17, SDO-BUP-29, tolerated",
-       .how = choose([](Choices& c) { c.sdo.initiate_while_busy = abort_code::device_state; }),
+       .how = choose([](SdoChoices& c) { c.initiate_while_busy = abort_code::device_state; }),
        .group = "sdo-busy",
        .warns = {"SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17", "SDO-BUP-29", "SDO-BDN-21", "SDO-BUP-25",
                  "SDO-BDN-25", "SDO-SUP-18", "SDO-SDN-25", "SDO-GEN-20"}},
@@ -188,11 +192,11 @@ VariantTable sdo_variants() {
        .group = "sdo-size",
        .warns = {"OD-LEN-04", "OD-GEN-10"}},
       {"sdo-segmented-without-size", "segmented and block uploads do not tell their size (40h, C4h)",
-       "SDO-SUP-02, SDO-BUP-04", choose([](Choices& c) { c.sdo.upload_size_indicated = false; })},
+       "SDO-SUP-02, SDO-BUP-04", choose([](SdoChoices& c) { c.upload_size_indicated = false; })},
       {"sdo-short-in-segments",
        "one to four bytes are uploaded in segments",
        "SDO-SUP-15, SDO-UPL-01 to -04",
-       choose([](Choices& c) { c.sdo.expedited_upload = false; }),
+       choose([](SdoChoices& c) { c.expedited_upload = false; }),
        "sdo-size",
        {"sdo-expedited-only"}},
       {.id = "sdo-expedited-only",
@@ -204,33 +208,33 @@ VariantTable sdo_variants() {
        .lacks = {"segmented sdo", "block sdo", "time consumer"},
        .warns = {"OD-ACC-08"}},
       {"sdo-toggle-errors-ignored", "a segment with the wrong toggle bit is ignored",
-       "SDO-SUP-05, -06; SDO-SDN-04, -05", choose([](Choices& c) { c.sdo.toggle_errors_ignored = true; })},
+       "SDO-SUP-05, -06; SDO-SDN-04, -05", choose([](SdoChoices& c) { c.toggle_errors_ignored = true; })},
       {.id = "sdo-block-absent",
        .summary = "no block transfer",
        .legal = "SDO-BUP-01, SDO-BDN-01",
-       .how = choose([](Choices& c) { c.sdo.block = false; }),
+       .how = choose([](SdoChoices& c) { c.block = false; }),
        .group = "sdo-block",
        .lacks = {"block sdo"}},
       {"sdo-block-without-crc", "no CRC in block transfers", "7.2.4.3.9: sc = 0",
-       choose([](Choices& c) { c.sdo.crc = false; })},
+       choose([](SdoChoices& c) { c.crc = false; })},
       {"sdo-no-protocol-switch", "never goes on with a normal upload", "SDO-BUP-15",
-       choose([](Choices& c) { c.sdo.protocol_switch = false; })},
+       choose([](SdoChoices& c) { c.protocol_switch = false; })},
       {"sdo-block-size-1", "sub-blocks of one segment", "SDO-BDN-01: 1 to 127",
-       choose([](Choices& c) { c.sdo.block_size = 1; }), "block-size"},
+       choose([](SdoChoices& c) { c.block_size = 1; }), "block-size"},
       {"sdo-block-size-7", "sub-blocks of seven segments", "SDO-BDN-01: 1 to 127",
-       choose([](Choices& c) { c.sdo.block_size = 7; }), "block-size"},
+       choose([](SdoChoices& c) { c.block_size = 7; }), "block-size"},
       {"sdo-block-size-21", "sub-blocks of 21 segments", "SDO-BDN-01: 1 to 127",
-       choose([](Choices& c) { c.sdo.block_size = 21; }), "block-size"},
+       choose([](SdoChoices& c) { c.block_size = 21; }), "block-size"},
       {"sdo-block-size-changes", "the first sub-block has ten segments, the others four",
-       "7.2.4.3.11: in each acknowledge", choose([](Choices& c) {
-         c.sdo.block_size = 10;
-         c.sdo.next_block_size = 4;
+       "7.2.4.3.11: in each acknowledge", choose([](SdoChoices& c) {
+         c.block_size = 10;
+         c.next_block_size = 4;
        }),
        "block-size"},
       {"sdo-block-size-shrinks", "the first sub-block has ten segments, the others three",
-       "7.2.4.3.11: in each acknowledge", choose([](Choices& c) {
-         c.sdo.block_size = 10;
-         c.sdo.next_block_size = 3;
+       "7.2.4.3.11: in each acknowledge", choose([](SdoChoices& c) {
+         c.block_size = 10;
+         c.next_block_size = 3;
        }),
        "block-size"},
       // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is
@@ -238,32 +242,32 @@ VariantTable sdo_variants() {
       {"sdo-gap-at-once",
        "a gap in a sub-block is acknowledged at once",
        "SDO-BDN-07",
-       choose([](Choices& c) { c.sdo.ack_gap_at_once = true; }),
+       choose([](SdoChoices& c) { c.ack_gap_at_once = true; }),
        {},
        {"turnaround", "sdo-block-size-changes", "sdo-block-size-shrinks"}},
       {"sdo-sequence-ignored",
        "a sequence number that cannot be is ignored",
        "SDO-BDN-10, SDO-BDN-11",
-       choose([](Choices& c) { c.sdo.invalid_sequence_ignored = true; }),
+       choose([](SdoChoices& c) { c.invalid_sequence_ignored = true; }),
        {},
        {"sdo-block-size-1"}},
       {.id = "sdo-no-time-out",
        .summary = "a transfer stays open for ever",
        .legal = "SDO-SUP-18, SDO-SDN-25: at most one abort",
-       .how = choose([](Choices& c) { c.sdo.time_out.reset(); }),
+       .how = choose([](SdoChoices& c) { c.time_out.reset(); }),
        .group = "sdo-time-out",
        .warns = {"SDO-BDN-25"}},
       // With answers that take half of that time two channels at once could not be kept open.
       {"sdo-time-out-500ms",
        "a transfer ends after 500 ms of silence",
        "SDO-SUP-18, SDO-SDN-25",
-       choose([](Choices& c) { c.sdo.time_out = milliseconds(500); }),
+       choose([](SdoChoices& c) { c.time_out = milliseconds(500); }),
        "sdo-time-out",
        {"sdo-turnaround-250ms"}},
       {.id = "sdo-time-out-10s",
        .summary = "a transfer ends after 10 s of silence",
        .legal = "SDO-SUP-18, SDO-SDN-25",
-       .how = choose([](Choices& c) { c.sdo.time_out = seconds(10); }),
+       .how = choose([](SdoChoices& c) { c.time_out = seconds(10); }),
        .group = "sdo-time-out",
        .warns = {"SDO-BDN-25"}},
       {.id = "sdo-servers-absent",
@@ -331,12 +335,12 @@ VariantTable sdo_variants() {
       {.id = "sdo-sub-block-queued",
        .summary = "the driver takes up to 64 segments of a sub-block of an upload at once",
        .legal = "SDO-BUP-17, tolerated: what is queued still comes",
-       .how = choose([](Choices& c) { c.sdo.sub_block_queued = true; }),
+       .how = choose([](SdoChoices& c) { c.sub_block_queued = true; }),
        .warns = {"SDO-BUP-17", "SDO-BUP-27"}},
       {"sdo-sequence-spoils",
        "after a sequence number that cannot be the sub-block is asked for again",
        "SDO-BDN-10, SDO-BDN-11: an acknowledge of 0",
-       choose([](Choices& c) { c.sdo.invalid_sequence_ignored = c.sdo.invalid_sequence_spoils = true; }),
+       choose([](SdoChoices& c) { c.invalid_sequence_ignored = c.invalid_sequence_spoils = true; }),
        {},
        {"sdo-block-size-1", "sdo-sequence-ignored"}},
       {"abort-segments-too-long-0607-0010", "more segments than announced: wrong length",

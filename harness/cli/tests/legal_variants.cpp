@@ -119,7 +119,6 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
   auto node = refnode::Node::create({.node_id = static_cast<std::uint8_t>(combination.node),
                                      .defects = {},
                                      .storage = {},
-                                     .choices = {},
                                      .variants = combination.variants});
   if (!node) return std::unexpected(node.error());
   const NodeId node_id(static_cast<std::uint8_t>(combination.node));

@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "node/node.hpp"
+#include "node/parts.hpp"
 
 namespace refnode::testing {
 
@@ -21,8 +22,8 @@ using namespace std::chrono_literals;
 class Bench {
  public:
   explicit Bench(std::vector<std::string> defects = {}, std::shared_ptr<Storage> storage = {},
-                 std::uint8_t id = 5, const Choices& choices = {})
-      : Bench(Wanted{{id, std::move(defects), std::move(storage), choices, {}, {}}}) {}
+                 std::uint8_t id = 5)
+      : Bench(Wanted{{.node_id = id, .defects = std::move(defects), .storage = std::move(storage)}}) {}
   /// A node with all options; in a type of its own, as braces alone would also fit the other constructor.
   struct Wanted {
     Options options;
@@ -40,9 +41,7 @@ class Bench {
   }
   /// A node whose SDO server makes these choices.
   static Bench choosing(const SdoChoices& sdo) {
-    Choices choices;
-    choices.sdo = sdo;
-    return Bench({}, {}, 5, choices);
+    return Bench(Wanted{{.node_id = 5, .adjust = [sdo](Parts& parts) { parts.sdo.choices = sdo; }}});
   }
   Bench(Bench&&) = delete;
 

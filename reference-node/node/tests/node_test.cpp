@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "defects/defect.hpp"
 #include "node/tests/bench.hpp"
 
 using namespace refnode;

@@ -170,7 +170,7 @@ TEST_CASE("The server is silent in Stopped and forgets its transfer") {
 TEST_CASE("A response can be given a turnaround time") {
   Options options;
   options.node_id = 5;
-  options.choices.sdo.turnaround = 2ms;
+  options.adjust = [](Parts& parts) { parts.sdo.choices.turnaround = 2ms; };
   auto made = Node::create(options);
   REQUIRE(made.has_value());
   int sent = 0;

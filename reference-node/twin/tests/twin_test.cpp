@@ -2,6 +2,7 @@
 // The twin on the bus: the services of what its description tells of, and none of the others.
 #include <algorithm>
 
+#include "defects/defect.hpp"
 #include "node/tests/bench.hpp"
 #include "twin/tests/twin_text.hpp"
 #include "variants/variant.hpp"
