@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the SDO block download: sub-blocks, acknowledges, lengths, CRC, and what ends it.
+#include <algorithm>
+#include <bit>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "defects/sdo_block_exchanges.hpp"
 
@@ -10,13 +15,8 @@ using namespace defect;
 
 namespace {
 
-using Block = SdoBlockFaults;
-
-template <typename Value>
-BehaviourSwitch block(Value Block::* member, Value value) {
-  return [member, value](Behaviour& behaviour) { behaviour.block.*member = value; };
-}
-BehaviourSwitch block(bool Block::* flag) { return block(flag, true); }
+using Rules = BlockDownloadRules;
+using Terms = BlockDownloadTerms;
 
 bool acknowledged(const SdoExchange& e) { return e.step == SdoStep::block_download_ack && !e.aborted; }
 bool unsized_block_download(const SdoExchange& e) {
@@ -50,12 +50,123 @@ struct SegmentWatch {
   }
 };
 
+/// Something is done to the data before their length is looked at.
+template <typename Do>
+Change shapes_data(Do shape) {
+  return decides(of_block_download, &Rules::value, [shape](const auto& former, Bytes data, Terms terms) {
+    shape(data, terms);
+    return former(std::move(data), terms);
+  });
+}
+/// Bytes behind the end are dropped.
+Change drops_surplus() {
+  return together(
+      decides(of_block_download, &Rules::fits, [](const auto&, std::size_t, const Terms&) { return true; }),
+      shapes_data(
+          [](Bytes& data, const Terms& terms) { data.resize(std::min(data.size(), terms.limit())); }));
+}
+Change buffer_of(std::size_t bytes) {
+  return shapes_data([bytes](Bytes& data, Terms& terms) {
+    if (data.size() <= bytes) return;
+    data.resize(bytes);
+    terms.announced.reset();
+  });
+}
+/// A download may have any length: its end is cut off or filled up.
+Change any_length() {
+  return [](Parts& parts) {
+    Rules& rules = of_block_download(parts);
+    rules.may_begin.replace([](const auto& former, Multiplexer mux, std::optional<std::size_t>) {
+      return former(mux, std::nullopt);
+    });
+    rules.value.replace([&parts](const auto& former, Bytes data, Terms terms) {
+      if (!parts.device.dictionary.may_download(terms.mux, data.size())) {
+        data.resize(terms.capacity);
+        terms.announced.reset();
+      }
+      return former(std::move(data), terms);
+    });
+    drops_surplus()(parts);
+  };
+}
+
+/// A segment whose number `when` holds for is taken for the next one.
+Change takes_for_next(bool (*when)(unsigned number, const BlockDownload&)) {
+  return misreads([when](Parts& parts, Frame& frame) {
+    const BlockDownload* transfer = receiving(parts, frame);
+    if (transfer == nullptr || !when(frame.data[0] & 0x7FU, *transfer)) return;
+    frame.data[0] = static_cast<std::uint8_t>((frame.data[0] & 0x80U) | (transfer->sequence() + 1U));
+  });
+}
+/// What is missing before a segment is made up with zeros.
+void fill_gaps(Parts& parts, std::vector<Frame>& frames) {
+  std::vector<Frame> all;
+  for (const Frame& segment : frames) {
+    const BlockDownload* transfer = receiving(parts, segment);
+    const unsigned number = segment.data[0] & 0x7FU;
+    const bool behind = transfer != nullptr && number <= transfer->block_size();
+    for (unsigned gone = behind ? transfer->sequence() + 1U : number; gone < number; ++gone) {
+      all.push_back(segment);
+      all.back().data = {static_cast<std::uint8_t>(gone)};
+    }
+    all.push_back(segment);
+  }
+  frames = std::move(all);
+}
+
+/// The command of the end request is changed before the server sees it. n is in bits 4-2, where a segmented
+/// download has it in bits 3-1.
+Change misreads_end(unsigned (*command)(unsigned)) {
+  return misreads([command](Parts& parts, Frame& frame) {
+    const auto* transfer = transfer_of<BlockDownload>(parts, frame);
+    if (transfer == nullptr || transfer->in_sub_block() || (frame.data[0] & 0xE1U) != 0xC1) return;
+    frame.data[0] = static_cast<std::uint8_t>(command(frame.data[0]));
+  });
+}
+
+Change expects_crc(std::uint16_t (*other)(ByteView data)) {
+  return decides(of_block_download, &Rules::crc, [other](const auto&, ByteView segments, std::size_t size) {
+    return other(segments.first(size));
+  });
+}
+Change checks_crc(bool (*when)(bool agreed)) {
+  return decides(of_block_download, &Rules::crc_checked,
+                 [when](const auto&, bool agreed) { return when(agreed); });
+}
+/// The entry has the value by the time its CRC turns out to be wrong.
+Change stores_before_crc_check() {
+  return [](Parts& parts) {
+    const auto value = std::make_shared<Bytes>();
+    of_block_download(parts).crc.replace([value](const auto& former, ByteView segments, std::size_t size) {
+      value->assign(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(size));
+      return former(segments, size);
+    });
+    parts.device.outbox.add_filter([&parts, value](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.sdo == nullptr || context.sdo->aborted != abort_code::crc_wrong) return;
+      [[maybe_unused]] const auto stored = parts.device.dictionary.download(context.sdo->mux, *value);
+    });
+  };
+}
+/// What the entry refuses is put into it all the same.
+Change stores_whatever_comes() {
+  return [](Parts& parts) {
+    of_block_download(parts).store.replace([&parts](const auto& former, Multiplexer mux, ByteView value) {
+      Accepted stored = former(mux, value);
+      Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+      if (stored || entry == nullptr) return stored;
+      entry->value.assign(value.begin(), value.end());
+      return Accepted{};
+    });
+  };
+}
+
 DefectTable frame_rows() {
   return {
       {"block-download-not-stored",
        "Block downloads are confirmed and forgotten",
        {"SDO-BDN-01", "SDO-BDN-02", "SDO-BDN-06"},
-       block(&Block::not_stored)},
+       decides(of_block_download, &Rules::store,
+               [](const auto&, Multiplexer, ByteView) { return Accepted{}; })},
       {"block-download-end-confirmed-as-download",
        "The end of a block download is confirmed by a download response",
        {"SDO-BDN-01", "SDO-BDN-02"},
@@ -84,15 +195,17 @@ DefectTable frame_rows() {
       {"block-download-later-sub-blocks-lost",
        "Of a block download only the first sub-block is kept",
        {"SDO-BDN-06"},
-       block(&Block::buffer, std::size_t{889})},
+       buffer_of(889)},
       {"block-download-buffer-of-1024-bytes",
        "What a block download brings behind 1024 bytes is lost, and the rest is stored",
        {"SDO-BDN-06"},
-       block(&Block::buffer, std::size_t{1024})},
+       buffer_of(1024)},
       {"block-download-loses-segments-at-full-rate",
        "Of a sub-block at full rate the segments behind the 100th are lost",
        {"SDO-BDN-06"},
-       block(&Block::receives_at_most, std::size_t{100})},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return receiving(parts, frame) != nullptr && (frame.data[0] & 0x7FU) > 100;
+       })},
       {"block-download-answers-every-segment",
        "Every segment of a block download is acknowledged",
        {"SDO-BDN-18"},
@@ -120,7 +233,7 @@ DefectTable loss_rows() {
       {"block-download-gap-unnoticed",
        "A lost segment of a block download is not noticed, and the data are stored with a hole",
        {"SDO-BDN-07", "SDO-BDN-08"},
-       block(&Block::gap_unnoticed)},
+       Reading(fill_gaps)},
       {"block-download-acknowledges-last-number-at-a-gap",
        "After a lost segment the number of the last one is acknowledged",
        {"SDO-BDN-07", "SDO-BDN-08"},
@@ -148,18 +261,21 @@ DefectTable loss_rows() {
       {"block-download-duplicate-appended",
        "A segment that comes twice is stored twice",
        {"SDO-BDN-09", "SDO-BDN-15"},
-       block(&Block::duplicate_appended)},
+       together(drops_surplus(), decides(of_block_download, &Rules::follows,
+                                         [](const auto& former, std::uint8_t number, std::uint8_t last) {
+                                           return number == last || former(number, last);
+                                         }))},
       {"block-download-number-0-accepted",
        "A segment with the number 0 is stored",
        {"SDO-BDN-10"},
-       block(&Block::number_0_accepted)},
+       takes_for_next([](unsigned number, const BlockDownload&) { return number == 0; })},
       {"block-download-number-above-size-accepted",
        "A segment with a number above the block size is stored",
        {"SDO-BDN-11"},
-       BehaviourSwitch([](Behaviour& behaviour) {
-         behaviour.block.offered_size = 16;
-         behaviour.block.number_above_size_accepted = true;
-       })},
+       together([](Parts& parts) { parts.sdo.choices.block_size = 16; },
+                takes_for_next([](unsigned number, const BlockDownload& transfer) {
+                  return number > transfer.block_size();
+                }))},
   };
 }
 
@@ -168,55 +284,63 @@ DefectTable end_rows() {
       {"block-download-length-unchecked",
        "The length of a block download is not checked: it is cut or filled up",
        {"SDO-BDN-12", "SDO-BDN-13"},
-       block(&Block::length_unchecked)},
+       any_length()},
       {"block-download-shortfall-filled",
        "A block download of fewer bytes than announced is filled up with zeros",
        {"SDO-BDN-14"},
-       block(&Block::shortfall_filled)},
+       shapes_data([](Bytes& data, const Terms& terms) {
+         data.resize(std::max(data.size(), terms.announced.value_or(0)));
+       })},
       {"block-download-surplus-cut",
        "A block download of more bytes than announced is cut off",
        {"SDO-BDN-15"},
-       block(&Block::surplus_cut)},
+       drops_surplus()},
       {"block-download-padding-stored",
        "The unused bytes of the last segment are stored",
        {"SDO-BDN-17", "SDO-BDN-01"},
-       block(&Block::unused_ignored)},
+       misreads_end([](unsigned command) { return command & 0xE3U; })},
       {"block-download-unused-bytes-misread",
        "The number of unused bytes is read from the wrong bits of the end request",
        {"SDO-BDN-17", "SDO-BDN-01"},
-       block(&Block::unused_misread)},
+       misreads_end([](unsigned command) { return (command & 0xE3U) | ((command & 0x0EU) << 1U); })},
       {"block-download-range-unchecked",
        "The value of a block download is not checked against the range",
        {"SDO-BDN-24"},
-       block(&Block::range_unchecked)},
+       stores_whatever_comes()},
       {"block-download-crc-other-polynomial",
        "A block download expects a CRC with the polynomial 8005h",
        {"SDO-BDN-02"},
-       block(&Block::crc_polynomial, std::uint16_t{0x8005})},
+       expects_crc([](ByteView data) { return crc16(data, 0x8005, 0); })},
       {"block-download-crc-starts-with-ffff",
        "A block download expects a CRC that starts with FFFFh",
        {"SDO-BDN-02"},
-       block(&Block::crc_start, std::uint16_t{0xFFFF})},
+       expects_crc([](ByteView data) { return crc16(data, ccitt, 0xFFFF); })},
       {"block-download-crc-byte-swapped",
        "A block download expects the CRC with the most significant byte first",
        {"SDO-BDN-02"},
-       block(&Block::crc_byte_swapped)},
+       decides(of_block_download, &Rules::crc,
+               [](const auto& former, ByteView segments, std::size_t size) {
+                 return std::byteswap(former(segments, size));
+               })},
       {"block-download-crc-with-padding",
        "A block download expects a CRC over the unused bytes as well",
        {"SDO-BDN-02"},
-       block(&Block::crc_with_padding)},
+       decides(of_block_download, &Rules::crc,
+               [](const auto& former, ByteView segments, std::size_t) {
+                 return former(segments, segments.size());
+               })},
       {"block-download-crc-unchecked",
        "The CRC of a block download is not checked",
        {"SDO-BDN-03"},
-       block(&Block::crc_unchecked)},
+       checks_crc([](bool) { return false; })},
       {"block-download-crc-checked-unasked",
        "The CRC of a block download is checked although it was not agreed",
        {"SDO-BDN-04", "SDO-BDN-01"},
-       block(&Block::crc_always_checked)},
+       checks_crc([](bool) { return true; })},
       {"block-download-stored-despite-wrong-crc",
        "A block download with a wrong CRC is refused and stored all the same",
        {"SDO-BDN-03", "OD-ACC-05"},
-       block(&Block::stored_despite_wrong_crc)},
+       stores_before_crc_check()},
       {"block-download-access-unchecked",
        "Block downloads to entries that are absent or constant are accepted",
        {"SDO-BDN-23"},

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "defects/hooks.hpp"
 #include "defects/sdo_exchanges.hpp"
 #include "defects/tools.hpp"
 
@@ -81,6 +82,25 @@ struct BlockWatch {
   }
 };
 
+inline BlockDownloadRules& of_block_download(Parts& parts) { return parts.sdo.block_rules.download; }
+
+/// The server that a frame is a request to, nullptr if to none.
+[[nodiscard]] inline const SdoServer* server_asked(const Parts& parts, const Frame& frame) {
+  const bool request = !frame.extended && !frame.remote && frame.size() == 8;
+  return request ? parts.sdo.server_of(frame) : nullptr;
+}
+/// The running transfer of this kind that a request is about, nullptr if there is none.
+template <typename Kind>
+[[nodiscard]] const Kind* transfer_of(const Parts& parts, const Frame& frame) {
+  const SdoServer* server = server_asked(parts, frame);
+  return server == nullptr ? nullptr : server->running<Kind>();
+}
+/// A block download that this frame is a segment of.
+[[nodiscard]] inline const BlockDownload* receiving(const Parts& parts, const Frame& frame) {
+  const auto* transfer = transfer_of<BlockDownload>(parts, frame);
+  return transfer != nullptr && transfer->in_sub_block() && frame.data[0] != 0x80 ? transfer : nullptr;
+}
+
 /// The bytes of a block upload as the client puts them together.
 struct UploadWatch {
   bool crc_agreed = false;
@@ -104,6 +124,8 @@ struct UploadWatch {
     }
   }
 };
+
+constexpr std::uint16_t ccitt = 0x1021;  ///< the polynomial of block transfer
 
 /// CRC-16, most significant bit first.
 [[nodiscard]] inline std::uint16_t crc16(std::span<const std::uint8_t> bytes, std::uint16_t polynomial,

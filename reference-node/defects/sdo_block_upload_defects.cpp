@@ -57,7 +57,6 @@ Filter other_crc(Rule rule) {
   });
 }
 
-constexpr std::uint16_t polynomial = 0x1021;
 std::span<const std::uint8_t> net(const UploadWatch& upload, std::size_t size) {
   return std::span(upload.data).first(size);
 }
@@ -182,19 +181,19 @@ DefectTable crc_rows() {
        "The CRC of a block upload starts with FFFFh",
        {"SDO-BUP-02"},
        other_crc([](const UploadWatch& upload, std::size_t size) {
-         return crc16(net(upload, size), polynomial, 0xFFFF);
+         return crc16(net(upload, size), ccitt, 0xFFFF);
        })},
       {"block-upload-crc-byte-swapped",
        "The CRC of a block upload is sent with the most significant byte first",
        {"SDO-BUP-02"},
        other_crc([](const UploadWatch& upload, std::size_t size) {
-         const std::uint16_t crc = crc16(net(upload, size), polynomial, 0);
+         const std::uint16_t crc = crc16(net(upload, size), ccitt, 0);
          return static_cast<std::uint16_t>((crc << 8U) | (crc >> 8U));
        })},
       {"block-upload-crc-with-padding",
        "The CRC of a block upload covers the unused bytes of the last segment",
        {"SDO-BUP-02"},
-       other_crc([](const UploadWatch& upload, std::size_t) { return crc16(upload.data, polynomial, 0); })},
+       other_crc([](const UploadWatch& upload, std::size_t) { return crc16(upload.data, ccitt, 0); })},
       {"block-upload-crc-agreed-but-zero",
        "A block upload agrees to a CRC and sends 0",
        {"SDO-BUP-02"},
@@ -204,7 +203,7 @@ DefectTable crc_rows() {
        {"SDO-BUP-13", "SDO-BUP-14", "SDO-BUP-02"},
        other_crc([](const UploadWatch& upload, std::size_t size) {
          const std::size_t padding = upload.data.size() - size;
-         return crc16(std::span(upload.sent).first(upload.sent.size() - padding), polynomial, 0);
+         return crc16(std::span(upload.sent).first(upload.sent.size() - padding), ccitt, 0);
        })},
       {"block-upload-crc-unasked",
        "The end frame of a block upload holds a CRC that was not agreed",

@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "device/device.hpp"
+#include "base/time.hpp"
+#include "sdo/block_rules.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
 
@@ -15,45 +16,40 @@ namespace refnode {
 
 class BlockDownload {
  public:
-  BlockDownload(const SdoChoices& choices, Multiplexer mux, std::optional<std::size_t> announced,
-                std::uint8_t block_size, bool crc);
+  using BusTime = conform::BusTime;
+
+  BlockDownload(const SdoChoices& choices, const BlockDownloadRules& rules, const BlockDownloadTerms& terms);
 
   /// Every frame but an abort is a segment now, whatever its first byte would mean elsewhere.
   [[nodiscard]] bool in_sub_block() const { return phase_ == Phase::segments; }
   /// A frame inside a sub-block; the reply is the acknowledge, if one is due.
-  [[nodiscard]] SdoReply segment(const SdoData& frame, const Device& device);
+  [[nodiscard]] SdoReply segment(const SdoData& frame, BusTime now);
   /// The end frame (C1h).
-  [[nodiscard]] SdoReply end(const SdoData& request, Device& device);
+  [[nodiscard]] SdoReply end(const SdoData& request);
 
   /// When an unfinished sub-block has to be acknowledged for want of segments.
   [[nodiscard]] std::optional<BusTime> acknowledge_at() const;
   [[nodiscard]] SdoData acknowledge();
 
+  [[nodiscard]] std::uint8_t block_size() const { return block_size_; }
   /// Number of the segment taken last in this sub-block.
   [[nodiscard]] std::uint8_t sequence() const { return taken_; }
-  [[nodiscard]] Multiplexer mux() const { return mux_; }
+  [[nodiscard]] Multiplexer mux() const { return terms_.mux; }
   [[nodiscard]] bool finished() const { return phase_ == Phase::finished; }
 
  private:
   enum class Phase : std::uint8_t { segments, end, finished };
 
-  [[nodiscard]] std::size_t limit(const Device& device) const;
-  void add_to_crc(std::size_t end);
-  void distort_length(const Device& device);
-
   const SdoChoices* choices_;
-  Multiplexer mux_;
-  std::optional<std::size_t> announced_;
-  std::uint8_t block_size_;
-  bool crc_agreed_;
+  const BlockDownloadRules* rules_;
+  BlockDownloadTerms terms_;
+  std::uint8_t block_size_;          ///< of this sub-block
   Bytes data_;                       ///< whole segments; grows with what comes, whatever was announced
   std::uint8_t taken_ = 0;           ///< segments of this sub-block that came in sequence
   bool last_taken_ = false;          ///< the segment marked as the last one was among them
   bool spoiled_ = false;             ///< a number that cannot be was among them: nothing is acknowledged
   bool skips_to_first_ = false;      ///< acknowledged early: the rest of the old sub-block is still coming
   std::optional<BusTime> heard_at_;  ///< of the last segment, if this sub-block has had any
-  std::uint16_t crc_ = 0;
-  std::size_t crc_end_ = 0;  ///< bytes that are in crc_
   Phase phase_ = Phase::segments;
 };
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sdo/block.hpp"
+#include "sdo/block_rules.hpp"
 #include "sdo/crc.hpp"
 
 namespace refnode {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "sdo/block.hpp"
+#include "sdo/block_rules.hpp"
 
 namespace refnode {
 
@@ -210,7 +210,7 @@ SdoReply SdoServer::block_download(SdoExchange& exchange) {
   auto* transfer = std::get_if<BlockDownload>(&transfer_);
   if (transfer == nullptr) return out_of_place(exchange);
   exchange.mux = transfer->mux();
-  return transfer->end(exchange.request, *device_);
+  return transfer->end(exchange.request);
 }
 
 SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
@@ -222,22 +222,23 @@ SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
   const std::uint8_t command = exchange.request[0];
   std::optional<std::size_t> announced;
   if ((command & size_bit) != 0) announced = size_field(exchange.request);
-  const SdoBlockFaults& fault = device_->behaviour.block;
-  const auto size = fault.length_unchecked ? std::nullopt : announced;
-  const Accepted granted = device_->dictionary.may_download(exchange.mux, size);
+  const Accepted granted = block_rules_->download.may_begin(exchange.mux, announced);
   if (!granted) return refuse(granted.error());
-  const std::uint8_t block_size = fault.offered_size != 0 ? fault.offered_size : choices_->block_size;
   auto reply = with_mux(static_cast<std::uint8_t>(0xA0U | (choices_->crc ? crc_bit : 0U)), exchange.mux);
-  reply[4] = block_size;
-  const bool crc = choices_->crc && (command & crc_bit) != 0;
-  transfer_ = BlockDownload(*choices_, exchange.mux, announced, block_size, crc);
+  reply[4] = choices_->block_size;
+  transfer_ = BlockDownload(*choices_, block_rules_->download,
+                            {.mux = exchange.mux,
+                             .announced = announced,
+                             .capacity = device_->dictionary.capacity(exchange.mux),
+                             .block_size = choices_->block_size,
+                             .crc = choices_->crc && (command & crc_bit) != 0});
   return reply;
 }
 
 SdoReply SdoServer::block_segment(SdoExchange& exchange, BlockDownload& transfer) {
   exchange.mux = transfer.mux();
   exchange.sequence = exchange.request[0] & 0x7FU;
-  SdoReply reply = transfer.segment(exchange.request, *device_);
+  SdoReply reply = transfer.segment(exchange.request, device_->now);
   exchange.step = reply && *reply ? SdoStep::block_download_ack : SdoStep::block_download_segment;
   return reply;
 }

@@ -9,6 +9,7 @@
 
 #include "device/device.hpp"
 #include "sdo/block_download.hpp"
+#include "sdo/block_rules.hpp"
 #include "sdo/block_upload.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
@@ -20,13 +21,18 @@ namespace refnode {
 class SdoServer {
  public:
   /// `channel`: 0 is the default server, 1 the one of 1201h and so on.
-  SdoServer(Device& device, const SdoChoices& choices, std::uint8_t channel)
-      : device_(&device), choices_(&choices), channel_(channel) {}
+  SdoServer(Device& device, const SdoChoices& choices, const BlockRules& block, std::uint8_t channel)
+      : device_(&device), choices_(&choices), block_rules_(&block), channel_(channel) {}
 
   /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
   void on_request(const Frame& frame, std::uint32_t response_id);
   /// Drops a running transfer without a word.
   void reset() { transfer_ = std::monostate{}; }
+  /// The running transfer if it is of this kind.
+  template <typename Kind>
+  [[nodiscard]] const Kind* running() const {
+    return std::get_if<Kind>(&transfer_);
+  }
 
   void on_time();
   void on_transmitted() { pacer_.on_transmitted(device_->now); }
@@ -60,6 +66,7 @@ class SdoServer {
 
   Device* device_;
   const SdoChoices* choices_;
+  const BlockRules* block_rules_;
   std::uint8_t channel_;
   std::uint32_t response_id_ = 0;
   Transfer transfer_;

@@ -4,7 +4,10 @@
 namespace refnode {
 
 SdoServers::SdoServers(Device& device)
-    : device_(&device), default_(device, choices, 0), servers_{&default_} {}
+    : block_rules(device.dictionary),
+      device_(&device),
+      default_(device, choices, block_rules, 0),
+      servers_{&default_} {}
 
 void SdoServers::add_objects() {
   for (const std::uint8_t number : {std::uint8_t{1}, std::uint8_t{2}}) add_sdo_server(*device_, number);
@@ -15,7 +18,7 @@ void SdoServers::bind() {
     if (index <= first_sdo_server || index > last_sdo_server) continue;
     const auto channel = static_cast<std::uint8_t>(index - first_sdo_server);
     additional_.push_back(
-        {bind_sdo_server(*device_, cob_id_rules, index), SdoServer(*device_, choices, channel)});
+        {bind_sdo_server(*device_, cob_id_rules, index), SdoServer(*device_, choices, block_rules, channel)});
     servers_.push_back(&additional_.back().server);
   }
   bind_sdo_clients(*device_, client_cob_id_rules);
@@ -37,6 +40,15 @@ bool SdoServers::is_default_request(std::uint32_t id) const {
   if (behaviour.answers_broadcast && id == 0x600) return true;
   if (behaviour.answers_on_response_id && id == 0x580U + device_->node_id) return true;
   return id == 0x600U + device_->node_id;
+}
+
+const SdoServer* SdoServers::server_of(const Frame& frame) const {
+  if (is_default_request(frame.id)) return &default_;
+  for (const Additional& additional : additional_) {
+    const SdoChannel& channel = additional.channel;
+    if (channel.valid() && frame.id == channel.receive.can_id()) return &additional.server;
+  }
+  return nullptr;
 }
 
 bool SdoServers::on_frame(const Frame& frame) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "device/device.hpp"
+#include "sdo/block_rules.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/parameters.hpp"
 #include "sdo/server.hpp"
@@ -23,6 +24,7 @@ class SdoServers {
   SdoServers& operator=(const SdoServers&) = delete;
 
   SdoChoices choices;
+  BlockRules block_rules;
   CobIdRules cob_id_rules{CobIdUse::sdo_server};
   CobIdRules client_cob_id_rules{CobIdUse::sdo_client};
 
@@ -31,6 +33,8 @@ class SdoServers {
   /// Makes a server for every parameter object from 1201h on.
   void bind();
 
+  /// Whose request a data frame would be; nullptr: nobody's.
+  [[nodiscard]] const SdoServer* server_of(const Frame& frame) const;
   /// True when the frame was a request to one of the servers; it is served in the states that allow it.
   bool on_frame(const Frame& frame);
   void on_transmitted();
