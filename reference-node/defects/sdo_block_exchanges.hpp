@@ -82,6 +82,7 @@ struct BlockWatch {
   }
 };
 
+inline BlockUploadRules& of_block_upload(Parts& parts) { return parts.sdo.block_rules.upload; }
 inline BlockDownloadRules& of_block_download(Parts& parts) { return parts.sdo.block_rules.download; }
 
 /// The server that a frame is a request to, nullptr if to none.
@@ -99,6 +100,11 @@ template <typename Kind>
 [[nodiscard]] inline const BlockDownload* receiving(const Parts& parts, const Frame& frame) {
   const auto* transfer = transfer_of<BlockDownload>(parts, frame);
   return transfer != nullptr && transfer->in_sub_block() && frame.data[0] != 0x80 ? transfer : nullptr;
+}
+
+/// 80h, which ends whatever transfer is running.
+[[nodiscard]] inline bool is_abort_request(const Parts& parts, const Frame& frame) {
+  return (frame.data[0] >> 5U) == 4 && receiving(parts, frame) == nullptr;
 }
 
 /// The bytes of a block upload as the client puts them together.

@@ -11,8 +11,6 @@ using namespace defect;
 
 namespace {
 
-using Block = SdoBlockFaults;
-
 bool block_initiate(const SdoExchange& e) {
   return e.step == SdoStep::block_upload_initiate || e.step == SdoStep::block_download_initiate;
 }
@@ -59,6 +57,39 @@ Filter other_crc(Rule rule) {
 
 std::span<const std::uint8_t> net(const UploadWatch& upload, std::size_t size) {
   return std::span(upload.data).first(size);
+}
+
+/// The request of a block upload is changed before the server sees it; byte 4: block size.
+Change misreads_request(void (*change)(Data&)) {
+  return misreads([change](Parts& parts, Frame& frame) {
+    const bool request = server_asked(parts, frame) != nullptr && receiving(parts, frame) == nullptr;
+    if (request && (frame.data[0] & 0xE3U) == 0xA0) change(frame.data);
+  });
+}
+/// The acknowledge of a sub-block is; byte 1: the last segment that came, byte 2: block size from here on.
+Change misreads_acknowledge(void (*change)(Data&, const BlockUpload&)) {
+  return misreads([change](Parts& parts, Frame& frame) {
+    const auto* transfer = transfer_of<BlockUpload>(parts, frame);
+    if (transfer != nullptr && (frame.data[0] & 0xE3U) == 0xA2) change(frame.data, *transfer);
+  });
+}
+Change may_switch(bool (*when)(std::size_t size, std::uint8_t threshold)) {
+  return decides(
+      of_block_upload, &BlockUploadRules::may_switch,
+      [when](const auto&, std::size_t size, std::uint8_t threshold) { return when(size, threshold); });
+}
+
+/// The client's start is there as soon as the upload is offered.
+Change starts_at_once() {
+  return [](Parts& parts) {
+    parts.device.outbox.add_filter([&parts](const FilterContext& context, Frames&) {
+      if (context.sdo == nullptr || !block_upload_initiated(*context.sdo)) return;
+      const auto server = static_cast<std::uint16_t>(0x1200 + context.sdo->channel);
+      const std::uint64_t id = parts.device.dictionary.number(server, 1, 0x600U + context.node_id) & 0x7FFU;
+      const conform::CanId request(static_cast<std::uint32_t>(id));
+      parts.device.inbox.put(conform::can::data_frame(request, {0xA3, 0, 0, 0, 0, 0, 0, 0}), context.now);
+    });
+  };
 }
 
 DefectTable frame_rows() {
@@ -222,11 +253,13 @@ DefectTable refusal_rows() {
       {"block-upload-size-0-accepted",
        "A block upload with a block size of 0 is served",
        {"SDO-BUP-09"},
-       behave(&Behaviour::block, &Block::size_0_accepted)},
+       misreads_request([](Data& data) {
+         if (data[4] == 0) data[4] = 127;
+       })},
       {"block-upload-size-above-127-accepted",
        "A block upload with a block size above 127 is served",
        {"SDO-BUP-10"},
-       behave(&Behaviour::block, &Block::size_above_127_accepted)},
+       misreads_request([](Data& data) { data[4] = std::min<std::uint8_t>(data[4], 127); })},
       {"wrong-abort-block-size",
        "A block size that is not allowed is aborted with 0609 0030h",
        {"SDO-BUP-09", "SDO-BUP-10", "SDO-BUP-11"},
@@ -238,39 +271,51 @@ DefectTable refusal_rows() {
       {"block-upload-size-ignored",
        "A block upload sends 127 segments whatever the client asks for",
        {"SDO-BUP-06", "SDO-BUP-26"},
-       behave(&Behaviour::block, &Block::size_ignored)},
+       together(misreads_request([](Data& data) { data[4] = 127; }),
+                misreads_acknowledge([](Data& data, const BlockUpload&) {
+                  if (valid_block_size(data[2])) data[2] = 127;
+                }))},
       {"block-upload-next-size-ignored",
        "The block size of an acknowledge is not used",
        {"SDO-BUP-08", "SDO-BUP-26"},
-       behave(&Behaviour::block, &Block::next_size_ignored)},
+       misreads_acknowledge([](Data& data, const BlockUpload& upload) {
+         if (valid_block_size(data[2])) data[2] = upload.block_size();
+       })},
       {"block-upload-next-size-unchecked",
        "A block size that is not allowed is accepted in an acknowledge",
        {"SDO-BUP-11"},
-       behave(&Behaviour::block, &Block::next_size_unchecked)},
+       misreads_acknowledge([](Data& data, const BlockUpload&) {
+         if (!valid_block_size(data[2])) data[2] = 127;
+       })},
       {"block-upload-acknowledge-unchecked",
        "An acknowledge of a segment that was never sent is taken",
        {"SDO-BUP-12"},
-       behave(&Behaviour::block, &Block::acknowledge_unchecked)},
+       misreads_acknowledge(
+           [](Data& data, const BlockUpload& upload) { data[1] = std::min(data[1], upload.sequence()); })},
       {"block-upload-nothing-repeated",
        "Segments that were not acknowledged are not sent again",
        {"SDO-BUP-13", "SDO-BUP-14"},
-       behave(&Behaviour::block, &Block::acknowledge_counts_as_all)},
+       misreads_acknowledge([](Data& data, const BlockUpload& upload) { data[1] = upload.sequence(); })},
       {"block-upload-repeats-one-too-late",
        "After a lost segment the one behind it is sent first",
        {"SDO-BUP-13", "SDO-BUP-14"},
-       behave(&Behaviour::block, &Block::acknowledge_one_too_far)},
+       misreads_acknowledge([](Data& data, const BlockUpload& upload) {
+         if (data[1] < upload.sequence()) ++data[1];
+       })},
       {"block-upload-starts-at-once",
        "A block upload does not wait for its start",
        {"SDO-BUP-19", "SDO-GEN-04", "SDO-BUP-01"},
-       behave(&Behaviour::block, &Block::starts_at_once)},
+       starts_at_once()},
       {"block-upload-switches-without-threshold",
        "A block upload with a threshold of 0 is answered by a normal upload",
        {"SDO-BUP-16", "SDO-BUP-01"},
-       behave(&Behaviour::block, &Block::zero_threshold_switches)},
+       may_switch(
+           [](std::size_t size, std::uint8_t threshold) { return size <= threshold || threshold == 0; })},
       {"block-upload-threshold-inverted",
        "A block upload is answered by a normal upload when the size is above the threshold",
        {"SDO-BUP-16"},
-       behave(&Behaviour::block, &Block::threshold_inverted)},
+       may_switch(
+           [](std::size_t size, std::uint8_t threshold) { return threshold != 0 && size > threshold; })},
       {"block-upload-switch-announced-as-block",
        "The switch to a normal upload is announced by a block upload response",
        {"SDO-BUP-15"},
@@ -318,20 +363,34 @@ DefectTable refusal_rows() {
   };
 }
 
+/// No request is heard in Stopped; otherwise the server works on.
+Change goes_on_in_stopped() {
+  return together(works_also(Service::sdo, NmtState::stopped), deaf_to([](Parts& parts, const Frame& frame) {
+                    return parts.device.state == NmtState::stopped && server_asked(parts, frame) != nullptr;
+                  }));
+}
+
 DefectTable end_rows() {
   return {
       {"block-client-abort-ignored",
        "A client abort does not end a block transfer",
        {"SDO-BUP-17", "SDO-BUP-18", "SDO-BDN-19", "SDO-BDN-20"},
-       behave(&Behaviour::block, &Block::client_abort_ignored)},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         const bool block = transfer_of<BlockUpload>(parts, frame) != nullptr ||
+                            transfer_of<BlockDownload>(parts, frame) != nullptr;
+         return block && is_abort_request(parts, frame);
+       })},
       {"block-upload-abort-waits-for-the-sub-block",
        "A client abort ends a block upload at the end of the sub-block only",
        {"SDO-BUP-17"},
-       behave(&Behaviour::block, &Block::abort_waits_for_sub_block)},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         const auto* transfer = transfer_of<BlockUpload>(parts, frame);
+         return transfer != nullptr && transfer->has_segment() && is_abort_request(parts, frame);
+       })},
       {"block-upload-goes-on-in-stopped",
        "A running sub-block goes on in Stopped",
        {"SDO-BUP-27"},
-       behave(&Behaviour::block, &Block::goes_on_in_stopped)},
+       goes_on_in_stopped()},
       {"block-new-request-refused",
        "While a block upload is open every new request is aborted",
        {"SDO-BUP-29"},

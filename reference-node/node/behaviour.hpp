@@ -8,7 +8,6 @@
 
 #include "can/frame.hpp"
 #include "node/object_faults.hpp"
-#include "sdo/block_faults.hpp"
 #include "sdo/faults.hpp"
 
 namespace refnode {
@@ -66,7 +65,6 @@ struct Behaviour {
   bool accepts_remote_frames = false;     ///< remote frames are taken for data frames
   SdoFaults sdo;
 
-  SdoBlockFaults block;
   SdoChannelFaults sdo_channels;
 
   // NMT slave

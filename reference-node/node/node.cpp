@@ -124,9 +124,7 @@ void Node::Impl::boot_up() {
 }
 
 void Node::Impl::change_state(NmtState) {
-  const Behaviour& faults = device.behaviour;
-  const bool transfers_stay = faults.block.goes_on_in_stopped || faults.sdo.blocked_after_stopped;
-  if (device.state == NmtState::stopped && !transfers_stay) sdo.reset();
+  if (!device.works_now(Service::sdo) && !device.behaviour.sdo.blocked_after_stopped) sdo.reset();
   producer.on_state_change();
   pdos.on_state_change();
   emergency.on_state_change();

@@ -69,21 +69,13 @@ SdoReply SdoServer::serve(SdoExchange& exchange) {
       }
       return out_of_place(exchange);
     case abort_transfer:
-      if (!ignores_abort()) reset();
+      if (!device_->behaviour.ignores_client_abort) reset();
       if (device_->behaviour.answers_client_abort) return refuse(abort_code::general_error);
       return std::nullopt;
     case block_upload_request: return block_upload(exchange);
     case block_download_request: return block_download(exchange);
     default: return refuse(abort_code::command_unknown);
   }
-}
-
-bool SdoServer::ignores_abort() const {
-  const SdoBlockFaults& fault = device_->behaviour.block;
-  const auto* sending = std::get_if<BlockUpload>(&transfer_);
-  const bool block = sending != nullptr || std::holds_alternative<BlockDownload>(transfer_);
-  return device_->behaviour.ignores_client_abort || (fault.client_abort_ignored && block) ||
-         (fault.abort_waits_for_sub_block && sending != nullptr && sending->has_segment());
 }
 
 SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
@@ -164,10 +156,8 @@ SdoReply SdoServer::block_upload(SdoExchange& exchange) {
   if (transfer == nullptr) return out_of_place(exchange);
   exchange.mux = transfer->mux();
   if (subcommand == block_end) return transfer->confirm_end();
-  const SdoReply reply = subcommand == block_acknowledge
-                             ? transfer->acknowledge(device_->behaviour.block.acknowledged(
-                                   exchange.request, transfer->sequence(), transfer->block_size()))
-                             : transfer->start();
+  const SdoReply reply =
+      subcommand == block_acknowledge ? transfer->acknowledge(exchange.request) : transfer->start();
   // A frame here is the end frame already; segments follow through send_segment().
   if (reply && *reply) exchange.step = SdoStep::block_upload_end;
   pacer_.start(device_->now + choices_->turnaround);
@@ -180,15 +170,12 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
   if (!choices_->block) return refuse(abort_code::command_unknown);
   reset();
-  const SdoBlockFaults& fault = device_->behaviour.block;
-  const std::uint8_t block_size = fault.asked(exchange.request[4]);
+  const std::uint8_t block_size = exchange.request[4];
   const std::uint8_t threshold = exchange.request[5];
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return refuse(data.error());
   if (!valid_block_size(block_size)) return refuse(abort_code::block_size_invalid);
-  // Protocol switch threshold: up to this size the server may go on with a normal upload; 0 forbids it.
-  const bool switches = choices_->protocol_switch && threshold != 0 && data->size() <= threshold;
-  if (fault.switches(data->size(), threshold, switches)) {
+  if (choices_->protocol_switch && block_rules_->upload.may_switch(data->size(), threshold)) {
     exchange.step = SdoStep::upload_initiate;
     return upload_response(exchange, std::move(*data));
   }
@@ -198,9 +185,6 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   if (choices_->upload_size_indicated) put_size(reply, data->size());
   const bool crc = choices_->crc && (exchange.request[0] & crc_bit) != 0;
   transfer_ = BlockUpload(exchange.mux, std::move(*data), block_size, crc);
-  if (fault.starts_at_once) {
-    [[maybe_unused]] const auto no_answer = std::get<BlockUpload>(transfer_).start();
-  }
   return reply;
 }
 

@@ -53,8 +53,6 @@ class SdoServer {
   [[nodiscard]] SdoReply block_download(SdoExchange& exchange);
   [[nodiscard]] SdoReply initiate_block_download(SdoExchange& exchange);
   [[nodiscard]] SdoReply block_segment(SdoExchange& exchange, BlockDownload& transfer);
-  /// Whether an abort of the client leaves the transfer as it is: never in a conformant server.
-  [[nodiscard]] bool ignores_abort() const;
   /// A request that belongs to no transfer, or to another kind than the one that is running.
   [[nodiscard]] SdoReply out_of_place(SdoExchange& exchange) const;
 
