@@ -22,6 +22,27 @@ bool read_only(const SdoExchange& e) { return e.aborted == abort_code::read_only
 using Data = std::array<std::uint8_t, 8>;
 void put(Data& data, AbortCode code) { conform::store_le(std::span(data).subspan(4), code.value()); }
 
+/// Downloads to an entry of fixed length are taken for another number of bytes than they have: what is
+/// missing is zero, what is too much is cut off.
+Change takes_length(std::size_t (*taken)(std::size_t size, std::size_t right)) {
+  return [taken](Parts& parts) {
+    ObjectDictionary& od = parts.device.dictionary;
+    const auto length = [&od, taken](Multiplexer mux, std::size_t size) {
+      const Entry* entry = od.entry(mux.index.value(), mux.sub.value());
+      const std::size_t right = entry == nullptr ? 0 : fixed_size(entry->type);
+      return right == 0 ? size : taken(size, right);
+    };
+    od.may_download.replace([length](const auto& former, Multiplexer mux, std::optional<std::size_t> size) {
+      return former(mux, size ? std::optional(length(mux, *size)) : std::nullopt);
+    });
+    od.download.replace([length](const auto& former, Multiplexer mux, ByteView bytes) {
+      Bytes value(bytes.begin(), bytes.end());
+      value.resize(length(mux, bytes.size()));
+      return former(mux, value);
+    });
+  };
+}
+
 DefectTable existence_rows() {
   return {
       {"missing-object-wrong-abort",
@@ -119,7 +140,15 @@ DefectTable existence_rows() {
       {"var-answers-on-other-subs",
        "Variables answer on every sub-index",
        {"OD-GEN-09", "SDO-UPL-08"},
-       behave(&Behaviour::variables_ignore_sub_index)},
+       Change([](Parts& parts) {
+         ObjectDictionary& od = parts.device.dictionary;
+         od.upload.replace([&od](const auto& former, Multiplexer mux) {
+           const auto object = od.objects().find(mux.index.value());
+           if (object != od.objects().end() && object->second.kind == ObjectKind::variable)
+             mux.sub = conform::SubIndex(0);
+           return former(mux);
+         });
+       })},
       {"array-elements-shifted",
        "Reading an element of 2004h gives the element before it",
        {"OD-DSC-03", "SDO-DNL-03", "OD-ACC-04"},
@@ -173,7 +202,16 @@ DefectTable access_rows() {
       {"rejected-write-still-stored",
        "A value out of range is refused and stored all the same",
        {"OD-ACC-05", "SDO-DNL-20", "SDO-DNL-13", "SDO-DNL-14", "OD-CID-03", "CAN-RID-01"},
-       behave(&Behaviour::stores_refused_values)},
+       Change([](Parts& parts) {
+         ObjectDictionary& od = parts.device.dictionary;
+         od.download.replace([&od](const auto& former, Multiplexer mux, ByteView bytes) {
+           const Accepted done = former(mux, bytes);
+           Entry* entry = od.entry(mux.index.value(), mux.sub.value());
+           if (!done && od.may_download(mux, bytes.size()) && !entry->command)
+             entry->value.assign(bytes.begin(), bytes.end());
+           return done;
+         });
+       })},
       {"const-changes-in-operational",
        "1018h:00 reads 03h in Operational",
        {"OD-ACC-06"},
@@ -206,11 +244,11 @@ DefectTable length_and_range_rows() {
       {"short-write-accepted",
        "A value with too few bytes is padded with zeros",
        {"OD-LEN-01", "OD-1017-09", "SDO-DNL-11", "SDO-DNL-12", "SDO-SDN-07", "SDO-DNL-19"},
-       behave(&Behaviour::accepts_short_values)},
+       takes_length([](std::size_t size, std::size_t right) { return std::max(size, right); })},
       {"long-write-accepted",
        "Surplus bytes of a value are cut off",
        {"OD-LEN-02", "OD-LEN-03", "OD-1017-09", "SDO-DNL-10", "SDO-DNL-12", "SDO-SDN-06"},
-       behave(&Behaviour::accepts_long_values)},
+       takes_length([](std::size_t size, std::size_t right) { return std::min(size, right); })},
       {"high-low-length-codes-swapped",
        "A value too short is aborted as too long",
        {"SDO-DNL-12", "SDO-DNL-11", "OD-LEN-01", "OD-1017-09"},
@@ -234,7 +272,15 @@ DefectTable length_and_range_rows() {
       {"high-limit-clamped",
        "A value above the limit is confirmed and limited",
        {"OD-RNG-01", "SDO-DNL-13", "SDO-SDN-23"},
-       behave(&Behaviour::clamps_to_high_limit)},
+       Change([](Parts& parts) {
+         ObjectDictionary& od = parts.device.dictionary;
+         od.download.replace([&od](const auto& former, Multiplexer mux, ByteView bytes) -> Accepted {
+           const Accepted done = former(mux, bytes);
+           const Entry* entry = od.entry(mux.index.value(), mux.sub.value());
+           if (done || done.error() != od.choices.value_above_limit || !entry->high) return done;
+           return former(mux, conform::to_le(static_cast<std::uint64_t>(*entry->high), bytes.size()));
+         });
+       })},
       {"high-limit-wrong-abort",
        "A value above the limit is aborted with 0607 0012h",
        {"OD-RNG-01", "SDO-DNL-13", "SDO-SDN-23", "OD-1201-07", "OD-1280-06"},

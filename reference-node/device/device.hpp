@@ -22,7 +22,7 @@
 namespace refnode {
 
 struct Device {
-  explicit Device(std::uint8_t id) : node_id(id), dictionary(behaviour) {}
+  explicit Device(std::uint8_t id) : node_id(id) {}
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 

@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "base/check.hpp"
-#include "node/behaviour.hpp"
 
 namespace refnode {
 
@@ -107,6 +106,12 @@ void read_by(Entry& entry, std::function<Upload()> read) {
   };
 }
 
+ObjectDictionary::ObjectDictionary()
+    : upload([this](Multiplexer mux) { return read(mux); }),
+      may_download(
+          [this](Multiplexer mux, std::optional<std::size_t> size) { return check_writable(mux, size); }),
+      download([this](Multiplexer mux, ByteView bytes) { return write(mux, bytes); }) {}
+
 Entry& ObjectDictionary::add_variable(std::uint16_t index, Entry entry) {
   CONFORM_CHECK(!objects_.contains(index));
   Object& object = objects_[index];
@@ -167,12 +172,7 @@ Accepted ObjectDictionary::check_exists(Multiplexer mux) const {
   return {};
 }
 
-Upload ObjectDictionary::upload(Multiplexer mux) const {
-  if (behaviour_->variables_ignore_sub_index) {
-    const auto object = objects_.find(mux.index.value());
-    if (object != objects_.end() && object->second.kind == ObjectKind::variable)
-      mux.sub = conform::SubIndex(0);
-  }
+Upload ObjectDictionary::read(Multiplexer mux) const {
   if (const auto exists = check_exists(mux); !exists) return refuse(exists.error());
   const Entry& found = *entry(mux.index.value(), mux.sub.value());
   if (found.access == Access::wo) return refuse(abort_code::write_only);
@@ -187,8 +187,8 @@ Accepted ObjectDictionary::check_size(const Entry& found, std::size_t size) cons
     if (found.type == DataType::unicode_string && size % 2 != 0) return refuse(abort_code::length_mismatch);
     return {};
   }
-  if (size > fixed && !behaviour_->accepts_long_values) return refuse(choices.value_too_long);
-  if (size < fixed && !behaviour_->accepts_short_values) return refuse(choices.value_too_short);
+  if (size > fixed) return refuse(choices.value_too_long);
+  if (size < fixed) return refuse(choices.value_too_short);
   return {};
 }
 
@@ -222,7 +222,7 @@ Accepted ObjectDictionary::check_limits(const Entry& found, ByteView bytes) cons
   return compare(value, found.low, found.high);
 }
 
-Accepted ObjectDictionary::may_download(Multiplexer mux, std::optional<std::size_t> size) const {
+Accepted ObjectDictionary::check_writable(Multiplexer mux, std::optional<std::size_t> size) const {
   if (const auto exists = check_exists(mux); !exists) return exists;
   const Entry& found = *entry(mux.index.value(), mux.sub.value());
   if (found.access == Access::ro || found.access == Access::constant) return refuse(abort_code::read_only);
@@ -230,22 +230,17 @@ Accepted ObjectDictionary::may_download(Multiplexer mux, std::optional<std::size
   return {};
 }
 
-Accepted ObjectDictionary::download(Multiplexer mux, ByteView bytes) {
-  if (const auto granted = may_download(mux, bytes.size()); !granted) return granted;
+Accepted ObjectDictionary::write(Multiplexer mux, ByteView bytes) {
+  if (const auto granted = check_writable(mux, bytes.size()); !granted) return granted;
   Entry& found = *entry(mux.index.value(), mux.sub.value());
-  Bytes value(bytes.begin(), bytes.end());
-  if (const std::size_t fixed = fixed_size(found.type); fixed != 0) value.resize(fixed);
-
-  Accepted valid = check_limits(found, value);
-  if (!valid && behaviour_->clamps_to_high_limit && valid.error() == choices.value_above_limit) {
-    value = conform::to_le(static_cast<std::uint64_t>(*found.high), value.size());
-    valid = {};
+  if (const auto within = check_limits(found, bytes); !within) return within;
+  if (found.check) {
+    if (const auto accepted = found.check(bytes); !accepted) return accepted;
   }
-  if (valid && found.check) valid = found.check(value);
-  if (!found.command && (valid || behaviour_->stores_refused_values)) found.value = std::move(value);
-  if (valid && found.written) found.written();
-  if (valid && on_download) on_download(mux);
-  return valid;
+  if (!found.command) found.value.assign(bytes.begin(), bytes.end());
+  if (found.written) found.written();
+  if (on_download) on_download(mux);
+  return {};
 }
 
 std::size_t ObjectDictionary::capacity(Multiplexer mux) const {

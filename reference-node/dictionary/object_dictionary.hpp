@@ -15,6 +15,7 @@
 
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
+#include "device/rule.hpp"
 #include "dictionary/abort_codes.hpp"
 
 namespace refnode {
@@ -23,8 +24,6 @@ using conform::AbortCode;
 using conform::Bytes;
 using conform::ByteView;
 using conform::Multiplexer;
-
-struct Behaviour;
 
 /// Numbers of CiA 301, 7.4.7.1.
 enum class DataType : std::uint16_t {
@@ -119,7 +118,9 @@ struct DictionaryChoices {
 
 class ObjectDictionary {
  public:
-  explicit ObjectDictionary(const Behaviour& behaviour) : behaviour_(&behaviour) {}
+  ObjectDictionary();
+  ObjectDictionary(const ObjectDictionary&) = delete;
+  ObjectDictionary& operator=(const ObjectDictionary&) = delete;
 
   DictionaryChoices choices;
 
@@ -142,18 +143,21 @@ class ObjectDictionary {
   /// Sets a value from inside the device: no access check, no hook.
   void set_number(std::uint16_t index, std::uint8_t sub, std::uint64_t value);
 
+  // Access by SDO: what is read, granted and written (CiA 301, 7.2.4.3.17).
+  Rule<Upload(Multiplexer)> upload;
+  /// Whether a download of this many bytes (nullopt: not known yet) may start.
+  Rule<Accepted(Multiplexer, std::optional<std::size_t> size)> may_download;
+  /// All checks, the value, the hooks.
+  Rule<Accepted(Multiplexer, ByteView)> download;
   std::function<void(Multiplexer)> on_download;  ///< a value has been taken by SDO, all hooks have run
 
-  /// Upload by SDO.
-  [[nodiscard]] Upload upload(Multiplexer mux) const;
-  /// Whether a download of `size` bytes (nullopt: not known yet) may start.
-  [[nodiscard]] Accepted may_download(Multiplexer mux, std::optional<std::size_t> size) const;
-  /// Download by SDO: all checks, the value, the hooks.
-  [[nodiscard]] Accepted download(Multiplexer mux, ByteView bytes);
   /// Longest value the entry takes; 0 when it does not exist.
   [[nodiscard]] std::size_t capacity(Multiplexer mux) const;
 
  private:
+  [[nodiscard]] Upload read(Multiplexer mux) const;
+  [[nodiscard]] Accepted check_writable(Multiplexer mux, std::optional<std::size_t> size) const;
+  [[nodiscard]] Accepted write(Multiplexer mux, ByteView bytes);
   [[nodiscard]] Accepted check_exists(Multiplexer mux) const;
   [[nodiscard]] Accepted check_size(const Entry& entry, std::size_t size) const;
   [[nodiscard]] Accepted check_limits(const Entry& entry, ByteView bytes) const;
@@ -161,7 +165,6 @@ class ObjectDictionary {
   [[nodiscard]] Accepted compare(Value value, const std::optional<Value>& low,
                                  const std::optional<Value>& high) const;
 
-  const Behaviour* behaviour_;
   std::map<std::uint16_t, Object> objects_;
 };
 

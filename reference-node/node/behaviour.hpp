@@ -34,13 +34,6 @@ struct SdoChannelFaults {
 };
 
 struct Behaviour {
-  // Object dictionary
-  bool accepts_long_values = false;         ///< surplus bytes of a download are cut off
-  bool accepts_short_values = false;        ///< missing bytes of a download are taken as zero
-  bool stores_refused_values = false;       ///< a value out of range is refused and stored all the same
-  bool clamps_to_high_limit = false;        ///< a value above the limit is confirmed and limited
-  bool variables_ignore_sub_index = false;  ///< a variable answers on every sub-index
-
   // SDO server
   bool upload_toggle_unchecked = false;
   bool download_toggle_unchecked = false;
