@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of access rights, existence, lengths and ranges, wherever in the dictionary: mostly wrong abort
 // codes.
+#include <algorithm>
+#include <cstddef>
 #include <iterator>
+#include <optional>
 
+#include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -39,6 +43,28 @@ Change takes_length(std::size_t (*taken)(std::size_t size, std::size_t right)) {
       Bytes value(bytes.begin(), bytes.end());
       value.resize(length(mux, bytes.size()));
       return former(mux, value);
+    });
+  };
+}
+
+Change writes_read_only_in_segments() {
+  return [](Parts& parts) {
+    ObjectDictionary& od = parts.device.dictionary;
+    const auto is_read_only = [](const Accepted& done) {
+      return !done && done.error() == abort_code::read_only;
+    };
+    SegmentedRules& rules = of_segments(parts);
+    rules.granted.replace(
+        [is_read_only](const auto& former, Multiplexer mux, std::optional<std::size_t> size) {
+          const Accepted granted = former(mux, size);
+          return is_read_only(granted) ? Accepted{} : granted;
+        });
+    rules.store.replace([&od, is_read_only](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
+      const Accepted stored = former(mux, data);
+      if (!is_read_only(stored)) return stored;
+      if (Entry* entry = od.entry(mux.index.value(), mux.sub.value()))
+        entry->value.assign(data.begin(), data.end());
+      return {};
     });
   };
 }
@@ -235,7 +261,7 @@ DefectTable access_rows() {
       {"ro-writable-by-segmented-download",
        "Segmented downloads do not look at the access right",
        {"OD-ACC-08", "SDO-SDN-21", "OD-ACC-01", "OD-1008-02", "OD-1009-02"},
-       behave(&Behaviour::segmented_access_unchecked)},
+       writes_read_only_in_segments()},
   };
 }
 

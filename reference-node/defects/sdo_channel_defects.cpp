@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of additional SDO servers (1201h-127Fh) and of the parameters of SDO clients (1280h-12FFh).
+#include <memory>
+
 #include "defects/cob_ids.hpp"
 #include "defects/sdo_block_exchanges.hpp"
+#include "defects/sdo_rules.hpp"
 
 namespace refnode {
 
@@ -25,6 +28,32 @@ DictionaryEdit not_storable(std::uint16_t index) {
     for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}, std::uint8_t{3}}) {
       if (Entry* entry = od.entry(index, sub)) entry->storable = false;
     }
+  };
+}
+/// Whatever bit 30 of the COB-IDs says.
+DictionaryEdit dynamic_stored() {
+  return [](ObjectDictionary& od, std::uint8_t) {
+    for (auto& [index, object] : od.objects()) {
+      if (index < first_sdo_server || index > last_sdo_client) continue;
+      for (auto& [sub, entry] : object.entries) entry.not_stored_now = nullptr;
+    }
+  };
+}
+/// The default server takes the requests of all channels; it answers where the latest has come from.
+Change shares_the_default_server() {
+  return [](Parts& parts) {
+    const auto answered_on = std::make_shared<std::uint32_t>(response_id(parts, 0));
+    Change(misreads([answered_on](Parts& node, Frame& frame) {
+      const auto channel = channel_of(node, frame.id);
+      if (!channel || !is_base_data_frame(frame)) return;
+      *answered_on = response_id(node, *channel);
+      frame.id = 0x600U + node.device.node_id;
+    }))(parts);
+    parts.device.outbox.add_filter(
+        [answered_on](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service != Service::sdo) return;
+          for (Outgoing& outgoing : frames) outgoing.frame.id = *answered_on;
+        });
   };
 }
 /// What is written is the power-on value from then on.
@@ -89,7 +118,8 @@ DefectTable sdo_channel_defects() {
       {"1201-valid-with-one-cob-id",
        "An additional SDO server is in use as soon as its first COB-ID is valid",
        {"OD-1201-04"},
-       behave(&Behaviour::sdo_channels, &SdoChannelFaults::second_cob_id_not_needed)},
+       decides(of_sdo, &SdoRules::exists,
+               [](const auto&, const SdoChannel& channel) { return channel.receive.valid(); })},
       {"1201-lock-missing",
        "The COB-IDs of a valid SDO server can be changed",
        {"OD-1201-05"},
@@ -105,7 +135,7 @@ DefectTable sdo_channel_defects() {
       {"1201-dynamic-stored",
        "Dynamic COB-IDs of an SDO server are stored",
        {"OD-1201-08"},
-       behave(&Behaviour::dynamic_sdo_stored)},
+       dynamic_stored()},
       {"additional-sdo-silent",
        "Additional SDO servers never answer",
        {"SDO-MUL-01", "OD-1201-04"},
@@ -132,7 +162,7 @@ DefectTable sdo_channel_defects() {
       {"additional-sdo-shares-transfer",
        "All SDO servers share the state of one transfer",
        {"SDO-MUL-04"},
-       behave(&Behaviour::sdo_channels, &SdoChannelFaults::transfer_shared)},
+       shares_the_default_server()},
       {"additional-sdo-survives-reset",
        "The COB-IDs of SDO servers keep their values at reset communication",
        {"SDO-MUL-05"},

@@ -2,9 +2,13 @@
 // Defects of the SDO server as a channel: frames, addressing, states, load, aborts and unknown commands.
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "defects/sdo_exchanges.hpp"
+#include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -19,6 +23,68 @@ Filter deaf_after_boot_up(Duration time) {
                                                  std::vector<Outgoing>& frames) mutable {
     if (context.service == Service::boot_up && ++boot_ups > 1) ready = context.now + time;
     if (context.service == Service::sdo && context.now < ready) frames.clear();
+  };
+}
+
+/// Requests on other CAN-IDs are taken for such to the default server, too.
+Change serves_requests_on(bool (*also)(std::uint32_t id, std::uint8_t node_id)) {
+  return misreads([also](Parts& parts, Frame& frame) {
+    const std::uint8_t node_id = parts.device.node_id;
+    if (is_base_data_frame(frame) && also(frame.id, node_id)) frame.id = 0x600U + node_id;
+  });
+}
+
+/// The abort of what `request` asked for.
+Data abort_of(const Data& request, AbortCode code) {
+  Data abort{0x80, request[1], request[2], request[3]};
+  store_code(abort, code);
+  return abort;
+}
+
+Change refuses_in_stopped() {
+  return Reading([](Parts& parts, std::vector<Frame>& frames) {
+    if (parts.device.state != NmtState::stopped) return;
+    for (const Frame& frame : frames) {
+      const auto channel = channel_of(parts, frame.id);
+      if (!channel || !is_base_data_frame(frame) || frame.size() != 8) continue;
+      parts.device.send(Service::sdo,
+                        conform::can::data_frame(conform::CanId(response_id(parts, *channel)),
+                                                 abort_of(frame.data, abort_code::device_state)));
+    }
+  });
+}
+
+/// The last request of Stopped comes again as soon as SDO works, before the next frame.
+Change serves_after_stopped() {
+  return Reading([held = std::optional<Frame>{}](Parts& parts, std::vector<Frame>& frames) mutable {
+    if (held && parts.device.works_now(Service::sdo)) frames.insert(frames.begin(), *std::exchange(held, {}));
+    if (parts.device.state != NmtState::stopped) return;
+    for (const Frame& frame : frames) {
+      if (is_base_data_frame(frame) && channel_of(parts, frame.id)) held = frame;
+    }
+  });
+}
+
+Change completes_short_requests() {
+  return misreads([last = Data{}](Parts& parts, Frame& frame) mutable {
+    if (!is_base_data_frame(frame) || frame.id != 0x600U + parts.device.node_id) return;
+    std::copy_n(frame.data.begin(), frame.size(), last.begin());
+    frame.data = last;
+    frame.dlc = 8;
+  });
+}
+
+Change answers_client_aborts() {
+  return [](Parts& parts) {
+    parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+      constexpr unsigned client_abort = 4;
+      if (context.sdo == nullptr || !frames.empty()) return;
+      const SdoExchange& exchange = *context.sdo;
+      if (exchange.step != SdoStep::other || exchange.request[0] >> 5U != client_abort) return;
+      frames.push_back({conform::can::data_frame(conform::CanId(response_id(parts, exchange.channel)),
+                                                 abort_of(exchange.request, abort_code::general_error)),
+                        parts.sdo.choices.turnaround});
+    });
   };
 }
 
@@ -71,23 +137,23 @@ DefectTable frame_rows() {
       {"answers-foreign-node-id",
        "SDO requests to any node-ID are answered",
        {"SDO-GEN-08"},
-       behave(&Behaviour::answers_foreign_node_ids)},
+       serves_requests_on([](std::uint32_t id, std::uint8_t) { return id >= 0x601 && id <= 0x67F; })},
       {"answers-sdo-broadcast",
        "SDO requests on 600h are answered",
        {"SDO-GEN-09"},
-       behave(&Behaviour::answers_broadcast)},
+       serves_requests_on([](std::uint32_t id, std::uint8_t) { return id == 0x600; })},
       {"rtr-treated-as-data-frame",
        "Remote frames are taken for data frames full of zeros",
        {"SYNC-CON-02", "PDO-RX-13", "SDO-GEN-10", "EC-HBC-11"},
-       behave(&Behaviour::accepts_remote_frames)},
+       misreads([](Parts&, Frame& frame) { frame.remote = false; })},
       {"extended-frame-accepted-as-standard",
        "Frames with a 29-bit identifier are taken for 11-bit ones",
        {"SDO-GEN-11", "NMT-FSA-19", "SYNC-CON-02", "PDO-RX-13"},
-       behave(&Behaviour::accepts_extended_frames)},
+       misreads([](Parts&, Frame& frame) { frame.extended = false; })},
       {"listens-on-own-tx-id",
        "Requests on the response CAN-ID are served",
        {"SDO-GEN-12"},
-       behave(&Behaviour::answers_on_response_id)},
+       serves_requests_on([](std::uint32_t id, std::uint8_t node_id) { return id == 0x580U + node_id; })},
       {"sdo-dead-in-preop",
        "No SDO responses in Pre-operational",
        {"SDO-GEN-13", "OD-RST-07", "SDO-GEN-01"},
@@ -99,22 +165,19 @@ DefectTable frame_rows() {
       {"sdo-served-in-stopped",
        "SDO requests are served in Stopped",
        {"SDO-GEN-15", "NMT-FSA-23", "SDO-SUP-19"},
-       behave(&Behaviour::sdo_served_in_stopped)},
+       works_also(Service::sdo, NmtState::stopped)},
       {"sdo-refused-in-stopped",
        "SDO requests in Stopped are aborted with 0800 0022h instead of staying unanswered",
        {"SDO-GEN-15", "NMT-FSA-23"},
-       BehaviourSwitch([](Behaviour& behaviour) {
-         behaviour.sdo_served_in_stopped = true;
-         behaviour.sdo.refuses_in_stopped = true;
-       })},
+       refuses_in_stopped()},
       {"sdo-served-after-stopped",
        "The last SDO request that came in Stopped is answered as soon as the node leaves it",
        {"SDO-GEN-15"},
-       BehaviourSwitch([](Behaviour& behaviour) { behaviour.sdo.serves_after_stopped = true; })},
+       serves_after_stopped()},
       {"sdo-served-before-bootup",
        "SDO requests are served before the boot-up message",
        {"SDO-GEN-16", "NMT-BOOT-05"},
-       behave(&Behaviour::sdo_served_before_boot_up)},
+       works_also(Service::sdo, NmtState::initialising)},
       {"sdo-slow-response",
        "Every SDO response takes 150 ms",
        {"SDO-GEN-18"},
@@ -192,15 +255,15 @@ DefectTable command_rows() {
       {"short-dlc-uses-stale-bytes",
        "A request of fewer than eight bytes is completed from the one before it",
        {"SDO-ERR-07", "SDO-ERR-06"},
-       behave(&Behaviour::short_requests_completed)},
+       completes_short_requests()},
       {"client-abort-ignored",
        "A client abort does not end the transfer",
        {"SDO-SUP-10", "SDO-SDN-19", "SDO-BUP-17", "SDO-BUP-18", "SDO-BDN-19", "SDO-BDN-20"},
-       behave(&Behaviour::ignores_client_abort)},
+       goes_on_after_abort(SdoSide::client)},
       {"client-abort-answered",
        "A client abort is answered with an abort",
        {"SDO-ERR-03", "SDO-SUP-10", "SDO-SDN-19"},
-       behave(&Behaviour::answers_client_abort)},
+       answers_client_aborts()},
       {"unknown-ccs-served",
        "Command specifier 7 is answered like an upload request",
        {"SDO-ERR-01", "SDO-ERR-02"},

@@ -2,7 +2,10 @@
 // Defects of expedited transfers: length, order and completeness of up to four bytes.
 #include <algorithm>
 #include <iterator>
+#include <memory>
+#include <utility>
 
+#include "defects/hooks.hpp"
 #include "defects/sdo_exchanges.hpp"
 #include "defects/tools.hpp"
 
@@ -58,6 +61,22 @@ DictionaryEdit counting_constant(std::uint16_t index, std::uint8_t sub) {
   };
 }
 
+/// What an upload request, not one for a block upload, gets of five to eight bytes.
+Change cuts_long_numbers() {
+  return [](Parts& parts) {
+    const auto asked = std::make_shared<bool>(false);
+    Change(Reading([asked](Parts&, std::vector<Frame>& frames) {
+      for (const Frame& frame : frames) *asked = frame.data[0] >> 5U == 2;
+    }))(parts);
+    parts.device.dictionary.upload.replace([asked](const auto& former, Multiplexer mux) {
+      Upload data = former(mux);
+      if (std::exchange(*asked, false) && data && data->size() <= 8)
+        data->resize(std::min<std::size_t>(data->size(), 4));
+      return data;
+    });
+  };
+}
+
 DefectTable upload_rows() {
   return {
       {"u8-sent-as-u32",
@@ -86,7 +105,7 @@ DefectTable upload_rows() {
       {"u64-truncated-to-expedited",
        "Numbers of five to eight bytes are sent expedited, cut to four",
        {"SDO-UPL-05"},
-       behave(&Behaviour::long_numbers_truncated)},
+       cuts_long_numbers()},
       {"stale-data-returned",
        "An upload returns the data of the upload before it",
        {"OD-GEN-13", "SDO-UPL-06"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -11,11 +12,13 @@ using namespace defect;
 
 namespace {
 
-using Misread = SdoFaults::Misread;
 using Request = std::array<std::uint8_t, 8>;
 
-BehaviourSwitch misread(Misread how) {
-  return [how = std::move(how)](Behaviour& behaviour) { behaviour.sdo.misread = how; };
+/// Changes data frames with an identifier of 11 bits, whatever it is.
+Change misread(std::function<void(Frame&, std::uint8_t node_id)> how) {
+  return misreads([how = std::move(how)](Parts& parts, Frame& frame) {
+    if (is_base_data_frame(frame)) how(frame, parts.device.node_id);
+  });
 }
 
 /// The sub-blocks of a block download: their frames begin with a sequence number, not with a command.
@@ -44,7 +47,7 @@ class SubBlocks {
 };
 
 /// Changes full requests to this node.
-BehaviourSwitch misread_request(std::function<void(Request&)> change) {
+Change misread_request(std::function<void(Request&)> change) {
   return misread(
       [change = std::move(change), sub_blocks = SubBlocks{}](Frame& frame, std::uint8_t node_id) mutable {
         if (frame.id != 0x600U + node_id || frame.size() != 8) return;
@@ -59,7 +62,7 @@ void take_for_abort(Frame& frame, std::uint8_t node_id) {
   frame.data = {0x80};
 }
 /// Frames of other nodes on `base` + node-ID.
-BehaviourSwitch foreign_ends_transfer(std::uint32_t base) {
+Change foreign_ends_transfer(std::uint32_t base) {
   return misread([base](Frame& frame, std::uint8_t node_id) {
     const bool foreign = frame.id > base && frame.id <= base + 0x7FU && frame.id != base + node_id;
     if (foreign) take_for_abort(frame, node_id);
@@ -191,10 +194,7 @@ DefectTable segment_rows() {
        "A client abort does not end the transfer, and while it runs no new one is served",
        {"SDO-SUP-10", "SDO-SDN-19", "SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17", "SDO-BUP-29", "SDO-BUP-17",
         "SDO-BUP-18", "SDO-BDN-19", "SDO-BDN-20"},
-       BehaviourSwitch([](Behaviour& behaviour) {
-         behaviour.ignores_client_abort = true;
-         behaviour.initiate_ignored_while_busy = true;
-       })},
+       together(goes_on_after_abort(SdoSide::client), begins_nothing_while_busy())},
   };
 }
 

@@ -3,10 +3,13 @@
 // transfer.
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "defects/sdo_exchanges.hpp"
+#include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -134,12 +137,53 @@ bool empty_last_segment(const SdoExchange& e) {
   return e.step == SdoStep::download_segment && (e.request[0] & 0x0FU) == 0x0F;
 }
 
+bool any_toggle(const std::function<bool(bool, bool)>&, bool, bool) { return true; }
+
+/// What has come is filled up with zeros or cut off to what was announced or, if nothing was, to what the
+/// entry takes.
+Change stores_as_much_as_fits() {
+  return [](Parts& parts) {
+    const auto most = std::make_shared<std::size_t>(0);
+    SegmentedRules& rules = of_segments(parts);
+    rules.fits.replace([most](const auto& former, std::size_t received, std::size_t limit) {
+      *most = limit;
+      return former(received, limit);
+    });
+    rules.store.replace([most](const auto& former, Multiplexer mux, ByteView data) {
+      Bytes value(data.begin(), data.end());
+      value.resize(*most);
+      return former(mux, value);
+    });
+  };
+}
+
+/// The segments of a download are in the entry as they come.
+Change shows_partial_downloads() {
+  return [](Parts& parts) {
+    ObjectDictionary& od = parts.device.dictionary;
+    parts.device.outbox.add_filter(
+        [&od, data = Bytes{}](const FilterContext& context, std::vector<Outgoing>&) mutable {
+          if (context.sdo == nullptr) return;
+          const SdoExchange& exchange = *context.sdo;
+          if (segmented_download_initiated(exchange)) data.clear();
+          if (exchange.step != SdoStep::download_segment || last_download_segment(exchange)) return;
+          if (exchange.aborted == abort_code::command_unknown ||
+              exchange.aborted == abort_code::toggle_not_alternated)
+            return;
+          const auto count = static_cast<std::ptrdiff_t>(7U - ((exchange.request[0] >> 1U) & 0x07U));
+          data.insert(data.end(), exchange.request.begin() + 1, exchange.request.begin() + 1 + count);
+          if (Entry* entry = od.entry(exchange.index(), exchange.sub()))
+            std::copy_n(data.begin(), std::min(data.size(), entry->value.size()), entry->value.begin());
+        });
+  };
+}
+
 DefectTable upload_rows() {
   return {
       {"toggle-not-checked-upload",
        "The toggle bit of upload segment requests is not checked",
        {"SDO-SUP-05", "SDO-SUP-06"},
-       behave(&Behaviour::upload_toggle_unchecked)},
+       decides(of_segments, &SegmentedRules::upload_toggle_right, any_toggle)},
       {"wrong-abort-toggle",
        "A toggle error is aborted with 0609 0030h instead of 0503 0000h",
        {"SDO-SUP-05", "SDO-SUP-06", "SDO-SDN-04", "SDO-SDN-05"},
@@ -177,7 +221,7 @@ DefectTable upload_rows() {
       {"abort-does-not-close-transfer",
        "After a toggle abort the transfer goes on",
        {"SDO-SUP-07"},
-       behave(&Behaviour::abort_keeps_transfer)},
+       goes_on_after_abort(SdoSide::server)},
       {"segment-served-without-initiate",
        "An upload segment request without transfer gets an empty last segment",
        {"SDO-SUP-08", "SDO-SUP-09"},
@@ -185,15 +229,18 @@ DefectTable upload_rows() {
       {"transfer-not-closed-after-last-segment",
        "After the last upload segment the transfer starts again",
        {"SDO-SUP-09"},
-       behave(&Behaviour::transfer_stays_open_after_last)},
+       decides(of_segments, &SegmentedRules::goes_on_at,
+               [](const auto& former, std::size_t sent, std::size_t size) {
+                 return std::optional(former(sent, size).value_or(0));
+               })},
       {"new-initiate-wedges-server",
        "While a segmented transfer is open no new one is served",
        {"SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17"},
-       behave(&Behaviour::initiate_ignored_while_busy)},
+       begins_nothing_while_busy()},
       {"transfer-survives-reset-comm",
        "A segmented transfer goes on after reset communication",
        {"SDO-SUP-20"},
-       behave(&Behaviour::transfer_survives_reset)},
+       keeps_transfers_in(NmtState::initialising)},
       {"full-last-segment-claims-nothing",
        "A last upload segment of seven bytes says that it holds none",
        {"SDO-SUP-04", "SDO-SUP-02", "SDO-SUP-01"},
@@ -323,10 +370,7 @@ DefectTable upload_rows() {
       {"transfer-blocks-after-stopped",
        "A transfer that was interrupted by Stopped lets no new one begin afterwards",
        {"SDO-SUP-19", "SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17", "SDO-BUP-29"},
-       BehaviourSwitch([](Behaviour& behaviour) {
-         behaviour.sdo.blocked_after_stopped = true;
-         behaviour.initiate_ignored_while_busy = true;
-       })},
+       together(keeps_transfers_in(NmtState::stopped), begins_nothing_while_busy())},
       {"segment-request-bytes-in-the-data",
        "Reserved bytes of a segment request are mixed into the data",
        {"SDO-SUP-14"},
@@ -349,7 +393,7 @@ DefectTable download_rows() {
       {"toggle-not-checked-download",
        "The toggle bit of download segments is not checked",
        {"SDO-SDN-04", "SDO-SDN-05"},
-       behave(&Behaviour::download_toggle_unchecked)},
+       decides(of_segments, &SegmentedRules::download_toggle_right, any_toggle)},
       {"segment-response-toggle-wrong",
        "Download segments are always confirmed with toggle 0",
        {"SDO-SDN-03"},
@@ -369,15 +413,20 @@ DefectTable download_rows() {
       {"segmented-ack-but-not-stored",
        "Segmented downloads are confirmed and forgotten",
        {"SDO-SDN-01", "SDO-SDN-03", "OD-ACC-04"},
-       behave(&Behaviour::segmented_download_not_stored)},
+       decides(of_segments, &SegmentedRules::store,
+               [](const auto&, Multiplexer, ByteView) { return Accepted{}; })},
       {"segmented-size-mismatch-accepted",
        "Fewer bytes than announced are padded with zeros",
        {"SDO-SDN-08"},
-       behave(&Behaviour::segment_shortfall_unchecked)},
+       together(decides(of_segments, &SegmentedRules::complete,
+                        [](const auto&, std::size_t, std::size_t) { return true; }),
+                stores_as_much_as_fits())},
       {"segmented-surplus-accepted",
        "More bytes than announced are taken and cut off",
        {"SDO-SDN-09", "SDO-SDN-10", "SDO-SDN-27"},
-       behave(&Behaviour::segment_overflow_unchecked)},
+       together(decides(of_segments, &SegmentedRules::fits,
+                        [](const auto&, std::size_t, std::size_t) { return true; }),
+                stores_as_much_as_fits())},
       {"abandoned-download-blocks-the-server",
        "A segmented download that is left alone blocks the server",
        {"SDO-SDN-25"},
@@ -385,7 +434,7 @@ DefectTable download_rows() {
       {"partial-download-visible",
        "The segments of an unfinished download can be read already",
        {"SDO-SDN-18"},
-       BehaviourSwitch([](Behaviour& behaviour) { behaviour.sdo.partial_download_visible = true; })},
+       shows_partial_downloads()},
       {"shorter-text-keeps-the-old-tail",
        "Of a text that is replaced by a shorter one the end stays",
        {"SDO-SDN-11", "SDO-SDN-15"},

@@ -8,7 +8,6 @@
 
 #include "can/frame.hpp"
 #include "node/object_faults.hpp"
-#include "sdo/faults.hpp"
 
 namespace refnode {
 
@@ -27,38 +26,7 @@ struct PdoFaults {
   bool mapping_writable_while_valid = false;
 };
 
-/// How additional SDO servers misbehave.
-struct SdoChannelFaults {
-  bool second_cob_id_not_needed = false;  ///< valid with the first COB-ID alone
-  bool transfer_shared = false;           ///< all servers work on one transfer
-};
-
 struct Behaviour {
-  // SDO server
-  bool upload_toggle_unchecked = false;
-  bool download_toggle_unchecked = false;
-  bool ignores_client_abort = false;  ///< the transfer goes on after the client's abort
-  bool answers_client_abort = false;
-  bool abort_keeps_transfer = false;  ///< an abort by the server does not end the transfer
-  bool initiate_ignored_while_busy = false;
-  bool transfer_stays_open_after_last = false;
-  bool segmented_access_unchecked = false;  ///< read-only entries can be written by segmented download
-  bool segment_overflow_unchecked = false;
-  bool segment_shortfall_unchecked = false;
-  bool segmented_download_not_stored = false;
-  bool sdo_served_in_stopped = false;
-  bool sdo_served_before_boot_up = false;
-  bool transfer_survives_reset = false;
-  bool answers_foreign_node_ids = false;  ///< SDO requests to other nodes are served
-  bool answers_broadcast = false;         ///< SDO requests on 600h are served
-  bool answers_on_response_id = false;    ///< requests on 580h + node-ID are served
-  bool short_requests_completed = false;  ///< missing bytes of a request are those of the last one
-  bool long_numbers_truncated = false;    ///< numbers of more than four bytes are sent expedited
-  bool accepts_extended_frames = false;   ///< 29-bit identifiers are taken for 11-bit ones
-  bool accepts_remote_frames = false;     ///< remote frames are taken for data frames
-  SdoFaults sdo;
-
-  SdoChannelFaults sdo_channels;
 
   // NMT slave
   bool nmt_broadcast_ignored = false;
@@ -113,8 +81,6 @@ struct Behaviour {
 
   // Guarding
   bool life_guarding_ignored = false;
-
-  bool dynamic_sdo_stored = false;  ///< also COB-IDs with bit 30 set are kept in non-volatile memory
 
   // PDO
   PdoFaults rpdo;

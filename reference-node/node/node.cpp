@@ -106,7 +106,7 @@ void Node::Impl::take_over(Twin twin) {
 void Node::Impl::reset(Reset kind) {
   device.inbox.clear();
   device.outbox.clear();
-  if (!device.behaviour.transfer_survives_reset) sdo.reset();
+  sdo.on_state_change();
   producer.on_reset();
   consumer.on_reset();
   guarding.on_reset();
@@ -124,7 +124,7 @@ void Node::Impl::boot_up() {
 }
 
 void Node::Impl::change_state(NmtState) {
-  if (!device.works_now(Service::sdo) && !device.behaviour.sdo.blocked_after_stopped) sdo.reset();
+  sdo.on_state_change();
   producer.on_state_change();
   pdos.on_state_change();
   emergency.on_state_change();
@@ -147,15 +147,12 @@ void Node::Impl::dispatch(const Frame& received) {
   Frame frame = received;
   if (device.behaviour.restarts_on && device.behaviour.restarts_on(frame, device.node_id))
     return nmt.start_reset(Reset::node);
-  if (device.behaviour.accepts_extended_frames) frame.extended = false;
-  if (device.behaviour.accepts_remote_frames) frame.remote = false;
   if (frame.extended) return;
   if (frame.remote) {
     if (!guarding.on_remote(frame)) pdos.on_remote(frame);
     return;
   }
 
-  if (device.behaviour.sdo.misread) device.behaviour.sdo.misread(frame, device.node_id);
   if (frame.id == 0x000) return nmt.on_command(frame);
   if (sdo.on_frame(frame)) return;
   if (device.state == NmtState::initialising) return;

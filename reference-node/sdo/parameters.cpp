@@ -34,7 +34,6 @@ std::pair<CobId, CobId> bind_record(Device& device, const CobIdRules& rules, std
     node_id->high = 127;
   }
   const auto dynamic = [&device, index] {
-    if (device.behaviour.dynamic_sdo_stored) return false;
     const std::uint64_t both = device.dictionary.number(index, first_cob_id_sub) |
                                device.dictionary.number(index, second_cob_id_sub);
     return (both & dynamic_bit) != 0;

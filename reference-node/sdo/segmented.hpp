@@ -4,24 +4,26 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 
-#include "device/device.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
+#include "sdo/rules.hpp"
 
 namespace refnode {
 
 class SegmentedUpload {
  public:
-  SegmentedUpload(const SdoChoices& choices, Multiplexer mux, Bytes data)
-      : choices_(&choices), mux_(mux), data_(std::move(data)) {}
+  SegmentedUpload(const SdoChoices& choices, const SegmentedRules& rules, Multiplexer mux, Bytes data)
+      : choices_(&choices), rules_(&rules), mux_(mux), data_(std::move(data)) {}
 
-  [[nodiscard]] SdoReply segment(const SdoData& request, const Device& device);
+  [[nodiscard]] SdoReply segment(const SdoData& request);
   [[nodiscard]] Multiplexer mux() const { return mux_; }
   [[nodiscard]] bool finished() const { return finished_; }
 
  private:
   const SdoChoices* choices_;
+  const SegmentedRules* rules_;
   Multiplexer mux_;
   Bytes data_;
   std::size_t position_ = 0;  ///< next byte to send
@@ -31,17 +33,19 @@ class SegmentedUpload {
 
 class SegmentedDownload {
  public:
-  SegmentedDownload(const SdoChoices& choices, Multiplexer mux, std::optional<std::size_t> announced)
-      : choices_(&choices), mux_(mux), announced_(announced) {}
+  SegmentedDownload(const SdoChoices& choices, const SegmentedRules& rules, Multiplexer mux,
+                    std::optional<std::size_t> announced)
+      : choices_(&choices), rules_(&rules), mux_(mux), announced_(announced) {}
 
-  [[nodiscard]] SdoReply segment(const SdoData& request, Device& device);
+  [[nodiscard]] SdoReply segment(const SdoData& request, const ObjectDictionary& dictionary);
   [[nodiscard]] Multiplexer mux() const { return mux_; }
   [[nodiscard]] bool finished() const { return finished_; }
 
  private:
-  [[nodiscard]] Accepted store(Device& device, std::size_t limit);
+  [[nodiscard]] Accepted store() const;
 
   const SdoChoices* choices_;
+  const SegmentedRules* rules_;
   Multiplexer mux_;
   std::optional<std::size_t> announced_;
   Bytes data_;           ///< received so far; grows with what comes, whatever was announced

@@ -30,21 +30,17 @@ constexpr unsigned size_bit = 0x02;
 
 void SdoServer::on_request(const Frame& frame, std::uint32_t response_id) {
   // SDO frames have eight bytes; anything else is no request.
-  if (frame.size() != 8 && !device_->behaviour.short_requests_completed) return;
-  std::copy_n(frame.data.begin(), frame.size(), last_request_.begin());
+  if (frame.size() != 8) return;
   response_id_ = response_id;
   active_at_ = device_->now;
   SdoExchange exchange;
   exchange.channel = channel_;
-  exchange.request = last_request_;
+  exchange.request = frame.data;
   exchange.mux = mux_of(exchange.request);
   conclude(exchange, serve(exchange));
 }
 
 SdoReply SdoServer::serve(SdoExchange& exchange) {
-  if (device_->state == NmtState::stopped && device_->behaviour.sdo.refuses_in_stopped) {
-    return refuse(abort_code::device_state);
-  }
   const unsigned command = exchange.request[0] >> 5U;
   auto* receiving = std::get_if<BlockDownload>(&transfer_);
   if (receiving != nullptr && receiving->in_sub_block()) {
@@ -56,7 +52,7 @@ SdoReply SdoServer::serve(SdoExchange& exchange) {
       exchange.step = SdoStep::download_segment;
       if (auto* transfer = std::get_if<SegmentedDownload>(&transfer_)) {
         exchange.mux = transfer->mux();
-        return transfer->segment(exchange.request, *device_);
+        return transfer->segment(exchange.request, device_->dictionary);
       }
       return out_of_place(exchange);
     case download_initiate_request: return initiate_download(exchange);
@@ -65,12 +61,11 @@ SdoReply SdoServer::serve(SdoExchange& exchange) {
       exchange.step = SdoStep::upload_segment;
       if (auto* transfer = std::get_if<SegmentedUpload>(&transfer_)) {
         exchange.mux = transfer->mux();
-        return transfer->segment(exchange.request, *device_);
+        return transfer->segment(exchange.request);
       }
       return out_of_place(exchange);
     case abort_transfer:
-      if (!device_->behaviour.ignores_client_abort) reset();
-      if (device_->behaviour.answers_client_abort) return refuse(abort_code::general_error);
+      if (rules_->abort_ends_transfer(SdoSide::client, block_transfer())) reset();
       return std::nullopt;
     case block_upload_request: return block_upload(exchange);
     case block_download_request: return block_download(exchange);
@@ -83,20 +78,22 @@ SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
   return refuse(abort_code::command_unknown);
 }
 
-SdoReply SdoServer::initiate_upload(SdoExchange& exchange) {
-  exchange.step = SdoStep::upload_initiate;
-  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
+std::optional<SdoReply> SdoServer::make_way() {
+  if (!rules_->may_begin(busy())) return SdoReply();
   if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
   reset();
+  return std::nullopt;
+}
+
+SdoReply SdoServer::initiate_upload(SdoExchange& exchange) {
+  exchange.step = SdoStep::upload_initiate;
+  if (const auto reply = make_way()) return *reply;
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return refuse(data.error());
   return upload_response(exchange, std::move(*data));
 }
 
 SdoReply SdoServer::upload_response(SdoExchange& exchange, Bytes data) {
-  if (device_->behaviour.long_numbers_truncated && data.size() <= 8) {
-    data.resize(std::min<std::size_t>(data.size(), 4));
-  }
   const std::size_t size = data.size();
   const bool short_enough = size >= 1 && size <= 4;
   if (short_enough && (choices_->expedited_upload || !choices_->segmented)) {
@@ -108,15 +105,13 @@ SdoReply SdoServer::upload_response(SdoExchange& exchange, Bytes data) {
   if (!choices_->segmented) return refuse(abort_code::unsupported_access);
   auto reply = with_mux(choices_->upload_size_indicated ? 0x41 : 0x40, exchange.mux);
   if (choices_->upload_size_indicated) put_size(reply, size);
-  transfer_ = SegmentedUpload(*choices_, exchange.mux, std::move(data));
+  transfer_ = SegmentedUpload(*choices_, rules_->segmented, exchange.mux, std::move(data));
   return reply;
 }
 
 SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
   exchange.step = SdoStep::download_initiate;
-  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
-  reset();
+  if (const auto reply = make_way()) return *reply;
   const std::uint8_t command = exchange.request[0];
   const bool expedited = (command & 0x02U) != 0;
   const bool sized = (command & 0x01U) != 0;
@@ -138,13 +133,9 @@ SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
   if (!choices_->segmented) return refuse(abort_code::command_unknown);
   std::optional<std::size_t> announced;
   if (sized) announced = size_field(exchange.request);
-  const Accepted granted = device_->dictionary.may_download(exchange.mux, announced);
-  if (!granted) {
-    const bool overlooked =
-        device_->behaviour.segmented_access_unchecked && granted.error() == abort_code::read_only;
-    if (!overlooked) return refuse(granted.error());
-  }
-  transfer_ = SegmentedDownload(*choices_, exchange.mux, announced);
+  const Accepted granted = rules_->segmented.granted(exchange.mux, announced);
+  if (!granted) return refuse(granted.error());
+  transfer_ = SegmentedDownload(*choices_, rules_->segmented, exchange.mux, announced);
   return confirmation;
 }
 
@@ -166,10 +157,8 @@ SdoReply SdoServer::block_upload(SdoExchange& exchange) {
 
 SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   exchange.step = SdoStep::block_upload_initiate;
-  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
+  if (const auto reply = make_way()) return *reply;
   if (!choices_->block) return refuse(abort_code::command_unknown);
-  reset();
   const std::uint8_t block_size = exchange.request[4];
   const std::uint8_t threshold = exchange.request[5];
   Upload data = device_->dictionary.upload(exchange.mux);
@@ -199,10 +188,8 @@ SdoReply SdoServer::block_download(SdoExchange& exchange) {
 
 SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
   exchange.step = SdoStep::block_download_initiate;
-  if (busy() && device_->behaviour.initiate_ignored_while_busy) return std::nullopt;
-  if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
+  if (const auto reply = make_way()) return *reply;
   if (!choices_->block) return refuse(abort_code::command_unknown);
-  reset();
   const std::uint8_t command = exchange.request[0];
   std::optional<std::size_t> announced;
   if ((command & size_bit) != 0) announced = size_field(exchange.request);
@@ -258,7 +245,7 @@ void SdoServer::conclude(SdoExchange& exchange, const SdoReply& reply) {
     if (transfer_finished()) reset();
   } else {
     exchange.aborted = reply.error();
-    if (!device_->behaviour.abort_keeps_transfer) reset();
+    if (rules_->abort_ends_transfer(SdoSide::server, block_transfer())) reset();
     data = with_mux(0x80, exchange.mux);
     conform::store_le(std::span(*data).subspan(4), reply.error().value());
   }
@@ -279,7 +266,6 @@ bool SdoServer::send_segment() {
     return false;
   SdoExchange exchange;
   exchange.channel = channel_;
-  exchange.request = last_request_;
   exchange.step = SdoStep::block_upload_segment;
   exchange.mux = transfer->mux();
   const SdoData frame = transfer->next_segment();

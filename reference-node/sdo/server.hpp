@@ -13,6 +13,7 @@
 #include "sdo/block_upload.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
+#include "sdo/rules.hpp"
 #include "sdo/segment_pacer.hpp"
 #include "sdo/segmented.hpp"
 
@@ -21,8 +22,9 @@ namespace refnode {
 class SdoServer {
  public:
   /// `channel`: 0 is the default server, 1 the one of 1201h and so on.
-  SdoServer(Device& device, const SdoChoices& choices, const BlockRules& block, std::uint8_t channel)
-      : device_(&device), choices_(&choices), block_rules_(&block), channel_(channel) {}
+  SdoServer(Device& device, const SdoChoices& choices, const SdoRules& rules, const BlockRules& block,
+            std::uint8_t channel)
+      : device_(&device), choices_(&choices), rules_(&rules), block_rules_(&block), channel_(channel) {}
 
   /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
   void on_request(const Frame& frame, std::uint32_t response_id);
@@ -53,10 +55,15 @@ class SdoServer {
   [[nodiscard]] SdoReply block_download(SdoExchange& exchange);
   [[nodiscard]] SdoReply initiate_block_download(SdoExchange& exchange);
   [[nodiscard]] SdoReply block_segment(SdoExchange& exchange, BlockDownload& transfer);
+  /// Ends a transfer that is open, so that a new one can begin; otherwise the reply to the request for it.
+  [[nodiscard]] std::optional<SdoReply> make_way();
   /// A request that belongs to no transfer, or to another kind than the one that is running.
   [[nodiscard]] SdoReply out_of_place(SdoExchange& exchange) const;
 
   [[nodiscard]] bool busy() const { return !std::holds_alternative<std::monostate>(transfer_); }
+  [[nodiscard]] bool block_transfer() const {
+    return std::holds_alternative<BlockUpload>(transfer_) || std::holds_alternative<BlockDownload>(transfer_);
+  }
   [[nodiscard]] std::optional<Multiplexer> running_mux() const;
   [[nodiscard]] bool transfer_finished() const;
   void conclude(SdoExchange& exchange, const SdoReply& reply);
@@ -64,13 +71,13 @@ class SdoServer {
 
   Device* device_;
   const SdoChoices* choices_;
+  const SdoRules* rules_;
   const BlockRules* block_rules_;
   std::uint8_t channel_;
   std::uint32_t response_id_ = 0;
   Transfer transfer_;
   BusTime active_at_{};  ///< last frame of the running transfer, in either direction
   SegmentPacer pacer_;
-  SdoData last_request_{};  ///< used by a defect only
 };
 
 }  // namespace refnode

@@ -13,6 +13,7 @@
 #include "sdo/block_rules.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/parameters.hpp"
+#include "sdo/rules.hpp"
 #include "sdo/server.hpp"
 
 namespace refnode {
@@ -24,6 +25,7 @@ class SdoServers {
   SdoServers& operator=(const SdoServers&) = delete;
 
   SdoChoices choices;
+  SdoRules rules;
   BlockRules block_rules;
   CobIdRules cob_id_rules{CobIdUse::sdo_server};
   CobIdRules client_cob_id_rules{CobIdUse::sdo_client};
@@ -42,8 +44,8 @@ class SdoServers {
   /// Segments of block uploads, in turns while several servers send.
   void send_segments();
   [[nodiscard]] std::optional<BusTime> next_wakeup() const;
-  /// Drops all running transfers without a word.
-  void reset();
+  /// Where transfers end they are dropped without a word.
+  void on_state_change();
 
  private:
   struct Additional {
@@ -51,8 +53,6 @@ class SdoServers {
     SdoServer server;
   };
 
-  [[nodiscard]] bool served_now() const;
-  [[nodiscard]] bool is_default_request(std::uint32_t id) const;
   void serve(const Frame& frame, SdoServer& server, std::uint32_t response_id);
 
   Device* device_;
@@ -60,7 +60,6 @@ class SdoServers {
   std::deque<Additional> additional_;
   std::vector<SdoServer*> servers_;  ///< all of them, by index of their parameters
   std::size_t turn_ = 0;             ///< who may send the next segment
-  std::optional<Frame> held_;        ///< used by a defect only
 };
 
 }  // namespace refnode
