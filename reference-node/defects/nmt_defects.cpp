@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the NMT slave, of boot-up and of what a reset does.
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -8,6 +13,76 @@ namespace refnode {
 using namespace defect;
 
 namespace {
+
+constexpr std::uint8_t start = 0x01;
+constexpr std::uint8_t stop = 0x02;
+constexpr std::uint8_t pre_operational = 0x80;
+constexpr std::uint8_t reset_node = 0x81;
+constexpr std::uint8_t reset_communication = 0x82;
+
+Frame command_to(const Parts& parts, std::uint8_t command) {
+  return conform::can::data_frame(conform::CanId(0x000), {command, parts.device.node_id});
+}
+
+bool is_command(const Frame& frame) { return frame.id == 0x000 && !frame.extended && !frame.remote; }
+bool is_command(const Frame& frame, std::uint8_t command) {
+  return is_command(frame) && frame.size() != 0 && frame.data[0] == command;
+}
+
+/// The command has no effect.
+Change ignores(std::uint8_t command) {
+  return deaf_to([command](Parts&, const Frame& frame) { return is_command(frame, command); });
+}
+/// The command has no effect in this state.
+Change ignores(std::uint8_t command, NmtState state) {
+  return deaf_to([=](Parts& parts, const Frame& frame) {
+    return parts.device.state == state && is_command(frame, command);
+  });
+}
+
+/// What comes on CAN-ID 000h is taken for something else.
+Change misreads_commands(std::function<void(Parts&, Frame&)> change) {
+  return misreads([change = std::move(change)](Parts& parts, Frame& frame) {
+    if (is_command(frame)) change(parts, frame);
+  });
+}
+
+/// A frame for which `when` holds acts like reset node.
+Change restarts_on(std::function<bool(const Frame&, std::uint8_t node_id)> when) {
+  return misreads([when = std::move(when)](Parts& parts, Frame& frame) {
+    if (when(frame, parts.device.node_id)) frame = command_to(parts, reset_node);
+  });
+}
+
+/// As if somebody reset the node that long after its boot-up.
+Change restarts_after(Duration running) {
+  return [running](Parts& parts) {
+    parts.device.outbox.add_filter([&parts, running](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.service == Service::boot_up)
+        parts.device.inbox.put(command_to(parts, reset_node), context.now + running);
+    });
+  };
+}
+
+/// The start-up that such a reset begins has no end; only another reset gets the node out of it.
+void hangs_when_reset_during_start_up(Parts& parts) {
+  parts.nmt.rules.start_up_time.replace([&parts](const auto& former, Reset reset) -> Duration {
+    constexpr Duration without_end = std::chrono::hours(24);
+    const auto due = parts.nmt.boot_up_due();
+    const bool hangs = due && *due > parts.device.now + without_end / 2;
+    return due && !hangs ? without_end : former(reset);
+  });
+}
+
+void boots_up_on_pre_operational(Parts& parts) {
+  parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
+    if (parts.device.state == NmtState::pre_operational) {
+      parts.device.send(Service::boot_up,
+                        conform::can::data_frame(conform::CanId(0x700U + parts.device.node_id), {0x00}));
+    }
+    former(from);
+  };
+}
 
 PowerOnRules& of_power_on(Parts& parts) { return parts.store.rules; }
 
@@ -19,14 +94,9 @@ Change reset_loads(bool (*loads)(bool right, Group group, bool whole_node)) {
                  });
 }
 
-BehaviourSwitch restarts_on(std::function<bool(const Frame&, std::uint8_t node_id)> frame) {
-  return [frame = std::move(frame)](Behaviour& behaviour) { behaviour.restarts_on = frame; };
-}
-
 }  // namespace
 
 DefectTable nmt_defects() {
-  using B = Behaviour;
   return {
       {"no-bootup",
        "There is no boot-up message",
@@ -49,19 +119,19 @@ DefectTable nmt_defects() {
       {"bootup-on-preop-transition",
        "Entering Pre-operational sends a boot-up message",
        {"NMT-BOOT-06", "NMT-FSA-03", "NMT-FSA-06"},
-       behave(&B::boot_up_on_pre_operational)},
+       Change(boots_up_on_pre_operational)},
       {"starts-in-operational",
        "The node enters Operational by itself after boot-up",
        {"NMT-BOOT-07"},
-       behave(&B::starts_in_operational)},
+       Change([](Parts& parts) { parts.nmt.choices.self_starting = true; })},
       {"reset-during-init-hangs",
        "A reset command during start-up ends the start-up for good",
        {"NMT-BOOT-09"},
-       behave(&B::reset_during_start_up_hangs)},
+       Change(hangs_when_reset_during_start_up)},
       {"restarts-by-itself",
        "The node restarts every 20 s",
        {"NMT-BOOT-10"},
-       behave(&B::restarts_after_ms, 20'000)},
+       restarts_after(std::chrono::seconds(20))},
       {"restarts-on-short-request",
        "An SDO request of five bytes makes the node restart",
        {"NMT-BOOT-10", "SDO-ERR-06"},
@@ -81,38 +151,35 @@ DefectTable nmt_defects() {
          return frame.id == 0x600U + node_id && frame.size() == 8 && frame.data[0] == 0x40 &&
                 frame.data[1] == 0x09 && frame.data[2] == 0x10;
        })},
-      {"nmt-start-ignored",
-       "Start remote node has no effect",
-       {"NMT-FSA-01", "NMT-FSA-05"},
-       behave(&B::nmt_start_ignored)},
+      {"nmt-start-ignored", "Start remote node has no effect", {"NMT-FSA-01", "NMT-FSA-05"}, ignores(start)},
       {"nmt-start-ignored-in-stopped",
        "Start remote node has no effect in Stopped",
        {"NMT-FSA-05"},
-       behave(&B::nmt_start_ignored_in_stopped)},
+       ignores(start, NmtState::stopped)},
       {"nmt-stop-ignored-in-preop",
        "Stop remote node has no effect in Pre-operational",
        {"NMT-FSA-02"},
-       behave(&B::nmt_stop_ignored_in_pre_operational)},
+       ignores(stop, NmtState::pre_operational)},
       {"nmt-stop-ignored-in-operational",
        "Stop remote node has no effect in Operational",
        {"NMT-FSA-04"},
-       behave(&B::nmt_stop_ignored_in_operational)},
+       ignores(stop, NmtState::operational)},
       {"nmt-preop-ignored-in-operational",
        "Enter pre-operational has no effect in Operational",
        {"NMT-FSA-03"},
-       behave(&B::nmt_pre_operational_ignored)},
+       ignores(pre_operational, NmtState::operational)},
       {"nmt-reset-ignored-in-stopped",
        "Reset commands have no effect in Stopped",
        {"NMT-FSA-11", "NMT-FSA-12"},
-       behave(&B::nmt_reset_ignored_in_stopped)},
+       together(ignores(reset_node, NmtState::stopped), ignores(reset_communication, NmtState::stopped))},
       {"nmt-reset-ignored-in-preop",
        "Reset commands have no effect in Pre-operational",
        {"NMT-FSA-07", "NMT-FSA-08", "NMT-BOOT-02", "NMT-BOOT-03", "OD-RST-07"},
-       behave(&B::nmt_reset_ignored_in_pre_operational)},
+       ignores(reset_node, NmtState::pre_operational)},
       {"nmt-reset-ignored-in-operational",
        "Reset commands have no effect in Operational",
        {"NMT-FSA-09", "NMT-FSA-10"},
-       behave(&B::nmt_reset_ignored_in_operational)},
+       ignores(reset_node, NmtState::operational)},
       {"slave-sends-nmt",
        "The node starts node 127 after its boot-up message",
        {"NMT-SVC-05"},
@@ -123,31 +190,47 @@ DefectTable nmt_defects() {
       {"nmt-self-transition-resets",
        "Enter pre-operational resets a node that is there already",
        {"NMT-FSA-13"},
-       behave(&B::nmt_pre_operational_resets)},
+       misreads_commands([](Parts& parts, Frame& frame) {
+         if (parts.device.state == NmtState::pre_operational && is_command(frame, pre_operational))
+           frame.data[0] = reset_communication;
+       })},
       {"nmt-broadcast-ignored",
        "Commands to node-ID 0 are ignored",
        {"NMT-FSA-14"},
-       behave(&B::nmt_broadcast_ignored)},
+       deaf_to([](Parts&, const Frame& frame) {
+         return is_command(frame) && frame.size() == 2 && frame.data[1] == 0;
+       })},
       {"nmt-node-id-not-checked",
        "Commands to any node are obeyed",
        {"NMT-FSA-15"},
-       behave(&B::nmt_node_id_unchecked)},
+       misreads_commands([](Parts& parts, Frame& frame) {
+         if (frame.size() == 2) frame.data[1] = parts.device.node_id;
+       })},
       {"nmt-node-id-bit7-masked",
        "Bit 7 of the node-ID of a command is not looked at",
        {"NMT-FSA-15"},
-       behave(&B::nmt_node_id_masked)},
+       misreads_commands([](Parts& parts, Frame& frame) {
+         if ((frame.data[1] & 0x7FU) == parts.device.node_id) frame.data[1] = parts.device.node_id;
+       })},
       {"nmt-unknown-command-acts",
        "Unknown commands stop the node",
        {"NMT-FSA-16"},
-       behave(&B::nmt_unknown_command_stops)},
+       misreads_commands([](Parts&, Frame& frame) {
+         constexpr std::uint8_t known[] = {start, stop, pre_operational, reset_node, reset_communication};
+         if (std::ranges::find(known, frame.data[0]) == std::end(known)) frame.data[0] = stop;
+       })},
       {"nmt-short-frame-accepted",
        "Commands without node-ID are obeyed",
        {"NMT-FSA-17"},
-       behave(&B::nmt_short_frame_accepted)},
+       misreads_commands([](Parts& parts, Frame& frame) {
+         if (frame.size() == 1) frame = command_to(parts, frame.data[0]);
+       })},
       {"nmt-long-frame-accepted",
        "Commands of more than two bytes are obeyed, whatever the node-ID",
        {"NMT-FSA-18"},
-       behave(&B::nmt_long_frame_accepted)},
+       misreads_commands([](Parts& parts, Frame& frame) {
+         if (frame.size() > 2) frame = command_to(parts, frame.data[0]);
+       })},
       {"reset-communication-keeps-values",
        "Reset communication keeps the communication parameters",
        {"OD-RST-01", "NMT-FSA-24", "EC-HBP-13", "OD-1014-10", "PDO-MAP-21", "NMT-FSA-29"},

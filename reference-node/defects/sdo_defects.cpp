@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "defects/hooks.hpp"
 #include "defects/sdo_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"

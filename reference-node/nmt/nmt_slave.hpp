@@ -2,6 +2,7 @@
 // NMT slave (CiA 301, 7.3.2): commands on CAN-ID 000h, the state machine and the boot-up message.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -14,9 +15,27 @@ namespace refnode {
 
 enum class Reset : std::uint8_t { node, communication };
 
+/// CiA 301 gives no times. A device that starts by itself says so in its 1F80h (CiA 302-2).
+struct NmtChoices {
+  Duration node_start_up = std::chrono::milliseconds(20);
+  Duration communication_start_up = std::chrono::milliseconds(5);
+  Duration latency{};          ///< from start, stop or enter pre-operational to the new state
+  bool self_starting = false;  ///< goes on into Operational after boot-up
+};
+
+struct NmtRules {
+  /// From a reset to the boot-up message.
+  Rule<Duration(Reset)> start_up_time;
+};
+
 class NmtSlave {
  public:
-  explicit NmtSlave(Device& device) : device_(&device) {}
+  explicit NmtSlave(Device& device);
+  NmtSlave(const NmtSlave&) = delete;
+  NmtSlave& operator=(const NmtSlave&) = delete;
+
+  NmtChoices choices;
+  NmtRules rules;
 
   std::function<void(Reset)> on_reset;           ///< load power-on values, forget the past
   std::function<void()> on_boot_up;              ///< Pre-operational reached, boot-up message sent
@@ -27,16 +46,17 @@ class NmtSlave {
   void start_reset(Reset reset);
   void enter(NmtState state);
   void on_time();
+  /// While the node starts up: when that ends.
+  [[nodiscard]] std::optional<BusTime> boot_up_due() const { return boot_up_due_; }
   [[nodiscard]] std::optional<BusTime> next_wakeup() const;
 
  private:
   [[nodiscard]] bool addressed(const Frame& frame) const;
-  [[nodiscard]] bool obeys_reset() const;
   /// Start, stop and enter pre-operational.
   void obey(std::uint8_t command);
 
   Device* device_;
-  std::optional<BusTime> boot_due_, restart_due_;
+  std::optional<BusTime> boot_up_due_;
   std::deque<std::pair<BusTime, std::uint8_t>> commands_;  ///< taken, and when each takes effect
 };
 

@@ -4,9 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
-#include "can/frame.hpp"
 #include "node/object_faults.hpp"
 
 namespace refnode {
@@ -27,29 +25,6 @@ struct PdoFaults {
 };
 
 struct Behaviour {
-
-  // NMT slave
-  bool nmt_broadcast_ignored = false;
-  bool nmt_node_id_unchecked = false;
-  bool nmt_node_id_masked = false;  ///< bit 7 of the node-ID is not looked at
-  bool nmt_short_frame_accepted = false;
-  bool nmt_long_frame_accepted = false;
-  bool nmt_start_ignored = false;
-  bool nmt_start_ignored_in_stopped = false;
-  bool nmt_stop_ignored_in_pre_operational = false;
-  bool nmt_stop_ignored_in_operational = false;
-  bool nmt_pre_operational_ignored = false;
-  bool nmt_pre_operational_resets = false;
-  bool nmt_reset_ignored_in_stopped = false;
-  bool nmt_reset_ignored_in_pre_operational = false;
-  bool nmt_reset_ignored_in_operational = false;
-  bool nmt_unknown_command_stops = false;
-  bool reset_during_start_up_hangs = false;
-  bool boot_up_on_pre_operational = false;
-  int restarts_after_ms = 0;  ///< of running; 0: the node goes on
-  std::function<bool(const conform::can::Frame&, std::uint8_t node_id)>
-      restarts_on;  ///< frames it falls over
-  bool starts_in_operational = false;
 
   // Heartbeat producer
   int heartbeat_period_factor = 1;

@@ -36,11 +36,6 @@ struct PdoChoices {
 enum class BootUpOfProducer : std::uint8_t { heartbeat, new_start, loss };
 
 struct Choices {
-  // NMT, error control
-  int node_start_up_ms = 20;
-  int communication_start_up_ms = 5;
-  bool self_starting = false;              ///< Operational after boot-up (CiA 302, 1F80h)
-  int nmt_latency_ms = 0;                  ///< from start, stop or enter pre-operational to the new state
   bool heartbeat_at_state_change = false;  ///< one more, while 1017h is not 0
   bool heartbeat_at_once = false;          ///< the first right after 1017h was written, and after boot-up
   int heartbeat_jitter_percent = 0;        ///< late and early by turns

@@ -145,8 +145,6 @@ void Node::Impl::run_timers() {
 
 void Node::Impl::dispatch(const Frame& received) {
   Frame frame = received;
-  if (device.behaviour.restarts_on && device.behaviour.restarts_on(frame, device.node_id))
-    return nmt.start_reset(Reset::node);
   if (frame.extended) return;
   if (frame.remote) {
     if (!guarding.on_remote(frame)) pdos.on_remote(frame);
