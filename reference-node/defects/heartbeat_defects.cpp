@@ -1,54 +1,179 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the heartbeat producer (1017h) and consumer (1016h).
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
 
 using namespace defect;
 
+namespace {
+
+using Written = std::function<void()>;
+
+HeartbeatProducerRules& of_producer(Parts& parts) { return parts.producer.rules; }
+HeartbeatConsumerRules& of_consumer(Parts& parts) { return parts.consumer.rules; }
+ErrorBehaviourRules& of_error_behaviour(Parts& parts) { return parts.error_behaviour.rules; }
+
+/// A time is that many times as long as the rule says.
+template <typename Rules>
+Change times(int factor, Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule) {
+  return decides(part, rule,
+                 [factor](const auto& former, std::int64_t value) { return former(value) * factor; });
+}
+
+/// Until 1017h is written there is no heartbeat.
+void starts_with_write_only(Parts& parts) {
+  const auto written = std::make_shared<bool>(false);
+  after_writing(0x1017, 0, [written](Parts&, const Written& former) {
+    *written = true;
+    former();
+  })(parts);
+  parts.device.outbox.add_filter([written](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) *written = false;
+    if (context.service == Service::heartbeat && !*written) frames.clear();
+  });
+}
+
+Change ends_after(Duration running) {
+  return [running](Parts& parts) {
+    const auto end = std::make_shared<std::optional<BusTime>>();
+    after_writing(0x1017, 0, [end, running](Parts& node, const Written& former) {
+      if (node.device.dictionary.number(0x1017, 0) != 0) *end = node.device.now + running;
+      former();
+    })(parts);
+    parts.device.outbox.add_filter([end](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service == Service::heartbeat && *end && context.now >= **end) frames.clear();
+    });
+  };
+}
+
+void shows_every_state_while_off(Parts& parts) {
+  parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
+    Device& device = parts.device;
+    if (device.dictionary.number(0x1017, 0) == 0) {
+      device.send(Service::heartbeat, conform::can::data_frame(conform::CanId(0x700U + device.node_id),
+                                                               {static_cast<std::uint8_t>(device.state)}));
+    }
+    former(from);
+  };
+}
+
+Filter toggles_bit7() {
+  return [toggle = false](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+    if (context.service != Service::heartbeat) return;
+    for (Outgoing& outgoing : frames) {
+      if (std::exchange(toggle, !toggle)) outgoing.frame.data[0] |= 0x80U;
+    }
+  };
+}
+
+bool is_heartbeat(const Frame& frame) {
+  return frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1 && !frame.extended && !frame.remote;
+}
+std::uint8_t producer_of(const Frame& frame) { return static_cast<std::uint8_t>(frame.id - 0x700U); }
+
+/// The node that 1016h:`sub` names, if it is monitored.
+std::optional<std::uint8_t> node_at(Parts& parts, std::uint8_t sub) {
+  const std::uint64_t entry = parts.device.dictionary.number(0x1016, sub);
+  return parts.consumer.rules.used(entry) ? std::optional(monitored_node(entry)) : std::nullopt;
+}
+std::uint64_t consumer_entries(const Parts& parts) { return parts.device.dictionary.number(0x1016, 0); }
+
+/// The decision on another value in place of the one that is written.
+Change checks_instead(std::uint64_t (*other)(std::uint64_t entry)) {
+  return checking_all(0x1016, [other](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    return former(conform::to_le(other(conform::load_le(bytes)), bytes.size()));
+  });
+}
+
+bool runs(Parts& parts, const Frame& heartbeat) {
+  for (std::uint8_t sub = 1; sub <= consumer_entries(parts); ++sub) {
+    if (node_at(parts, sub) == producer_of(heartbeat) && parts.consumer.due(sub)) return true;
+  }
+  return false;
+}
+
+/// One heartbeat is one of each monitored node.
+void feeds_all(Parts& parts, std::vector<Frame>& frames) {
+  const std::vector<Frame> received = frames;
+  for (Frame frame : received) {
+    if (!is_heartbeat(frame)) continue;
+    const std::uint8_t producer = producer_of(frame);
+    for (std::uint8_t sub = 1; sub <= consumer_entries(parts); ++sub) {
+      const auto node = node_at(parts, sub);
+      if (!node || *node == producer) continue;
+      frame.id = 0x700U + *node;
+      frames.push_back(frame);
+    }
+  }
+}
+
+/// Only a write of 1016h ends the error.
+void never_resolves(Parts& parts) {
+  const auto writing = std::make_shared<bool>(false);
+  after_writing_all(0x1016, [writing](Parts&, const Written& former, std::uint8_t) {
+    *writing = true;
+    former();
+    *writing = false;
+  })(parts);
+  parts.device.errors.clear.replace([writing](const auto& former, const ErrorCause& cause) {
+    if (cause.source != ErrorSource::heartbeat || *writing) former(cause);
+  });
+}
+
+}  // namespace
+
 DefectTable heartbeat_defects() {
-  using B = Behaviour;
   return {
       {"1017-period-wrong",
        "The heartbeat comes at half the rate of 1017h",
        {"OD-1017-05", "EC-HBP-01"},
-       behave(&B::heartbeat_period_factor, 2)},
+       times(2, of_producer, &HeartbeatProducerRules::period)},
       {"1017-period-in-10ms-units",
        "1017h counts in units of 10 ms",
        {"EC-HBP-01", "OD-1017-05", "EC-HBP-02", "OD-1017-07"},
-       behave(&B::heartbeat_period_factor, 10)},
+       times(10, of_producer, &HeartbeatProducerRules::period)},
       {"1017-change-needs-reset",
        "A change of 1017h takes effect with the next reset only",
        {"OD-1017-05", "OD-1017-07", "EC-HBP-02", "EC-HBP-03"},
-       behave(&B::heartbeat_starts_only_after_reset)},
+       after_writing(0x1017, 0, [](Parts&, const Written&) {})},
       {"1017-zero-does-not-stop",
        "Writing 0 to 1017h does not stop the heartbeat",
        {"OD-1017-06", "EC-HBP-04"},
-       behave(&B::heartbeat_zero_does_not_stop)},
+       after_writing(0x1017, 0,
+                     [](Parts& parts, const Written& former) {
+                       if (parts.device.dictionary.number(0x1017, 0) != 0) former();
+                     })},
       {"1017-stored-value-not-started",
        "A stored heartbeat time is not used after boot-up",
        {"OD-1017-08", "EC-HBP-05"},
-       behave(&B::heartbeat_not_started_at_boot)},
+       Change(starts_with_write_only)},
       {"heartbeat-ends-after-6s",
        "The heartbeat ends 6 s after it was switched on",
        {"EC-HBP-01", "OD-1017-05"},
-       behave(&B::heartbeat_ends_after_ms, 6000)},
+       ends_after(std::chrono::seconds(6))},
       {"heartbeat-on-state-change-when-off",
        "State changes send a heartbeat although 1017h is 0",
        {"EC-HBP-04"},
-       behave(&B::heartbeat_on_state_change_when_off)},
+       Change(shows_every_state_while_off)},
       {"heartbeat-stops-in-stopped",
        "There is no heartbeat in Stopped",
        {"NMT-SVC-04", "EC-HBP-06"},
-       behave(&B::heartbeat_stops_in_stopped)},
+       mute(Service::heartbeat, NmtState::stopped)},
       {"heartbeat-state-stale",
        "The heartbeat always shows Pre-operational",
        {"EC-HBP-06", "NMT-SVC-04", "NMT-FSA-01", "NMT-FSA-02"},
-       behave(&B::heartbeat_state_stale)},
+       reshape(Service::heartbeat, [](const FilterContext&, Frame& frame) { frame.data[0] = 0x7F; })},
       {"heartbeat-with-toggle-bit",
        "Bit 7 of the heartbeat toggles",
        {"EC-HBP-07", "OD-1017-05"},
-       behave(&B::heartbeat_with_toggle_bit)},
+       toggles_bit7()},
       {"heartbeat-dlc-wrong",
        "Heartbeats have two bytes",
        {"EC-HBP-08", "OD-1017-05"},
@@ -60,7 +185,12 @@ DefectTable heartbeat_defects() {
       {"1016-duplicate-accepted",
        "Two entries of 1016h for the same node are accepted",
        {"OD-1016-06", "EC-HBC-05"},
-       behave(&B::consumer_accepts_duplicate)},
+       checking_all(0x1016,
+                    [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
+                      const Accepted allowed = former(bytes);
+                      return allowed || allowed.error() != parts.consumer.choices.duplicate ? allowed
+                                                                                            : Accepted{};
+                    })},
       {"1016-duplicate-wrong-abort",
        "A duplicate node in 1016h is aborted with 0609 0030h instead of 0604 0043h",
        {"OD-1016-06", "EC-HBC-05"},
@@ -68,55 +198,79 @@ DefectTable heartbeat_defects() {
       {"1016-zero-time-duplicate-refused",
        "A second entry of 1016h with time 0 is refused as a duplicate",
        {"OD-1016-07"},
-       behave(&B::consumer_zero_time_is_duplicate)},
+       checks_instead([](std::uint64_t entry) { return monitored_time(entry) == 0 ? entry | 1U : entry; })},
       {"1016-own-entry-counts-as-duplicate",
        "Rewriting an entry of 1016h is refused as a duplicate of itself",
        {"OD-1016-08"},
-       behave(&B::consumer_own_entry_is_duplicate)},
+       checking_all(0x1016,
+                    [](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) -> Accepted {
+                      const std::uint64_t wanted = conform::load_le(bytes);
+                      const Accepted allowed = former(bytes);
+                      if (!allowed || !parts.consumer.rules.used(wanted)) return allowed;
+                      if (node_at(parts, sub) == monitored_node(wanted))
+                        return refuse(abort_code::parameter_incompatible);
+                      return {};
+                    })},
       {"1016-reserved-bits-writable",
        "Bits 31-24 of 1016h can be set",
        {"OD-1016-12"},
-       behave(&B::consumer_accepts_reserved_bits)},
+       checks_instead([](std::uint64_t entry) { return entry & 0x00FFFFFFU; })},
       {"1016-monitors-before-first-heartbeat",
        "Monitoring starts with the configuration",
        {"OD-1016-10", "EC-HBC-02"},
-       behave(&B::consumer_starts_without_heartbeat)},
+       after_writing_all(0x1016,
+                         [](Parts& parts, const Written& former, std::uint8_t sub) {
+                           former();
+                           if (const auto node = node_at(parts, sub))
+                             parts.consumer.on_heartbeat(*node, 0x7F);
+                         })},
       {"1016-timeout-not-detected",
        "A missing heartbeat is not noticed",
        {"OD-1016-11", "EC-HBC-03"},
-       behave(&B::consumer_loss_not_detected)},
+       deaf_to([](Parts&, const Frame& frame) { return is_heartbeat(frame); })},
       {"1016-unit-wrong",
        "1016h counts in units of 10 ms",
        {"OD-1016-11", "EC-HBC-03"},
-       behave(&B::consumer_time_factor, 10)},
+       times(10, of_consumer, &HeartbeatConsumerRules::time)},
       {"hbc-timeout-wrong-code",
        "A missing heartbeat is reported as generic error 1000h",
        {"EC-HBC-03"},
-       behave(&B::consumer_wrong_code)},
+       Change([](Parts& parts) {
+         parts.device.errors.raise.replace([](const auto& former, ErrorCause cause, std::uint8_t detail) {
+           if (cause.source == ErrorSource::heartbeat) cause.code = 0x1000;
+           former(cause, detail);
+         });
+       })},
       {"hbc-timer-not-restarted",
        "The consumer time runs from the first heartbeat, whatever follows",
        {"EC-HBC-04", "OD-1016-11"},
-       behave(&B::consumer_timer_not_restarted)},
+       deaf_to([](Parts& parts, const Frame& frame) { return is_heartbeat(frame) && runs(parts, frame); })},
       {"hbc-only-first-entry-works",
        "Only 1016h:01 is monitored",
        {"EC-HBC-13"},
-       behave(&B::consumer_only_first_entry)},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return is_heartbeat(frame) && node_at(parts, 1) != producer_of(frame);
+       })},
       {"1016-unused-entry-monitors",
        "An entry of 1016h with time 0 is monitored",
        {"OD-1016-09", "EC-HBC-06", "OD-1016-07"},
-       behave(&B::consumer_zero_time_monitored)},
+       decides(of_consumer, &HeartbeatConsumerRules::used,
+               [](const auto& former, std::uint64_t entry) {
+                 return former(entry) || monitored_node(entry) != 0;
+               })},
       {"hbc-error-never-resolved",
        "Returning heartbeats do not end the error",
        {"EC-HBC-07", "OD-1001-06", "EMCY-SEQ-02"},
-       behave(&B::consumer_error_never_resolved)},
+       Change(never_resolves)},
       {"hbc-node-id-not-checked",
        "Heartbeats of any node feed the monitoring",
        {"EC-HBC-09"},
-       behave(&B::consumer_node_id_unchecked)},
+       Reading(feeds_all)},
       {"error-behavior-default-wrong",
        "A heartbeat loss does not end Operational",
        {"EC-HBC-08"},
-       behave(&B::consumer_loss_keeps_operational)},
+       decides(of_error_behaviour, &ErrorBehaviourRules::next_state,
+               [](const auto&, std::uint64_t, NmtState present) { return present; })},
   };
 }
 

@@ -18,6 +18,14 @@ void put_read(Parts& parts, Entry& entry, std::function<Upload(Parts&, const Rea
           [&parts, former = std::move(former), read = std::move(read)] { return read(parts, former); });
 }
 
+void put_written(Parts& parts, Entry& entry,
+                 std::function<void(Parts&, const std::function<void()>&)> written) {
+  std::function<void()> former = entry.written ? entry.written : [] {};
+  entry.written = [&parts, former = std::move(former), written = std::move(written)] {
+    written(parts, former);
+  };
+}
+
 template <typename Do>
 void for_all(Parts& parts, std::uint16_t index, Do what) {
   const auto object = parts.device.dictionary.objects().find(index);
@@ -65,10 +73,18 @@ Change reading_all(std::uint16_t index, std::function<Upload(Parts&, const Read&
 Change after_writing(std::uint16_t index, std::uint8_t sub,
                      std::function<void(Parts&, const std::function<void()>&)> written) {
   return [=](Parts& parts) {
-    Entry* entry = parts.device.dictionary.entry(index, sub);
-    if (entry == nullptr) return;
-    std::function<void()> former = entry->written ? entry->written : [] {};
-    entry->written = [&parts, former = std::move(former), written] { written(parts, former); };
+    if (Entry* entry = parts.device.dictionary.entry(index, sub)) put_written(parts, *entry, written);
+  };
+}
+
+Change after_writing_all(std::uint16_t index,
+                         std::function<void(Parts&, const std::function<void()>&, std::uint8_t)> written) {
+  return [=](Parts& parts) {
+    for_all(parts, index, [&](std::uint8_t sub, Entry& entry) {
+      put_written(parts, entry, [written, sub](Parts& node, const std::function<void()>& former) {
+        written(node, former, sub);
+      });
+    });
   };
 }
 

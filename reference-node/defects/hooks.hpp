@@ -30,6 +30,10 @@ using Read = std::function<Upload()>;
 /// `written(parts, former)` follows a write.
 [[nodiscard]] Change after_writing(std::uint16_t index, std::uint8_t sub,
                                    std::function<void(Parts&, const std::function<void()>& former)> written);
+/// The same for every sub-index of an object from 01h on; the sub-index is given.
+[[nodiscard]] Change after_writing_all(
+    std::uint16_t index,
+    std::function<void(Parts&, const std::function<void()>& former, std::uint8_t sub)> written);
 
 /// A write that `when` holds for is confirmed without a look at it.
 [[nodiscard]] Change confirms(std::uint16_t index, std::uint8_t sub, bool (*when)(std::uint64_t value));

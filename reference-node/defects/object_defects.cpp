@@ -11,7 +11,6 @@ using namespace defect;
 
 namespace {
 
-using B = Behaviour;
 constexpr DataType u16 = DataType::unsigned16;
 constexpr DataType u32 = DataType::unsigned32;
 
@@ -25,8 +24,18 @@ DictionaryEdit without_limits(std::uint16_t index, std::uint8_t sub) {
   };
 }
 
+/// After a communication error the node is in `wrong` where 1029h:01 is `class_value` and it was in
+/// `present`.
+Change reacts(std::uint64_t class_value, NmtState present, NmtState wrong) {
+  return [=](Parts& parts) {
+    parts.error_behaviour.rules.next_state.replace(
+        [=](const auto& former, std::uint64_t value, NmtState state) {
+          return value == class_value && state == present ? wrong : former(value, state);
+        });
+  };
+}
+
 DefectTable error_behaviour_rows() {
-  using E = ErrorBehaviourFaults;
   return {
       {"1029-sub0-out-of-range", "1029h:00 is 00h", {"OD-1029-01", "OD-GEN-11"}, preset(0x1029, 0, 0)},
       {"1029-sub0-is-u32",
@@ -65,19 +74,24 @@ DefectTable error_behaviour_rows() {
       {"1029-0-goes-to-stopped",
        "With 1029h:01 = 00h a communication error stops the node",
        {"EC-EB-01", "OD-1029-07", "EC-HBC-08", "OD-1029-10"},
-       behave(&B::error_behaviour, &E::zero_stops)},
+       reacts(0, NmtState::operational, NmtState::stopped)},
       {"1029-0-acts-in-stopped",
        "With 1029h:01 = 00h a communication error takes the node from Stopped to Pre-operational",
        {"EC-EB-05", "OD-1029-11"},
-       behave(&B::error_behaviour, &E::zero_acts_in_stopped)},
+       reacts(0, NmtState::stopped, NmtState::pre_operational)},
       {"1029-1-changes-state",
        "With 1029h:01 = 01h a communication error ends Operational",
        {"EC-EB-02", "OD-1029-08"},
-       behave(&B::error_behaviour, &E::one_leaves_operational)},
+       reacts(1, NmtState::operational, NmtState::pre_operational)},
       {"1029-2-not-stopped",
        "With 1029h:01 = 02h a communication error changes nothing",
        {"EC-EB-03", "OD-1029-09"},
-       behave(&B::error_behaviour, &E::two_ignored)},
+       Change([](Parts& parts) {
+         parts.error_behaviour.rules.next_state.replace(
+             [](const auto& former, std::uint64_t value, NmtState present) {
+               return value == 2 ? present : former(value, present);
+             });
+       })},
   };
 }
 

@@ -92,7 +92,7 @@ DefectTable guarding_rows() {
       {"1029-ignores-life-guarding",
        "Guarding that stays away is not noticed",
        {"OD-1029-10", "EC-NG-07"},
-       behave(&B::life_guarding_ignored)},
+       together(unnoticed(ErrorSource::guarding), [](Parts& parts) { parts.guarding.on_loss = nullptr; })},
   };
 }
 

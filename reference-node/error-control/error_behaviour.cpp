@@ -5,11 +5,19 @@ namespace refnode {
 
 namespace {
 
-constexpr std::uint64_t to_pre_operational = 0;  // from Operational only
+constexpr std::uint64_t to_pre_operational = 0;
 constexpr std::uint64_t no_change = 1;
 constexpr std::uint64_t to_stopped = 2;
 
 }  // namespace
+
+NmtState state_after_error(std::uint64_t class_value, NmtState present) {
+  switch (class_value) {
+    case to_pre_operational: return present == NmtState::operational ? NmtState::pre_operational : present;
+    case to_stopped: return NmtState::stopped;
+    default: return present;
+  }
+}
 
 void ErrorBehaviour::add_objects() {
   ObjectDictionary& od = device_->dictionary;
@@ -23,24 +31,8 @@ void ErrorBehaviour::add_objects() {
 }
 
 void ErrorBehaviour::on_communication_error() {
-  const Behaviour& behaviour = device_->behaviour;
-  const ErrorBehaviourFaults& fault = behaviour.error_behaviour;
-  if (behaviour.consumer_loss_keeps_operational) return;
-  const bool operational = device_->state == NmtState::operational;
-  switch (device_->dictionary.number(0x1029, 1, to_pre_operational)) {
-    case to_pre_operational:
-      if (fault.zero_stops && operational) return nmt_->enter(NmtState::stopped);
-      if (operational || (fault.zero_acts_in_stopped && device_->state == NmtState::stopped))
-        nmt_->enter(NmtState::pre_operational);
-      return;
-    case no_change:
-      if (fault.one_leaves_operational && operational) nmt_->enter(NmtState::pre_operational);
-      return;
-    case to_stopped:
-      if (!fault.two_ignored) nmt_->enter(NmtState::stopped);
-      return;
-    default: return;  // reserved; taken by a defect only
-  }
+  const std::uint64_t communication = device_->dictionary.number(0x1029, 1, to_pre_operational);
+  if (enter) enter(rules.next_state(communication, device_->state));
 }
 
 }  // namespace refnode

@@ -66,7 +66,7 @@ void NodeGuarding::on_reset() {
 void NodeGuarding::on_time() {
   if (!due_ || device_->now < *due_) return;
   due_.reset();
-  if (!in_use() || device_->behaviour.life_guarding_ignored) return;
+  if (!in_use()) return;
   lost_ = true;
   device_->errors.raise(lost, 0);
   if (on_loss) on_loss();

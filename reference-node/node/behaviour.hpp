@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "node/object_faults.hpp"
 
 namespace refnode {
 
@@ -26,36 +25,6 @@ struct PdoFaults {
 
 struct Behaviour {
 
-  // Heartbeat producer
-  int heartbeat_period_factor = 1;
-  bool heartbeat_not_started_at_boot = false;
-  bool heartbeat_starts_only_after_reset = false;
-  bool heartbeat_zero_does_not_stop = false;
-  bool heartbeat_on_state_change_when_off = false;
-  bool heartbeat_stops_in_stopped = false;
-  bool heartbeat_state_stale = false;
-  bool heartbeat_with_toggle_bit = false;
-  int heartbeat_ends_after_ms = 0;  ///< 0: it does not; counted from the write of 1017h
-
-  // Heartbeat consumer
-  int consumer_time_factor = 1;
-  bool consumer_accepts_duplicate = false;
-  bool consumer_zero_time_is_duplicate = false;
-  bool consumer_own_entry_is_duplicate = false;
-  bool consumer_accepts_reserved_bits = false;
-  bool consumer_starts_without_heartbeat = false;
-  bool consumer_node_id_unchecked = false;
-  bool consumer_timer_not_restarted = false;
-  bool consumer_error_never_resolved = false;
-  bool consumer_loss_not_detected = false;
-  bool consumer_wrong_code = false;
-  bool consumer_only_first_entry = false;
-  bool consumer_zero_time_monitored = false;
-  bool consumer_loss_keeps_operational = false;
-  ErrorBehaviourFaults error_behaviour;
-
-  // Guarding
-  bool life_guarding_ignored = false;
 
   // PDO
   PdoFaults rpdo;

@@ -32,17 +32,7 @@ struct PdoChoices {
   bool needs_mapping = false;        ///< without mapped objects bit 31 stays set, whatever is written
 };
 
-/// What the boot-up message of a monitored node is to the heartbeat consumer.
-enum class BootUpOfProducer : std::uint8_t { heartbeat, new_start, loss };
-
 struct Choices {
-  bool heartbeat_at_state_change = false;  ///< one more, while 1017h is not 0
-  bool heartbeat_at_once = false;          ///< the first right after 1017h was written, and after boot-up
-  int heartbeat_jitter_percent = 0;        ///< late and early by turns
-  BootUpOfProducer boot_up_of_producer = BootUpOfProducer::heartbeat;
-  AbortCode duplicate_consumer = abort_code::parameter_incompatible;
-  AbortCode consumer_reserved_bits = abort_code::invalid_value;
-  bool consumer_reserved_bits_cleared = false;  ///< taken, and read back as 00h
 
   bool long_rpdo_reported = false;  ///< EMCY 8220h
 

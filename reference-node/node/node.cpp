@@ -38,6 +38,7 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(optio
   nmt.on_reset = [this](Reset kind) { reset(kind); };
   nmt.on_boot_up = [this] { boot_up(); };
   nmt.on_change = [this](NmtState from) { change_state(from); };
+  error_behaviour.enter = [this](NmtState state) { nmt.enter(state); };
   consumer.on_loss = [this] { error_behaviour.on_communication_error(); };
   guarding.on_loss = [this] { error_behaviour.on_communication_error(); };
   sync.on_sync = [this](std::optional<std::uint8_t> counter) { pdos.on_sync(counter); };
@@ -64,7 +65,8 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(optio
 void Node::Impl::add_own_objects() {
   add_identity_objects(device);
   emergency.add_objects();
-  add_error_control_objects(device);
+  producer.add_objects();
+  consumer.add_objects();
   sync.add_objects();
   time.add_objects();
   emergencies.add_objects();

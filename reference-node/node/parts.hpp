@@ -9,7 +9,8 @@
 #include "emergency/consumer.hpp"
 #include "emergency/emergency.hpp"
 #include "error-control/error_behaviour.hpp"
-#include "error-control/heartbeat.hpp"
+#include "error-control/heartbeat_consumer.hpp"
+#include "error-control/heartbeat_producer.hpp"
 #include "error-control/node_guarding.hpp"
 #include "nmt/nmt_slave.hpp"
 #include "objects/operating_system.hpp"
@@ -38,7 +39,7 @@ struct Parts {
         pdos(device),
         store(device, std::move(storage)),
         nmt(device),
-        error_behaviour(device, nmt),
+        error_behaviour(device),
         sdo(device) {}
 
   Device device;

@@ -26,13 +26,4 @@ void add_identity_objects(Device& device) {
       integer_entry("COB-ID server -> client", DataType::unsigned32, Access::ro, 0x580U + device.node_id));
 }
 
-void add_error_control_objects(Device& device) {
-  constexpr std::uint8_t monitored_nodes = 4;
-  ObjectDictionary& od = device.dictionary;
-  od.add_complex(0x1016, "Consumer heartbeat time", ObjectKind::array);
-  for (std::uint8_t sub = 1; sub <= monitored_nodes; ++sub)
-    od.add_sub(0x1016, sub, integer_entry("Consumer heartbeat time", DataType::unsigned32, Access::rw, 0));
-  od.add_variable(0x1017, integer_entry("Producer heartbeat time", DataType::unsigned16, Access::rw, 0));
-}
-
 }  // namespace refnode

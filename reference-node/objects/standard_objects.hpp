@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Communication objects that belong to no service of their own: identity, names, default SDO, error control.
+// Communication objects that belong to no service of their own: identity, names, default SDO.
 #pragma once
 
 #include "device/device.hpp"
@@ -7,6 +7,5 @@
 namespace refnode {
 
 void add_identity_objects(Device& device);
-void add_error_control_objects(Device& device);
 
 }  // namespace refnode

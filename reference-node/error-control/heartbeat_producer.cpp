@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "error-control/heartbeat_producer.hpp"
+
+namespace refnode {
+
+void HeartbeatProducer::add_objects() {
+  device_->dictionary.add_variable(
+      0x1017, integer_entry("Producer heartbeat time", DataType::unsigned16, Access::rw, 0));
+}
+
+void HeartbeatProducer::bind() {
+  if (Entry* period = device_->dictionary.entry(0x1017, 0)) period->written = [this] { start(); };
+}
+
+void HeartbeatProducer::start() {
+  next_.reset();
+  period_ = rules.period(device_->time_value(0x1017, 0));
+  if (period_ == Duration::zero()) return;
+  next_ = device_->now + period_;
+  if (choices.at_once) transmit();
+}
+
+void HeartbeatProducer::on_state_change() {
+  if (choices.at_state_change && next_) transmit();
+}
+
+void HeartbeatProducer::on_time() {
+  if (!next_ || device_->now < *next_) return;
+  Duration step = period_;
+  if (choices.jitter_percent != 0) {
+    late_ = !late_;
+    step += (late_ ? step : -step) * choices.jitter_percent / 100;
+  }
+  // The raster is kept; only after a stall of more than a period it starts anew instead of catching up.
+  next_ = *next_ + step;
+  if (*next_ <= device_->now) next_ = device_->now + step;
+  transmit();
+}
+
+// One byte: the NMT state; bit 7 is reserved.
+void HeartbeatProducer::transmit() {
+  device_->send(Service::heartbeat, conform::can::data_frame(conform::CanId(0x700U + device_->node_id),
+                                                             {static_cast<std::uint8_t>(device_->state)}));
+}
+
+}  // namespace refnode
