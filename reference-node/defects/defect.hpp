@@ -84,7 +84,9 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable storage_defects();
 [[nodiscard]] DefectTable pdo_defects();
 [[nodiscard]] DefectTable structure_defects();
-[[nodiscard]] DefectTable object_defects();
+[[nodiscard]] DefectTable error_behaviour_defects();
+[[nodiscard]] DefectTable emergency_consumer_defects();
+[[nodiscard]] DefectTable guarding_defects();
 [[nodiscard]] DefectTable optional_object_defects();
 [[nodiscard]] DefectTable operating_system_defects();
 

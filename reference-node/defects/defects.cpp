@@ -38,7 +38,9 @@ std::span<const Defect> defects() {
                                        storage_defects,
                                        pdo_defects,
                                        structure_defects,
-                                       object_defects,
+                                       error_behaviour_defects,
+                                       emergency_consumer_defects,
+                                       guarding_defects,
                                        optional_object_defects,
                                        operating_system_defects});
   return all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of the guarding parameters (100Ch, 100Dh), the high resolution time stamp (1013h), the SYNC counter
-// (1019h), the configuration stamp (1020h) and the stored device description (1021h, 1022h).
+// Defects of the high resolution time stamp (1013h), the SYNC counter (1019h), the configuration stamp
+// (1020h) and the stored device description (1021h, 1022h).
 #include <iterator>
 
 #include "defects/hooks.hpp"
@@ -12,7 +12,6 @@ using namespace defect;
 
 namespace {
 
-using B = Behaviour;
 constexpr DataType u8 = DataType::unsigned8;
 constexpr DataType u16 = DataType::unsigned16;
 constexpr DataType u32 = DataType::unsigned32;
@@ -57,43 +56,6 @@ Change stamp_becomes_default() {
     }
     return restored;
   });
-}
-
-DefectTable guarding_rows() {
-  return {
-      {"100c-absent",
-       "100Ch does not exist although the node is guarded",
-       {"OD-100C-01", "OD-CAT-03", "OD-ERC-01", "EC-GEN-01", "OD-GEN-17"},
-       absent(0x100C)},
-      {"100c-is-u32", "100Ch has four bytes", {"OD-100C-01", "OD-LEN-04", "OD-GEN-17"}, type(0x100C, 0, u32)},
-      {"100c-not-writable",
-       "100Ch is read-only although there is life guarding",
-       {"OD-100C-02", "SDO-DNL-21"},
-       access(0x100C, 0, Access::ro)},
-      {"100c-not-stored", "Writing 100Ch is confirmed and forgotten", {"OD-100C-02"}, not_stored(0x100C, 0)},
-      {"100c-default-nonzero", "The default of 100Ch is 100 ms", {"OD-100C-04"}, preset(0x100C, 0, 100)},
-      {"100d-absent",
-       "100Dh does not exist although the node is guarded",
-       {"OD-100D-01", "OD-CAT-03", "OD-ERC-01", "EC-GEN-01", "OD-GEN-17"},
-       absent(0x100D)},
-      {"100d-is-u16",
-       "100Dh has two bytes",
-       {"OD-100D-01", "OD-100D-03", "OD-LEN-04", "OD-GEN-17"},
-       type(0x100D, 0, u16)},
-      {"100d-not-writable",
-       "100Dh is read-only although there is life guarding",
-       {"OD-100D-02", "SDO-DNL-21"},
-       access(0x100D, 0, Access::ro)},
-      {"100d-default-nonzero", "The default of 100Dh is 3", {"OD-100C-04"}, preset(0x100D, 0, 3)},
-      {"100d-long-write-wrong-abort",
-       "Two bytes for 100Dh are refused with 0609 0030h",
-       {"OD-100D-03"},
-       wrong_abort_at(mux(0x100D, 0), abort_code::length_too_high, abort_code::invalid_value)},
-      {"1029-ignores-life-guarding",
-       "Guarding that stays away is not noticed",
-       {"OD-1029-10", "EC-NG-07"},
-       together(unnoticed(ErrorSource::guarding), [](Parts& parts) { parts.guarding.on_loss = nullptr; })},
-  };
 }
 
 DefectTable clock_rows() {
@@ -242,8 +204,7 @@ DefectTable description_rows() {
 
 DefectTable optional_object_defects() {
   DefectTable rows;
-  for (DefectTable table :
-       {guarding_rows(), clock_rows(), counter_rows(), stamp_rows(), description_rows()}) {
+  for (DefectTable table : {clock_rows(), counter_rows(), stamp_rows(), description_rows()}) {
     rows.insert(rows.end(), std::make_move_iterator(table.begin()), std::make_move_iterator(table.end()));
   }
   return rows;
