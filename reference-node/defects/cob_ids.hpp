@@ -12,8 +12,8 @@ inline CobIdRules& of_sync(Parts& parts) { return parts.sync.cob_id_rules; }
 inline CobIdRules& of_time(Parts& parts) { return parts.time.cob_id_rules; }
 inline CobIdRules& of_emergency(Parts& parts) { return parts.emergency.cob_id_rules; }
 inline CobIdRules& of_emergencies(Parts& parts) { return parts.emergencies.cob_id_rules; }
-inline CobIdRules& of_rpdo(Parts& parts) { return parts.pdos.rpdo_cob_id_rules; }
-inline CobIdRules& of_tpdo(Parts& parts) { return parts.pdos.tpdo_cob_id_rules; }
+inline CobIdRules& of_rpdo(Parts& parts) { return parts.pdos.rpdo.parameters.cob_id_rules; }
+inline CobIdRules& of_tpdo(Parts& parts) { return parts.pdos.tpdo.parameters.cob_id_rules; }
 inline CobIdRules& of_sdo_server(Parts& parts) { return parts.sdo.cob_id_rules; }
 inline CobIdRules& of_sdo_client(Parts& parts) { return parts.sdo.client_cob_id_rules; }
 

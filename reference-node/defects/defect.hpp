@@ -18,7 +18,6 @@ namespace refnode {
 
 /// Changes the finished dictionary; the node-ID is given because some defaults hold it.
 using DictionaryEdit = std::function<void(ObjectDictionary&, std::uint8_t node_id)>;
-using BehaviourSwitch = std::function<void(Behaviour&)>;
 /// Changes the frames that one received frame has led to, before a service sees them.
 using Reading = std::function<void(Parts&, std::vector<Frame>&)>;
 
@@ -34,8 +33,6 @@ class Change {
       change_ = std::move(how);
     } else if constexpr (std::invocable<F&, ObjectDictionary&, std::uint8_t>) {
       change_ = [how](Parts& parts) { how(parts.device.dictionary, parts.device.node_id); };
-    } else if constexpr (std::invocable<F&, Behaviour&>) {
-      change_ = [how](Parts& parts) { how(parts.device.behaviour); };
     } else if constexpr (std::invocable<F&, const FilterContext&, std::vector<Outgoing>&>) {
       change_ = [how](Parts& parts) { parts.device.outbox.add_filter(how); };
     } else {

@@ -5,14 +5,6 @@
 
 namespace refnode::defect {
 
-BehaviourSwitch behave(bool Behaviour::* flag) {
-  return [flag](Behaviour& behaviour) { behaviour.*flag = true; };
-}
-
-BehaviourSwitch behave(int Behaviour::* number, int value) {
-  return [number, value](Behaviour& behaviour) { behaviour.*number = value; };
-}
-
 DictionaryEdit absent(std::uint16_t index) {
   return [index](ObjectDictionary& od, std::uint8_t) { od.remove(index); };
 }

@@ -10,21 +10,6 @@
 
 namespace refnode::defect {
 
-/// behave(&Behaviour::history_overwrites): sets a switch.
-[[nodiscard]] BehaviourSwitch behave(bool Behaviour::* flag);
-/// behave(&Behaviour::heartbeat_period_factor, 2): sets a number.
-[[nodiscard]] BehaviourSwitch behave(int Behaviour::* number, int value);
-
-/// behave(&Behaviour::store, &StoreFaults::without_effect): sets a switch of a part.
-template <typename Part>
-[[nodiscard]] BehaviourSwitch behave(Part Behaviour::* part, bool Part::* flag) {
-  return [part, flag](Behaviour& behaviour) { (behaviour.*part).*flag = true; };
-}
-template <typename Part>
-[[nodiscard]] BehaviourSwitch behave(Part Behaviour::* part, int Part::* number, int value) {
-  return [part, number, value](Behaviour& behaviour) { (behaviour.*part).*number = value; };
-}
-
 // Dictionary edits.
 [[nodiscard]] DictionaryEdit absent(std::uint16_t index);
 [[nodiscard]] DictionaryEdit absent_sub(std::uint16_t index, std::uint8_t sub);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <optional>
 #include <utility>
@@ -16,8 +15,6 @@
 #include "device/rule.hpp"
 #include "device/states.hpp"
 #include "dictionary/object_dictionary.hpp"
-#include "node/behaviour.hpp"
-#include "node/choices.hpp"
 
 namespace refnode {
 
@@ -27,8 +24,6 @@ struct Device {
   Device& operator=(const Device&) = delete;
 
   std::uint8_t node_id;
-  Behaviour behaviour;
-  Choices choices;
   ObjectDictionary dictionary;
   Inbox inbox;
   Outbox outbox;
@@ -37,8 +32,6 @@ struct Device {
   /// The dictionary is that of a device description (twin.hpp): of what this node has beyond the standard
   /// nothing is there.
   bool described = false;
-  /// Which of the data types 0001h to 0007h an RPDO may hold as placeholder.
-  std::array<bool, 8> placeholders{false, false, true, true, true, true, true, true};
   NmtState state = NmtState::initialising;
   BusTime now{};
 

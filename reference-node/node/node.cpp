@@ -88,7 +88,7 @@ void Node::Impl::add_own_objects() {
 void Node::Impl::take_over(Twin twin) {
   device.described = true;
   device.dictionary.objects() = std::move(twin.objects);
-  device.placeholders = twin.placeholders;
+  pdos.rpdo.parameters.placeholders = twin.placeholders;
   remarks = std::move(twin.remarks);
   report_changes(device, [this] { pdos.on_application_change(); });
   // Of how many errors 1003h tells.
@@ -100,8 +100,8 @@ void Node::Impl::take_over(Twin twin) {
   }
   // Without SYNC there are no transmission types that need it.
   if (!objects.contains(0x1005)) {
-    device.choices.rpdo.synchronous_types = device.choices.tpdo.synchronous_types = false;
-    device.choices.tpdo.remote_types = false;
+    for (PdoTerms* terms : {&pdos.rpdo.parameters, &pdos.tpdo.parameters})
+      terms->choices.synchronous_types = terms->choices.remote_types = false;
   }
 }
 

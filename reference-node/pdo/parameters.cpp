@@ -43,35 +43,40 @@ void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t
              integer_entry("Number of mapped objects", DataType::unsigned8, Access::rw, mapping.size()));
 }
 
-PdoParameters::PdoParameters(Device& device, const CobIdRules& cob_id_rules, PdoDirection direction,
-                             std::uint16_t number)
+PdoParameters::PdoParameters(Device& device, const PdoTerms& terms, std::uint16_t number)
     : device_(&device),
-      direction_(direction),
-      communication_(static_cast<std::uint16_t>(first_communication_index(direction) + number)),
+      terms_(&terms),
+      communication_(static_cast<std::uint16_t>(first_communication_index(terms.direction) + number)),
       mapping_(static_cast<std::uint16_t>(communication_ + to_mapping)),
-      cob_id_(device, cob_id_rules, communication_, cob_id_sub, 0) {
-  ObjectDictionary& od = device.dictionary;
+      cob_id_(device, terms.cob_id_rules, communication_, cob_id_sub, 0) {
   cob_id_.bind();
+  bind_communication();
+  bind_mapping();
+}
+
+void PdoParameters::bind_communication() {
+  ObjectDictionary& od = device_->dictionary;
   if (Entry* type = od.entry(communication_, type_sub))
     type->check = [this](ByteView bytes) { return check_type(bytes); };
   if (Entry* inhibit = od.entry(communication_, inhibit_sub))
-    inhibit->check = [this](ByteView bytes) { return check_locked(inhibit_sub, bytes); };
+    inhibit->check = [this](ByteView bytes) { return check_inhibit_time(bytes); };
   Entry* start = od.entry(communication_, sync_start_sub);
-  if (start != nullptr && direction == PdoDirection::transmit)
+  if (start != nullptr && terms_->direction == PdoDirection::transmit)
     start->check = [this](ByteView bytes) { return check_sync_start(bytes); };
 
-  const auto changed = [this] {
-    if (on_changed) on_changed();
-  };
   if (const auto found = od.objects().find(communication_); found != od.objects().end()) {
-    for (auto& [sub, entry] : found->second.entries) entry.written = changed;
+    for (auto& [sub, entry] : found->second.entries) entry.written = [this] { changed(); };
   }
   if (Entry* cob_id = od.entry(communication_, cob_id_sub)) {
-    cob_id->written = [this, changed, cob_id] {
-      if (choices().needs_mapping && mapped_size() == 0) cob_id->value.back() |= 0x80U;
+    cob_id->written = [this, cob_id] {
+      if (terms_->choices.needs_mapping && mapped_size() == 0) cob_id->value.back() |= 0x80U;
       changed();
     };
   }
+}
+
+void PdoParameters::bind_mapping() {
+  ObjectDictionary& od = device_->dictionary;
   const auto mapping = od.objects().find(mapping_);
   if (mapping == od.objects().end()) return;
   for (auto& [sub, entry] : mapping->second.entries) {
@@ -80,18 +85,14 @@ PdoParameters::PdoParameters(Device& device, const CobIdRules& cob_id_rules, Pdo
     entry.check = [this, which = sub](ByteView bytes) { return check_mapping_entry(which, bytes); };
   }
   if (Entry* count = od.entry(mapping_, 0)) {
-    multiplexed_ = device.described && conform::load_le(count->default_value) >= first_multiplexed;
+    multiplexed_ = device_->described && conform::load_le(count->default_value) >= first_multiplexed;
     count->check = [this](ByteView bytes) { return check_mapping_count(bytes); };
-    count->written = changed;
+    count->written = [this] { changed(); };
   }
 }
 
-const PdoFaults& PdoParameters::faults() const {
-  return direction_ == PdoDirection::receive ? device_->behaviour.rpdo : device_->behaviour.tpdo;
-}
-
-const PdoChoices& PdoParameters::choices() const {
-  return direction_ == PdoDirection::receive ? device_->choices.rpdo : device_->choices.tpdo;
+void PdoParameters::changed() const {
+  if (on_changed) on_changed();
 }
 
 std::uint8_t PdoParameters::transmission_type() const {
@@ -99,114 +100,79 @@ std::uint8_t PdoParameters::transmission_type() const {
 }
 
 Duration PdoParameters::inhibit_time() const {
-  // In units of 100 us.
-  return std::chrono::microseconds(device_->time_value(communication_, inhibit_sub) *
-                                   faults().inhibit_unit_us);
+  return terms_->rules.inhibit_time(device_->time_value(communication_, inhibit_sub));
 }
 
 Duration PdoParameters::event_timer() const {
-  return std::chrono::milliseconds(device_->time_value(communication_, event_timer_sub) *
-                                   faults().event_timer_factor);
+  return terms_->rules.event_timer(device_->time_value(communication_, event_timer_sub));
 }
 
 std::uint64_t PdoParameters::sync_start() const {
   return device_->dictionary.number(communication_, sync_start_sub);
 }
 
-// 00h-F0h synchronous, FCh and FDh on remote request (TPDO only), FEh and FFh event-driven; the rest is
-// reserved.
+bool PdoParameters::locked(PdoPart part) const {
+  return terms_->rules.locked(part, cob_id_.valid(), device_->dictionary.number(mapping_, 0) != 0);
+}
+
 Accepted PdoParameters::check_type(ByteView bytes) const {
   const std::uint64_t type = conform::load_le(bytes);
-  const bool remote = type == 0xFC || type == 0xFD;
-  const PdoChoices& choice = choices();
+  const PdoChoices& choices = terms_->choices;
   // What a description begins with is supported, by its word.
   if (device_->described && type == transmission_type()) return {};
-  const bool supported = (type <= 0xF0 && choice.synchronous_types) || (type >= 0xFE && choice.event_types) ||
-                         (remote && direction_ == PdoDirection::transmit && choice.remote_types);
-  if (!supported && !faults().reserved_type_accepted) return refuse(abort_code::invalid_value);
+  const bool transmit = terms_->direction == PdoDirection::transmit;
+  const bool supported = (is_synchronous(type) && choices.synchronous_types) ||
+                         (is_event_driven(type) && choices.event_types) ||
+                         (is_on_remote_request(type) && transmit && choices.remote_types);
+  if (!supported) return refuse(abort_code::invalid_value);
+  return {};
+}
+
+Accepted PdoParameters::check_inhibit_time(ByteView bytes) const {
+  const bool moved = conform::load_le(bytes) != device_->dictionary.number(communication_, inhibit_sub);
+  if (moved && locked(PdoPart::inhibit_time)) return refuse(terms_->choices.inhibit_locked);
   return {};
 }
 
 Accepted PdoParameters::check_sync_start(ByteView bytes) const {
-  if (auto free = check_locked(sync_start_sub, bytes); !free) return free;
-  if (conform::load_le(bytes) > most_sync_start) return refuse(abort_code::invalid_value);
-  return {};
-}
-
-Accepted PdoParameters::check_locked(std::uint8_t sub, ByteView bytes) const {
-  const bool changed = conform::load_le(bytes) != device_->dictionary.number(communication_, sub);
-  if (changed && cob_id_.valid() && !faults().inhibit_lock_missing) return refuse(choices().inhibit_locked);
-  return {};
-}
-
-// Index in bits 31-16, sub-index in bits 15-8, length in bits in bits 7-0.
-PdoParameters::Mapped PdoParameters::unpack(std::uint64_t value) {
-  return {static_cast<std::uint16_t>(value >> 16U), static_cast<std::uint8_t>((value >> 8U) & 0xFFU),
-          static_cast<std::uint8_t>(value & 0xFFU)};
-}
-
-// 0001h-0007h as placeholders of an RPDO; 0 when there is none of this index.
-unsigned PdoParameters::placeholder_bits(std::uint16_t index) const {
-  if (index == 0 || index >= device_->placeholders.size() || !device_->placeholders[index]) return 0;
-  const auto type = static_cast<DataType>(index);
-  return type == DataType::boolean ? 1 : static_cast<unsigned>(fixed_size(type) * 8);
-}
-
-Accepted PdoParameters::mappable(const Mapped& mapped) const {
-  const PdoFaults& fault = faults();
-  const PdoChoices& choice = choices();
-  const unsigned placeholder = placeholder_bits(mapped.index);
-  if (direction_ == PdoDirection::receive && mapped.sub == 0 && placeholder != 0) {
-    if (mapped.bits != placeholder) return refuse(choice.wrong_length);
-    return {};
-  }
-  const Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);
-  if (entry == nullptr) return fault.absent_object_mapped ? Accepted{} : refuse(choice.absent_object);
-  const bool allowed = direction_ == PdoDirection::receive ? entry->rx_mappable : entry->tx_mappable;
-  if (!allowed && !fault.unmappable_object_mapped) return refuse(choice.unmappable_object);
-  const bool one_bit = entry->type == DataType::boolean && mapped.bits == 1;
-  if (mapped.bits != entry->value.size() * 8 && !one_bit && !fault.mapping_length_unchecked)
-    return refuse(choice.wrong_length);
+  const std::uint64_t start = conform::load_le(bytes);
+  if (start != sync_start() && locked(PdoPart::sync_start)) return refuse(terms_->choices.inhibit_locked);
+  if (start > most_sync_start) return refuse(abort_code::invalid_value);
   return {};
 }
 
 Accepted PdoParameters::check_mapping_entry(std::uint8_t sub, ByteView bytes) const {
   const std::uint64_t value = conform::load_le(bytes);
   if (value == device_->dictionary.number(mapping_, sub)) return {};
-  // The procedure is: PDO not valid, sub-index 00h := 00h, then the entries.
-  const bool enabled = device_->dictionary.number(mapping_, 0) != 0;
-  if ((enabled || cob_id_.valid()) && !faults().mapping_writable_while_enabled)
-    return refuse(choices().out_of_order);
+  if (locked(PdoPart::mapped_object)) return refuse(terms_->choices.out_of_order);
   if (value == 0) return {};  // an unused entry
-  if (choices().checked_at_count) return {};
-  return mappable(unpack(value));
+  if (terms_->choices.checked_at_count) return {};
+  return terms_->rules.mappable(Mapped::unpack(value));
 }
 
 Accepted PdoParameters::check_mapping_count(ByteView bytes) const {
   const std::uint64_t count = conform::load_le(bytes);
-  const PdoFaults& fault = faults();
   if (count == device_->dictionary.number(mapping_, 0)) return {};
-  if (cob_id_.valid() && !fault.mapping_writable_while_valid) return refuse(choices().out_of_order);
-  if (count > mapping_entries_) {
-    return fault.mapping_count_unchecked ? Accepted{} : refuse(choices().too_many);
-  }
+  if (locked(PdoPart::mapping)) return refuse(terms_->choices.out_of_order);
+  if (count > mapping_entries_) return refuse(terms_->choices.too_many);
   std::size_t bits = 0;
   for (std::uint64_t entry = 1; entry <= count; ++entry) {
     const std::uint64_t value = device_->dictionary.number(mapping_, static_cast<std::uint8_t>(entry));
     if (value == 0) return refuse(abort_code::not_mappable);
-    if (const Accepted good = mappable(unpack(value)); !good) return good;
-    bits += unpack(value).bits;
+    const Mapped mapped = Mapped::unpack(value);
+    if (const Accepted good = terms_->rules.mappable(mapped); !good) return good;
+    bits += mapped.bits;
   }
-  if (bits > 64 && !fault.overlong_mapping_accepted) return refuse(choices().too_long);
+  if (bits > 64) return refuse(terms_->choices.too_long);
   return {};
 }
 
-std::vector<PdoParameters::Mapped> PdoParameters::mapping() const {
+std::vector<Mapped> PdoParameters::mapping() const {
   std::vector<Mapped> all;
   if (multiplexed_) return all;
   const std::uint64_t count = device_->dictionary.number(mapping_, 0);
   for (std::uint8_t sub = 1; sub <= count && sub <= mapping_entries_; ++sub) {
-    all.push_back(unpack(device_->dictionary.number(mapping_, sub)));
+    all.push_back(Mapped::unpack(device_->dictionary.number(mapping_, sub)));
   }
   return all;
 }

@@ -9,10 +9,9 @@
 
 #include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
+#include "pdo/terms.hpp"
 
 namespace refnode {
-
-enum class PdoDirection : std::uint8_t { receive, transmit };
 
 inline constexpr std::uint16_t pdos_of_a_direction = 512;
 /// 1400h, 1800h: the communication parameter of the first PDO.
@@ -27,8 +26,9 @@ void add_pdo_objects(ObjectDictionary& dictionary, PdoDirection direction, std::
 
 class PdoParameters {
  public:
-  /// Puts the rules behind the entries there are. `number` 0 is the first PDO of its direction.
-  PdoParameters(Device& device, const CobIdRules& cob_id_rules, PdoDirection direction, std::uint16_t number);
+  /// Puts the rules behind the entries there are. `number` 0 is the first PDO of its direction. `terms`
+  /// outlive the parameters.
+  PdoParameters(Device& device, const PdoTerms& terms, std::uint16_t number);
   PdoParameters(const PdoParameters&) = delete;  // the entries point here
   PdoParameters& operator=(const PdoParameters&) = delete;
 
@@ -40,30 +40,24 @@ class PdoParameters {
   [[nodiscard]] Duration event_timer() const;
   [[nodiscard]] std::uint64_t sync_start() const;
 
-  struct Mapped {
-    std::uint16_t index;
-    std::uint8_t sub;
-    std::uint8_t bits;
-  };
   /// The active mapping; empty when sub-index 00h is 00h, and of a multiplexed PDO.
   [[nodiscard]] std::vector<Mapped> mapping() const;
   /// Its length in bytes, at most eight.
   [[nodiscard]] std::size_t mapped_size() const;
 
  private:
+  void bind_communication();
+  void bind_mapping();
+  void changed() const;
   [[nodiscard]] Accepted check_type(ByteView bytes) const;
+  [[nodiscard]] Accepted check_inhibit_time(ByteView bytes) const;
   [[nodiscard]] Accepted check_sync_start(ByteView bytes) const;
-  [[nodiscard]] Accepted check_locked(std::uint8_t sub, ByteView bytes) const;
   [[nodiscard]] Accepted check_mapping_count(ByteView bytes) const;
   [[nodiscard]] Accepted check_mapping_entry(std::uint8_t sub, ByteView bytes) const;
-  [[nodiscard]] unsigned placeholder_bits(std::uint16_t index) const;
-  [[nodiscard]] Accepted mappable(const Mapped& mapped) const;
-  [[nodiscard]] static Mapped unpack(std::uint64_t value);
-  [[nodiscard]] const PdoFaults& faults() const;
-  [[nodiscard]] const PdoChoices& choices() const;
+  [[nodiscard]] bool locked(PdoPart part) const;
 
   Device* device_;
-  PdoDirection direction_;
+  const PdoTerms* terms_;
   std::uint16_t communication_;  ///< index of the communication parameter
   std::uint16_t mapping_;        ///< index of the mapping parameter
   CobId cob_id_;

@@ -21,11 +21,9 @@ void Pdos::bind() {
       return objects.contains(static_cast<std::uint16_t>(first_communication_index(direction) + number));
     };
     if (exists(PdoDirection::receive)) {
-      receive_.emplace_back(*device_, rpdo_cob_id_rules, number).on_applied = [this] {
-        on_application_change();
-      };
+      receive_.emplace_back(*device_, rpdo, number).on_applied = [this] { on_application_change(); };
     }
-    if (exists(PdoDirection::transmit)) transmit_.emplace_back(*device_, tpdo_cob_id_rules, number);
+    if (exists(PdoDirection::transmit)) transmit_.emplace_back(*device_, tpdo, number);
   }
 }
 

@@ -8,18 +8,19 @@
 #include <optional>
 
 #include "device/device.hpp"
-#include "pdo/pdo.hpp"
+#include "pdo/receive_pdo.hpp"
+#include "pdo/transmit_pdo.hpp"
 
 namespace refnode {
 
 class Pdos {
  public:
-  explicit Pdos(Device& device) : device_(&device) {}
+  explicit Pdos(Device& device) : rpdo(device.dictionary), tpdo(device.dictionary), device_(&device) {}
   Pdos(const Pdos&) = delete;
   Pdos& operator=(const Pdos&) = delete;
 
-  CobIdRules rpdo_cob_id_rules{CobIdUse::rpdo};
-  CobIdRules tpdo_cob_id_rules{CobIdUse::tpdo};
+  ReceivePdoTerms rpdo;
+  TransmitPdoTerms tpdo;
 
   /// The node's own: one RPDO and one TPDO of four bytes each.
   void add_objects();

@@ -13,7 +13,8 @@ How everywhere(Change change) {
   return [change](Parts& parts) {
     for (CobIdRules* each :
          {&parts.sync.cob_id_rules, &parts.time.cob_id_rules, &parts.emergency.cob_id_rules,
-          &parts.emergencies.cob_id_rules, &parts.pdos.rpdo_cob_id_rules, &parts.pdos.tpdo_cob_id_rules})
+          &parts.emergencies.cob_id_rules, &parts.pdos.rpdo.parameters.cob_id_rules,
+          &parts.pdos.tpdo.parameters.cob_id_rules})
       change(each->choices);
   };
 }
@@ -70,8 +71,8 @@ VariantTable cob_id_variants() {
        "PDOs can be switched off, their CAN-IDs cannot be changed",
        "OD-1400-12, OD-1800-12",
        [](Parts& node) {
-         node.pdos.rpdo_cob_id_rules.choices.only_valid_bit =
-             node.pdos.tpdo_cob_id_rules.choices.only_valid_bit = true;
+         node.pdos.rpdo.parameters.cob_id_rules.choices.only_valid_bit =
+             node.pdos.tpdo.parameters.cob_id_rules.choices.only_valid_bit = true;
        },
        {},
        {"lock-code"},
@@ -82,10 +83,10 @@ VariantTable cob_id_variants() {
        .legal = "OD-1400-12, OD-1800-12",
        .how =
            [](Parts& node) {
-             node.pdos.rpdo_cob_id_rules.choices.only_valid_bit =
-                 node.pdos.tpdo_cob_id_rules.choices.only_valid_bit = true;
-             node.pdos.rpdo_cob_id_rules.choices.locked = node.pdos.tpdo_cob_id_rules.choices.locked =
-                 abort_code::general_error;
+             node.pdos.rpdo.parameters.cob_id_rules.choices.only_valid_bit =
+                 node.pdos.tpdo.parameters.cob_id_rules.choices.only_valid_bit = true;
+             node.pdos.rpdo.parameters.cob_id_rules.choices.locked =
+                 node.pdos.tpdo.parameters.cob_id_rules.choices.locked = abort_code::general_error;
            },
        .excludes = {"lock-code", "pdo-only-valid-bit"},
        .gains = {"fixed cob-ids"}},

@@ -156,10 +156,8 @@ VariantTable object_variants() {
       {.id = "sync-absent",
        .summary = "no SYNC: 1005h to 1007h and 1019h absent, no synchronous PDO",
        .legal = "7.5.2.5: 1005h is for devices that support SYNC",
-       .how = both(absent({0x1005, 0x1006, 0x1007, 0x1019}), choose([](Choices& c) {
-                     c.rpdo.synchronous_types = c.tpdo.synchronous_types = false;
-                     c.tpdo.remote_types = false;
-                   })),
+       .how = both(absent({0x1005, 0x1006, 0x1007, 0x1019}),
+                   choose_of_pdos([](PdoChoices& c) { c.synchronous_types = c.remote_types = false; })),
        .group = "sync",
        .lacks = {"sync consumer", "sync counter"}},
       {"1006-1007-absent", "neither cycle period nor window length",

@@ -76,8 +76,11 @@ How both(How first, How second) {
   };
 }
 
-How choose(void (*change)(Choices&)) {
-  return [change](Parts& parts) { change(parts.device.choices); };
+How choose_of_pdos(void (*change)(PdoChoices&)) {
+  return [change](Parts& parts) {
+    change(parts.pdos.rpdo.parameters.choices);
+    change(parts.pdos.tpdo.parameters.choices);
+  };
 }
 
 }  // namespace refnode::variant

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pdo/receive_pdo.hpp"
+
+#include <utility>
+
+#include "pdo/bits.hpp"
+
+namespace refnode {
+
+namespace {
+
+// CiA 301, table 26
+constexpr std::uint16_t too_short = 0x8210;
+constexpr std::uint16_t too_long = 0x8220;
+constexpr std::uint16_t event_timer_elapsed = 0x8250;
+
+}  // namespace
+
+ReceivePdoRules::ReceivePdoRules()
+    : processed([](std::size_t received, std::size_t mapped) { return received >= mapped; }),
+      waits_for_sync(is_synchronous) {}
+
+ReceivePdo::ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16_t number)
+    : device_(&device), terms_(&terms), number_(number), parameters_(device, terms.parameters, number) {}
+
+bool ReceivePdo::on_frame(const Frame& frame) {
+  if (!parameters_.cob_id().valid() || frame.id != parameters_.cob_id().can_id()) return false;
+  if (!device_->works_now(Service::rpdo)) return true;
+  const std::size_t size = parameters_.mapped_size();
+  if (size == 0) return true;
+
+  if (frame.size() < size) {
+    device_->errors.raise(cause(too_short), frame.size());
+  } else {
+    device_->errors.clear(cause(too_short));
+  }
+  if (!terms_->rules.processed(frame.size(), size)) return true;
+  if (frame.size() <= size) {
+    device_->errors.clear(cause(too_long));
+  } else if (terms_->choices.too_long_reported) {
+    device_->errors.raise(cause(too_long), frame.size());
+  }
+  start_deadline();
+
+  Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
+  if (terms_->rules.waits_for_sync(parameters_.transmission_type())) {
+    buffered_ = std::move(data);
+  } else {
+    apply(data);
+  }
+  return true;
+}
+
+void ReceivePdo::on_sync() {
+  if (buffered_ && device_->works_now(Service::rpdo)) apply(*buffered_);
+  buffered_.reset();
+}
+
+void ReceivePdo::on_state_change() {
+  buffered_.reset();
+  deadline_.reset();
+}
+
+// The event timer of an RPDO: the next one has to come before it has elapsed.
+void ReceivePdo::start_deadline() {
+  const Duration limit = parameters_.event_timer();
+  deadline_.reset();
+  if (limit > Duration::zero()) deadline_ = device_->now + limit;
+  device_->errors.clear(cause(event_timer_elapsed));
+}
+
+void ReceivePdo::on_time() {
+  if (!deadline_ || device_->now < *deadline_) return;
+  deadline_.reset();
+  device_->errors.raise(cause(event_timer_elapsed), 0);
+}
+
+void ReceivePdo::apply(const Bytes& data) {
+  applying_ = true;
+  std::size_t position = 0;  // in bits
+  for (const Mapped& mapped : parameters_.mapping()) {
+    if (position + mapped.bits > data.size() * 8) break;
+    Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);  // none: a placeholder
+    if (entry != nullptr && entry->value.size() == whole_bytes(mapped.bits)) {
+      entry->value.assign(entry->value.size(), 0);
+      copy_bits(data, position, entry->value, 0, mapped.bits);
+      if (entry->written) entry->written();
+    }
+    position += mapped.bits;
+  }
+  applying_ = false;
+  if (on_applied) on_applied();
+}
+
+}  // namespace refnode

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traffic of one RPDO (CiA 301, 7.2.2): in Operational only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "device/device.hpp"
+#include "pdo/parameters.hpp"
+
+namespace refnode {
+
+struct ReceivePdoChoices {
+  bool too_long_reported = false;  ///< EMCY 8220h
+};
+
+struct ReceivePdoRules {
+  /// With fewer bytes than are mapped the PDO is not processed, of more bytes the first are used (7.5.2.36).
+  Rule<bool(std::size_t received, std::size_t mapped)> processed;
+  /// Data of the types 00h to F0h become valid with the next SYNC, those of the others at once.
+  Rule<bool(std::uint8_t type)> waits_for_sync;
+  ReceivePdoRules();
+};
+
+/// What holds for all RPDOs.
+struct ReceivePdoTerms {
+  explicit ReceivePdoTerms(const ObjectDictionary& dictionary)
+      : parameters(dictionary, PdoDirection::receive) {}
+
+  PdoTerms parameters;
+  ReceivePdoChoices choices;
+  ReceivePdoRules rules;
+};
+
+class ReceivePdo {
+ public:
+  /// `number` 0 is that of 1400h. `terms` outlive the PDO.
+  ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16_t number);
+
+  std::function<void()> on_applied;  ///< all mapped objects of a PDO have their new values
+
+  [[nodiscard]] bool applying() const { return applying_; }
+  /// True when the frame carries this PDO.
+  bool on_frame(const Frame& frame);
+  void on_sync();
+  /// Buffered data and the deadline end with a state change or reset.
+  void on_state_change();
+  void on_time();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return deadline_; }
+
+ private:
+  void apply(const Bytes& data);
+  void start_deadline();
+  [[nodiscard]] ErrorCause cause(std::uint16_t code) const {
+    return {code, ErrorSource::rpdo, static_cast<std::uint16_t>(number_ + 1)};
+  }
+
+  Device* device_;
+  const ReceivePdoTerms* terms_;
+  std::uint16_t number_;
+  PdoParameters parameters_;
+  bool applying_ = false;
+  std::optional<Bytes> buffered_;    ///< synchronous types: waiting for the SYNC
+  std::optional<BusTime> deadline_;  ///< event timer, armed by the first RPDO
+};
+
+}  // namespace refnode

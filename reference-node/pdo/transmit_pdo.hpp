@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Traffic of one TPDO (CiA 301, 7.2.2): in Operational only.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "device/device.hpp"
+#include "pdo/parameters.hpp"
+
+namespace refnode {
+
+struct TransmitPdoChoices {
+  bool initial_event = false;        ///< entering Operational is an event
+  bool sends_at_first_sync = false;  ///< type n sends at SYNC 1, n + 1, ...
+  bool change_is_event = true;       ///< of what is mapped; types 00h, FEh and FFh
+  bool sent_empty = false;           ///< without mapped objects it is sent, with no data
+};
+
+struct TransmitPdoRules {
+  /// Bit 31 of the COB-ID says whether the PDO exists and is used.
+  Rule<bool(const PdoParameters&)> valid;
+  /// Types 01h to F0h: with every n-th SYNC; type 00h: with the SYNC after an event. `syncs`: since it was
+  /// sent last.
+  Rule<bool(std::uint8_t type, std::uint32_t syncs, bool event)> sent_at_sync;
+  /// Types FEh and FFh are also sent when the event timer has elapsed.
+  Rule<bool(std::uint8_t type)> has_event_timer;
+  TransmitPdoRules();
+};
+
+/// What holds for all TPDOs.
+struct TransmitPdoTerms {
+  explicit TransmitPdoTerms(const ObjectDictionary& dictionary)
+      : parameters(dictionary, PdoDirection::transmit) {}
+
+  PdoTerms parameters;
+  TransmitPdoChoices choices;
+  TransmitPdoRules rules;
+};
+
+class TransmitPdo {
+ public:
+  /// `number` 0 is that of 1800h. `terms` outlive the PDO.
+  TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uint16_t number);
+
+  /// Something mapped may have changed.
+  void on_application_change();
+  /// `counter`: of a SYNC that has one.
+  void on_sync(std::optional<std::uint8_t> counter);
+  /// True when the remote frame asks for this PDO.
+  bool on_remote(const Frame& frame);
+  void on_state_change();
+  void on_time();
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+
+ private:
+  [[nodiscard]] Bytes content() const;
+  [[nodiscard]] bool event_driven() const { return is_event_driven(parameters_.transmission_type()); }
+  [[nodiscard]] bool timed() const;
+  [[nodiscard]] bool enabled() const;
+  void transmit(const Bytes& data);
+  void start_event_timer();
+  void restart();
+
+  Device* device_;
+  const TransmitPdoTerms* terms_;
+  PdoParameters parameters_;
+  Bytes reported_;             ///< content of the last TPDO, or at the start of Operational
+  Bytes sampled_;              ///< type FCh: content at the last SYNC
+  bool event_ = false;         ///< type 00h, or an event waiting for the inhibit time
+  std::uint32_t syncs_ = 0;    ///< SYNCs since the last TPDO
+  bool awaits_start_ = false;  ///< for the SYNC whose counter is the SYNC start value
+  std::optional<BusTime> timer_;
+  std::optional<BusTime> inhibited_until_;
+};
+
+}  // namespace refnode
