@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "device/device.hpp"
-#include "device/rule.hpp"
+#include "rules/rule.hpp"
 
 namespace refnode {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "node/parts.hpp"
+#include "parts/parts.hpp"
 
 namespace refnode {
 

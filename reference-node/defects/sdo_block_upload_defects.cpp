@@ -365,15 +365,15 @@ DefectTable refusal_rows() {
 
 /// No request is heard in Stopped; otherwise the server works on.
 Change goes_on_in_stopped() {
-  return together(works_also(Service::sdo, NmtState::stopped),
-                  [](Parts& parts) {
-                    parts.sdo.rules.transfers_end_in.replace([](const auto& former, NmtState state) {
-                      return state != NmtState::stopped && former(state);
-                    });
-                  },
-                  deaf_to([](Parts& parts, const Frame& frame) {
-                    return parts.device.state == NmtState::stopped && server_asked(parts, frame) != nullptr;
-                  }));
+  return together(
+      works_also(Service::sdo, NmtState::stopped),
+      [](Parts& parts) {
+        parts.sdo.rules.transfers_end_in.replace(
+            [](const auto& former, NmtState state) { return state != NmtState::stopped && former(state); });
+      },
+      deaf_to([](Parts& parts, const Frame& frame) {
+        return parts.device.state == NmtState::stopped && server_asked(parts, frame) != nullptr;
+      }));
 }
 
 DefectTable end_rows() {

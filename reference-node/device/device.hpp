@@ -12,7 +12,7 @@
 #include "device/errors.hpp"
 #include "device/inbox.hpp"
 #include "device/outbox.hpp"
-#include "device/rule.hpp"
+#include "rules/rule.hpp"
 #include "device/states.hpp"
 #include "dictionary/object_dictionary.hpp"
 

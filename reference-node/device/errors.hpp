@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "device/rule.hpp"
+#include "rules/rule.hpp"
 
 namespace refnode {
 

@@ -15,7 +15,7 @@
 
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
-#include "device/rule.hpp"
+#include "rules/rule.hpp"
 #include "dictionary/abort_codes.hpp"
 
 namespace refnode {

@@ -12,7 +12,7 @@
 #include "base/check.hpp"
 #include "fuzz/client_program.hpp"
 #include "node/node.hpp"
-#include "node/parts.hpp"
+#include "parts/parts.hpp"
 
 namespace {
 

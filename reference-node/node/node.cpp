@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "emergency/trigger.hpp"
-#include "node/parts.hpp"
+#include "node/eds_text.hpp"
 #include "node/switches.hpp"
 #include "objects/application_objects.hpp"
 #include "objects/manufacturer_objects.hpp"
 #include "objects/module_list.hpp"
 #include "objects/standard_objects.hpp"
 #include "objects/stored_description.hpp"
+#include "parts/parts.hpp"
 #include "sdo/parameters.hpp"
 #include "twin/twin.hpp"
 
@@ -77,7 +78,7 @@ void Node::Impl::add_own_objects() {
   pdos.add_objects();
   store.add_objects();
   sdo.add_objects();
-  add_stored_description(device);
+  add_stored_description(device, eds_text);
   add_module_list(device);
   add_sdo_client(device);
   add_application_objects(device, [this] { pdos.on_application_change(); });

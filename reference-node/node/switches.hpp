@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "node/parts.hpp"
+#include "parts/parts.hpp"
 
 namespace refnode {
 

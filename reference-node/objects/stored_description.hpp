@@ -2,10 +2,13 @@
 // The device description inside the device (1021h, 1022h, CiA 301, 7.5.2.24 and 7.5.2.25).
 #pragma once
 
+#include <string>
+
 #include "device/device.hpp"
 
 namespace refnode {
 
-void add_stored_description(Device& device);
+/// `text` gives what 1021h holds.
+void add_stored_description(Device& device, std::string (*text)());
 
 }  // namespace refnode

@@ -7,7 +7,7 @@
 #include <expected>
 #include <optional>
 
-#include "device/rule.hpp"
+#include "rules/rule.hpp"
 #include "dictionary/object_dictionary.hpp"
 
 namespace refnode {

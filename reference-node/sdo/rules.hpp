@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "device/rule.hpp"
+#include "rules/rule.hpp"
 #include "device/states.hpp"
 #include "dictionary/object_dictionary.hpp"
 #include "sdo/parameters.hpp"

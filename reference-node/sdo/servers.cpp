@@ -18,8 +18,8 @@ void SdoServers::bind() {
   for (const auto& [index, object] : device_->dictionary.objects()) {
     if (index <= first_sdo_server || index > last_sdo_server) continue;
     const auto channel = static_cast<std::uint8_t>(index - first_sdo_server);
-    additional_.push_back(
-        {bind_sdo_server(*device_, cob_id_rules, index), SdoServer(*device_, choices, rules, block_rules, channel)});
+    additional_.push_back({bind_sdo_server(*device_, cob_id_rules, index),
+                           SdoServer(*device_, choices, rules, block_rules, channel)});
     servers_.push_back(&additional_.back().server);
   }
   bind_sdo_clients(*device_, client_cob_id_rules);

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "node/parts.hpp"
+#include "parts/parts.hpp"
 
 namespace refnode {
 

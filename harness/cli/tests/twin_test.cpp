@@ -12,8 +12,8 @@
 #include "cli/proof/selftest.hpp"
 #include "device/profile.hpp"
 #include "eds/read.hpp"
+#include "node/eds_text.hpp"
 #include "node/node.hpp"
-#include "objects/eds_text.hpp"
 #include "shipped.hpp"
 
 using namespace conform;

@@ -11,7 +11,7 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "node/node.hpp"
-#include "node/parts.hpp"
+#include "parts/parts.hpp"
 
 namespace refnode::testing {
 

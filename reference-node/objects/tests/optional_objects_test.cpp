@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guarding, the high resolution clock, the SYNC counter, the configuration stamp and 1021h to 1029h.
+#include "node/eds_text.hpp"
 #include "node/tests/bench.hpp"
-#include "objects/eds_text.hpp"
 
 using namespace refnode;
 using namespace refnode::testing;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a description says and the bytes that a client gets for it.
 #include "base/text.hpp"
+#include "node/eds_text.hpp"
 #include "node/tests/bench.hpp"
-#include "objects/eds_text.hpp"
 #include "twin/tests/twin_text.hpp"
 
 using namespace refnode;

@@ -2,8 +2,8 @@
 // The device description agrees with the node.
 #include <string>
 
+#include "node/eds_text.hpp"
 #include "node/tests/bench.hpp"
-#include "objects/eds_text.hpp"
 
 using namespace refnode;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "objects/eds_text.hpp"
+#include "node/eds_text.hpp"
 
 #include <fmt/format.h>
 
