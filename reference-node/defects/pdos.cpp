@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "defects/pdos.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "pdo/bits.hpp"
+
+namespace refnode::defect {
+
+Change unlocked(PdoRulesPart of, PdoPart part) {
+  return decides(of, &PdoRules::locked, [part](const auto& former, PdoPart which, bool valid, bool enabled) {
+    return which != part && former(which, valid, enabled);
+  });
+}
+
+Change maps_absent_objects(PdoRulesPart of) {
+  return decides(of, &PdoRules::mappable, [](const auto& former, const Mapped& mapped) {
+    const Accepted allowed = former(mapped);
+    return !allowed && allowed.error() == abort_code::no_object ? Accepted{} : allowed;
+  });
+}
+
+Change maps_any_length(PdoRulesPart of) {
+  return [of](Parts& parts) {
+    of(parts).mappable.replace([&parts](const auto& former, Mapped mapped) {
+      const Entry* entry = parts.device.dictionary.entry(mapped.index, mapped.sub);
+      if (entry != nullptr) mapped.bits = static_cast<std::uint8_t>(entry->value.size() * 8);
+      return former(mapped);
+    });
+  };
+}
+
+Change takes_count(std::uint16_t index, CountThat too_large) {
+  return checking(index, 0, [=](Parts& parts, const Check& former, ByteView bytes) {
+    const Accepted taken = former(bytes);
+    const bool there = parts.device.dictionary.entry(index, bytes[0]) != nullptr;
+    const CountThat reason = there ? CountThat::exceeds_64_bits : CountThat::exceeds_the_entries;
+    const bool too_long = !taken && taken.error() == abort_code::mapping_too_long;
+    return too_long && reason == too_large ? Accepted{} : taken;
+  });
+}
+
+namespace {
+
+/// Changes what a frame of the first PDO of its direction carries, one mapped object after the other.
+void change_values(const ObjectDictionary& od, PdoDirection direction, Frame& frame, ValueChange change) {
+  constexpr std::uint8_t most_mapped = 0x40;
+  const std::uint16_t communication = first_communication_index(direction);
+  const auto mapping = static_cast<std::uint16_t>(communication + 0x200);
+  if (frame.id != (od.number(communication, 1) & 0x7FFU)) return;
+  const std::span<std::uint8_t> data = std::span(frame.data).first(frame.size());
+  std::size_t position = 0;  // in bits
+  for (std::uint8_t sub = 1; sub <= od.number(mapping, 0) && sub <= most_mapped; ++sub) {
+    const Mapped mapped = Mapped::unpack(od.number(mapping, sub));
+    if (position + mapped.bits > data.size() * 8) break;
+    const Entry* entry = od.entry(mapped.index, mapped.sub);
+    if (entry != nullptr) {
+      Bytes value(whole_bytes(mapped.bits));
+      copy_bits(data, position, value, 0, mapped.bits);
+      change(*entry, value);
+      value.resize(whole_bytes(mapped.bits));
+      copy_bits(value, 0, data, position, mapped.bits);
+    }
+    position += mapped.bits;
+  }
+}
+
+}  // namespace
+
+void reversed(const Entry&, Bytes& value) { std::ranges::reverse(value); }
+
+Change receives_values(ValueChange as) {
+  return misreads([as](Parts& parts, Frame& frame) {
+    change_values(parts.device.dictionary, PdoDirection::receive, frame, as);
+  });
+}
+
+Change sends_values(ValueChange as) {
+  return [as](Parts& parts) {
+    parts.device.outbox.add_filter([&parts, as](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::tpdo) return;
+      for (Outgoing& outgoing : frames)
+        change_values(parts.device.dictionary, PdoDirection::transmit, outgoing.frame, as);
+    });
+  };
+}
+
+}  // namespace refnode::defect
