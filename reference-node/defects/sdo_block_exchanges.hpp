@@ -10,6 +10,7 @@
 
 #include "defects/hooks.hpp"
 #include "defects/sdo_exchanges.hpp"
+#include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode::defect {
@@ -82,12 +83,12 @@ struct BlockWatch {
   }
 };
 
-inline BlockUploadRules& of_block_upload(Parts& parts) { return parts.sdo.block_rules.upload; }
-inline BlockDownloadRules& of_block_download(Parts& parts) { return parts.sdo.block_rules.download; }
+inline BlockUploadRules& of_block_upload(Parts& parts) { return parts.sdo.rules.block_upload; }
+inline BlockDownloadRules& of_block_download(Parts& parts) { return parts.sdo.rules.block_download; }
 
 /// The server that a frame is a request to, nullptr if to none.
 [[nodiscard]] inline const SdoServer* server_asked(const Parts& parts, const Frame& frame) {
-  const bool request = !frame.extended && !frame.remote && frame.size() == 8;
+  const bool request = is_base_data_frame(frame) && frame.size() == 8;
   return request ? parts.sdo.server_of(frame) : nullptr;
 }
 /// The running transfer of this kind that a request is about, nullptr if there is none.

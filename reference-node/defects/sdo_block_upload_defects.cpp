@@ -363,29 +363,15 @@ DefectTable refusal_rows() {
   };
 }
 
-/// No request is heard in Stopped; otherwise the server works on.
-Change goes_on_in_stopped() {
-  return together(
-      works_also(Service::sdo, NmtState::stopped),
-      [](Parts& parts) {
-        parts.sdo.rules.transfers_end_in.replace(
-            [](const auto& former, NmtState state) { return state != NmtState::stopped && former(state); });
-      },
-      deaf_to([](Parts& parts, const Frame& frame) {
-        return parts.device.state == NmtState::stopped && server_asked(parts, frame) != nullptr;
-      }));
-}
-
 DefectTable end_rows() {
   return {
       {"block-client-abort-ignored",
        "A client abort does not end a block transfer",
        {"SDO-BUP-17", "SDO-BUP-18", "SDO-BDN-19", "SDO-BDN-20"},
-       deaf_to([](Parts& parts, const Frame& frame) {
-         const bool block = transfer_of<BlockUpload>(parts, frame) != nullptr ||
-                            transfer_of<BlockDownload>(parts, frame) != nullptr;
-         return block && is_abort_request(parts, frame);
-       })},
+       decides(of_sdo, &SdoRules::abort_ends_transfer,
+               [](const auto& former, SdoSide by, bool block) {
+                 return !(block && by == SdoSide::client) && former(by, block);
+               })},
       {"block-upload-abort-waits-for-the-sub-block",
        "A client abort ends a block upload at the end of the sub-block only",
        {"SDO-BUP-17"},
@@ -396,7 +382,7 @@ DefectTable end_rows() {
       {"block-upload-goes-on-in-stopped",
        "A running sub-block goes on in Stopped",
        {"SDO-BUP-27"},
-       goes_on_in_stopped()},
+       keeps_transfers_in(NmtState::stopped)},
       {"block-new-request-refused",
        "While a block upload is open every new request is aborted",
        {"SDO-BUP-29"},

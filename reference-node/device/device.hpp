@@ -12,9 +12,9 @@
 #include "device/errors.hpp"
 #include "device/inbox.hpp"
 #include "device/outbox.hpp"
-#include "rules/rule.hpp"
 #include "device/states.hpp"
 #include "dictionary/object_dictionary.hpp"
+#include "rules/rule.hpp"
 
 namespace refnode {
 

@@ -15,8 +15,8 @@
 
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
-#include "rules/rule.hpp"
 #include "dictionary/abort_codes.hpp"
+#include "rules/rule.hpp"
 
 namespace refnode {
 

@@ -7,8 +7,8 @@
 #include <expected>
 #include <optional>
 
-#include "rules/rule.hpp"
 #include "dictionary/object_dictionary.hpp"
+#include "rules/rule.hpp"
 
 namespace refnode {
 
@@ -50,13 +50,6 @@ struct BlockUploadRules {
 
   /// Protocol switch threshold: data of up to so many bytes may be sent by a normal upload, with 0 none.
   Rule<bool(std::size_t size, std::uint8_t threshold)> may_switch;
-};
-
-struct BlockRules {
-  explicit BlockRules(ObjectDictionary& dictionary) : download(dictionary) {}
-
-  BlockDownloadRules download;
-  BlockUploadRules upload;
 };
 
 }  // namespace refnode

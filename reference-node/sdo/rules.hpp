@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What CiA 301 says of the SDO server: when a transfer begins and ends, and what a segmented one may be.
+// What CiA 301 says of the SDO server: when a transfer begins and ends, and what each kind may be.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
-#include "rules/rule.hpp"
 #include "device/states.hpp"
 #include "dictionary/object_dictionary.hpp"
+#include "rules/rule.hpp"
+#include "sdo/block_rules.hpp"
 #include "sdo/parameters.hpp"
 
 namespace refnode {
@@ -44,7 +45,7 @@ struct SegmentedRules {
 };
 
 struct SdoRules {
-  explicit SdoRules(ObjectDictionary& dictionary) : segmented(dictionary) {}
+  explicit SdoRules(ObjectDictionary& dictionary) : segmented(dictionary), block_download(dictionary) {}
 
   /// An SDO exists when both of its COB-IDs are valid (7.5.2.33).
   Rule<bool(const SdoChannel&)> exists{[](const SdoChannel& channel) { return channel.valid(); }};
@@ -56,6 +57,8 @@ struct SdoRules {
   Rule<bool(NmtState)> transfers_end_in{
       [](NmtState state) { return state == NmtState::stopped || state == NmtState::initialising; }};
   SegmentedRules segmented;
+  BlockDownloadRules block_download;
+  BlockUploadRules block_upload;
 };
 
 }  // namespace refnode

@@ -164,7 +164,7 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return refuse(data.error());
   if (!valid_block_size(block_size)) return refuse(abort_code::block_size_invalid);
-  if (choices_->protocol_switch && block_rules_->upload.may_switch(data->size(), threshold)) {
+  if (choices_->protocol_switch && rules_->block_upload.may_switch(data->size(), threshold)) {
     exchange.step = SdoStep::upload_initiate;
     return upload_response(exchange, std::move(*data));
   }
@@ -193,11 +193,11 @@ SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
   const std::uint8_t command = exchange.request[0];
   std::optional<std::size_t> announced;
   if ((command & size_bit) != 0) announced = size_field(exchange.request);
-  const Accepted granted = block_rules_->download.may_begin(exchange.mux, announced);
+  const Accepted granted = rules_->block_download.may_begin(exchange.mux, announced);
   if (!granted) return refuse(granted.error());
   auto reply = with_mux(static_cast<std::uint8_t>(0xA0U | (choices_->crc ? crc_bit : 0U)), exchange.mux);
   reply[4] = choices_->block_size;
-  transfer_ = BlockDownload(*choices_, block_rules_->download,
+  transfer_ = BlockDownload(*choices_, rules_->block_download,
                             {.mux = exchange.mux,
                              .announced = announced,
                              .capacity = device_->dictionary.capacity(exchange.mux),

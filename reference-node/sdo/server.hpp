@@ -9,7 +9,6 @@
 
 #include "device/device.hpp"
 #include "sdo/block_download.hpp"
-#include "sdo/block_rules.hpp"
 #include "sdo/block_upload.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/frames.hpp"
@@ -22,9 +21,8 @@ namespace refnode {
 class SdoServer {
  public:
   /// `channel`: 0 is the default server, 1 the one of 1201h and so on.
-  SdoServer(Device& device, const SdoChoices& choices, const SdoRules& rules, const BlockRules& block,
-            std::uint8_t channel)
-      : device_(&device), choices_(&choices), rules_(&rules), block_rules_(&block), channel_(channel) {}
+  SdoServer(Device& device, const SdoChoices& choices, const SdoRules& rules, std::uint8_t channel)
+      : device_(&device), choices_(&choices), rules_(&rules), channel_(channel) {}
 
   /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
   void on_request(const Frame& frame, std::uint32_t response_id);
@@ -72,7 +70,6 @@ class SdoServer {
   Device* device_;
   const SdoChoices* choices_;
   const SdoRules* rules_;
-  const BlockRules* block_rules_;
   std::uint8_t channel_;
   std::uint32_t response_id_ = 0;
   Transfer transfer_;

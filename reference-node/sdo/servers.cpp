@@ -4,11 +4,7 @@
 namespace refnode {
 
 SdoServers::SdoServers(Device& device)
-    : rules(device.dictionary),
-      block_rules(device.dictionary),
-      device_(&device),
-      default_(device, choices, rules, block_rules, 0),
-      servers_{&default_} {}
+    : rules(device.dictionary), device_(&device), default_(device, choices, rules, 0), servers_{&default_} {}
 
 void SdoServers::add_objects() {
   for (const std::uint8_t number : {std::uint8_t{1}, std::uint8_t{2}}) add_sdo_server(*device_, number);
@@ -18,35 +14,29 @@ void SdoServers::bind() {
   for (const auto& [index, object] : device_->dictionary.objects()) {
     if (index <= first_sdo_server || index > last_sdo_server) continue;
     const auto channel = static_cast<std::uint8_t>(index - first_sdo_server);
-    additional_.push_back({bind_sdo_server(*device_, cob_id_rules, index),
-                           SdoServer(*device_, choices, rules, block_rules, channel)});
+    additional_.push_back(
+        {bind_sdo_server(*device_, cob_id_rules, index), SdoServer(*device_, choices, rules, channel)});
     servers_.push_back(&additional_.back().server);
   }
   bind_sdo_clients(*device_, client_cob_id_rules);
 }
 
 const SdoServer* SdoServers::server_of(const Frame& frame) const {
+  // The default server has the CAN-IDs of the pre-defined connection set (7.3.3).
   if (frame.id == 0x600U + device_->node_id) return &default_;
-  for (const Additional& additional : additional_) {
-    const SdoChannel& channel = additional.channel;
-    if (rules.exists(channel) && frame.id == channel.receive.can_id()) return &additional.server;
+  for (const auto& [channel, server] : additional_) {
+    if (rules.exists(channel) && frame.id == channel.receive.can_id()) return &server;
   }
   return nullptr;
 }
 
 bool SdoServers::on_frame(const Frame& frame) {
-  // The default server has the CAN-IDs of the pre-defined connection set (7.3.3).
-  if (frame.id == 0x600U + device_->node_id) {
-    serve(frame, default_, 0x580U + device_->node_id);
-    return true;
+  const SdoServer* asked = server_of(frame);
+  if (asked == &default_) serve(frame, default_, 0x580U + device_->node_id);
+  for (auto& [channel, server] : additional_) {
+    if (asked == &server) serve(frame, server, channel.transmit.can_id());
   }
-  for (Additional& additional : additional_) {
-    const SdoChannel& channel = additional.channel;
-    if (!rules.exists(channel) || frame.id != channel.receive.can_id()) continue;
-    serve(frame, additional.server, channel.transmit.can_id());
-    return true;
-  }
-  return false;
+  return asked != nullptr;
 }
 
 void SdoServers::serve(const Frame& frame, SdoServer& server, std::uint32_t response_id) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "device/device.hpp"
-#include "sdo/block_rules.hpp"
 #include "sdo/choices.hpp"
 #include "sdo/parameters.hpp"
 #include "sdo/rules.hpp"
@@ -26,7 +25,6 @@ class SdoServers {
 
   SdoChoices choices;
   SdoRules rules;
-  BlockRules block_rules;
   CobIdRules cob_id_rules{CobIdUse::sdo_server};
   CobIdRules client_cob_id_rules{CobIdUse::sdo_client};
 
