@@ -47,7 +47,7 @@ class Block:
 
 
 def pages():
-    names = ["README.md", "reference-node/README.md", "suites/requirements/README.md"]
+    names = ["README.md", "CONTRIBUTING.md", "reference-node/README.md", "suites/requirements/README.md"]
     for folder in ("docs", "docs/decisions"):
         names += sorted(f"{folder}/{name}" for name in os.listdir(f"{SOURCE}/{folder}") if name.endswith(".md") and name not in GENERATED)
     for name in names:
