@@ -14,7 +14,6 @@ namespace {
 
 constexpr DataType u8 = DataType::unsigned8;
 constexpr DataType u16 = DataType::unsigned16;
-constexpr DataType u32 = DataType::unsigned32;
 
 /// Each of two entries delivers what the other one holds.
 DictionaryEdit swapped(std::uint16_t index, std::uint8_t one, std::uint8_t other) {

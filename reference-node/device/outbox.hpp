@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way out: every frame the node sends passes here, at once or delayed. Filters may change, repeat, delay
-// or drop it; that is how a whole class of defects is made without a word in the conformant code.
+// or drop it.
 #pragma once
 
 #include <algorithm>

@@ -146,8 +146,7 @@ void Node::Impl::run_timers() {
   device.outbox.on_time(device.now);
 }
 
-void Node::Impl::dispatch(const Frame& received) {
-  Frame frame = received;
+void Node::Impl::dispatch(const Frame& frame) {
   if (frame.extended) return;
   if (frame.remote) {
     if (!guarding.on_remote(frame)) pdos.on_remote(frame);
