@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 namespace refnode {
 
@@ -33,10 +34,11 @@ void add_error_trigger(Device& device, const Emergency& emergency) {
   clear.command = true;
   clear.check = [errors = &device.errors, &emergency](ByteView bytes) -> Accepted {
     const auto code = static_cast<std::uint16_t>(conform::load_le(bytes));
-    const std::vector<ErrorCause> causes = emergency.active();
-    for (const ErrorCause& cause : causes) {
-      if (cause.source == ErrorSource::application && (code == 0 || code == cause.code)) errors->clear(cause);
-    }
+    std::vector<ErrorCause> gone;  // clearing one changes the list
+    std::ranges::copy_if(emergency.active(), std::back_inserter(gone), [code](const ErrorCause& cause) {
+      return cause.source == ErrorSource::application && (code == 0 || code == cause.code);
+    });
+    for (const ErrorCause& cause : gone) errors->clear(cause);
     return {};
   };
   Entry& active =

@@ -18,7 +18,8 @@ constexpr Group all_groups[] = {Group::communication, Group::application, Group:
 
 // The text in transmission order, least significant byte first.
 bool is_signature(std::string_view wanted, ByteView given) {
-  return std::ranges::equal(wanted, given, [](char one, std::uint8_t other) { return one == other; });
+  return std::ranges::equal(
+      wanted, given, [](char one, std::uint8_t other) { return static_cast<std::uint8_t>(one) == other; });
 }
 
 bool is_parameter(const Entry& entry) {
