@@ -59,6 +59,15 @@ TEST_CASE("a device that stores by itself what its restricted CAN-IDs forbid to 
   check(combination);
 }
 
+TEST_CASE("a device that stores communication parameters by itself is not blamed for a refused signature") {
+  // 1010h:01 reads 1 (on command), 1010h:02 reads 2 (by itself), and answers take their time:
+  // 605: 23 10 10 01 6C 6F 61 64 -> 585: 80 10 10 01 20 00 00 08, and more than 4 s after 1017h was written
+  // the device stores it; 705: 00 behind reset node, 605: 40 17 10 00 .. -> 585: 4B 17 10 00 20 4E 00 00.
+  cli::Combination combination;
+  combination.variants = {"1010-autonomous-02-only", "sdo-turnaround-1200ms", "sdo-short-in-segments"};
+  check(combination);
+}
+
 TEST_CASE("rows of the variants are sound") {
   std::set<std::string_view> ids, groups;
   for (const auto& variant : refnode::variants()) {
