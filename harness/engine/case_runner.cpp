@@ -4,13 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "base/check.hpp"
 #include "base/text.hpp"
-#include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
-#include "canopen/decode.hpp"
-#include "canopen/sdo_initiate.hpp"
-#include "result/services.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {

@@ -12,8 +12,6 @@ namespace {
 constexpr Multiplexer error_register{Index(0x1001), SubIndex(0)};
 constexpr Multiplexer emcy_inhibit_time{Index(0x1015), SubIndex(0)};
 
-bool confirmed(const steps::SdoAnswer& answer) { return answer.kind == steps::SdoAnswer::Kind::confirmed; }
-
 }  // namespace
 
 Result<void> LastingErrors::look() {

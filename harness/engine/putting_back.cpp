@@ -9,12 +9,6 @@
 #include "engine/restore.hpp"
 
 namespace conform::engine {
-namespace {
-
-bool confirmed(const steps::SdoAnswer& answer) { return answer.kind == steps::SdoAnswer::Kind::confirmed; }
-
-}  // namespace
-
 Result<void> PuttingBack::look() {
   auto values = snapshot(run_.session);
   if (!values) return std::unexpected(values.error());

@@ -45,6 +45,11 @@ struct RunContext {
   void note(std::string text) { out.notes.push_back(std::move(text)); }
 };
 
+/// An upload that brought its data, or a download that was taken.
+[[nodiscard]] inline bool confirmed(const steps::SdoAnswer& answer) {
+  return answer.kind == steps::SdoAnswer::Kind::confirmed;
+}
+
 /// While values are put back the bus must be usable, whatever the user wants meanwhile. A second signal still
 /// ends the program.
 class StopHeld {
