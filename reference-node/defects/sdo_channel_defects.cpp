@@ -44,8 +44,8 @@ Change shares_the_default_server() {
   return [](Parts& parts) {
     const auto answered_on = std::make_shared<std::uint32_t>(response_id(parts, 0));
     Change(misreads([answered_on](Parts& node, Frame& frame) {
-      const auto channel = channel_of(node, frame.id);
-      if (!channel || !is_base_data_frame(frame)) return;
+      const auto channel = channel_of(node, frame);
+      if (!channel) return;
       *answered_on = response_id(node, *channel);
       frame.id = 0x600U + node.device.node_id;
     }))(parts);

@@ -46,8 +46,8 @@ Change refuses_in_stopped() {
   return Reading([](Parts& parts, std::vector<Frame>& frames) {
     if (parts.device.state != NmtState::stopped) return;
     for (const Frame& frame : frames) {
-      const auto channel = channel_of(parts, frame.id);
-      if (!channel || !is_base_data_frame(frame) || frame.size() != 8) continue;
+      const auto channel = channel_of(parts, frame);
+      if (!channel || frame.size() != 8) continue;
       parts.device.send(Service::sdo,
                         conform::can::data_frame(conform::CanId(response_id(parts, *channel)),
                                                  abort_of(frame.data, abort_code::device_state)));
@@ -61,7 +61,7 @@ Change serves_after_stopped() {
     if (held && parts.device.works_now(Service::sdo)) frames.insert(frames.begin(), *std::exchange(held, {}));
     if (parts.device.state != NmtState::stopped) return;
     for (const Frame& frame : frames) {
-      if (is_base_data_frame(frame) && channel_of(parts, frame.id)) held = frame;
+      if (channel_of(parts, frame)) held = frame;
     }
   });
 }

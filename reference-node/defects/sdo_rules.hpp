@@ -40,17 +40,10 @@ inline std::uint32_t response_id(Parts& parts, std::uint8_t channel) {
   const auto index = static_cast<std::uint16_t>(first_sdo_server + channel);
   return static_cast<std::uint32_t>(parts.device.dictionary.number(index, 2)) & 0x7FFU;
 }
-/// Number of the server that takes requests on this CAN-ID.
-inline std::optional<std::uint8_t> channel_of(Parts& parts, std::uint32_t id) {
-  constexpr std::uint64_t not_valid = 0x80000000;
-  if (id == 0x600U + parts.device.node_id) return 0;
-  for (std::uint16_t index = first_sdo_server + 1; index <= last_sdo_server; ++index) {
-    const std::uint64_t received_on = parts.device.dictionary.number(index, 1, not_valid);
-    const std::uint64_t sent_on = parts.device.dictionary.number(index, 2, not_valid);
-    if (((received_on | sent_on) & not_valid) == 0 && (received_on & 0x7FFU) == id)
-      return static_cast<std::uint8_t>(index - first_sdo_server);
-  }
-  return std::nullopt;
+/// Number of the server that a data frame is a request to.
+inline std::optional<std::uint8_t> channel_of(const Parts& parts, const Frame& frame) {
+  const SdoServer* server = is_base_data_frame(frame) ? parts.sdo.server_of(frame) : nullptr;
+  return server == nullptr ? std::nullopt : std::optional(server->channel());
 }
 
 }  // namespace refnode::defect

@@ -26,6 +26,7 @@ class SdoServer {
 
   /// A data frame on the request CAN-ID, in a state that serves SDO. Responses go to `response_id`.
   void on_request(const Frame& frame, std::uint32_t response_id);
+  [[nodiscard]] std::uint8_t channel() const { return channel_; }
   /// Drops a running transfer without a word.
   void reset() { transfer_ = std::monostate{}; }
   /// The running transfer if it is of this kind.
