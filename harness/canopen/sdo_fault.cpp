@@ -168,24 +168,22 @@ Result<SdoFault> SdoFault::parse(std::string_view text) {
 
 Result<void> check_fault(const SdoFault& fault, SdoProtocol protocol, std::optional<std::size_t> segments) {
   if (!has_place(fault, protocol)) {
-    return fail(fmt::format("{} has no place for '{}'", name_of(protocol), fault.text), "scenario");
+    return fail_scenario(fmt::format("{} has no place for '{}'", name_of(protocol), fault.text));
   }
   const bool counts_segments = fault.part == Part::segment;
   const auto highest = fault.kind == Kind::swap ? fault.other : fault.at;
   // An expedited transfer has no segment to count from, not even one that the initiate precedes.
   const bool expedited = segments == std::size_t{0};
   if (segments && counts_segments && (highest > *segments || expedited)) {
-    return fail(fmt::format("the transfer has {} segment{} only: '{}'", *segments, *segments == 1 ? "" : "s",
-                            fault.text),
-                "scenario");
+    return fail_scenario(fmt::format("the transfer has {} segment{} only: '{}'", *segments,
+                                     *segments == 1 ? "" : "s", fault.text));
   }
   if (expedited && fault.part == Part::end)
-    return fail(fmt::format("an expedited transfer has no place for '{}'", fault.text), "scenario");
+    return fail_scenario(fmt::format("an expedited transfer has no place for '{}'", fault.text));
   // The answer to the last segment ends a segmented transfer.
   if (segments && fault.stops() && counts_segments && protocol == SdoProtocol::download &&
       fault.at == *segments) {
-    return fail(fmt::format("the transfer is over after segment {}: '{}'", *segments, fault.text),
-                "scenario");
+    return fail_scenario(fmt::format("the transfer is over after segment {}: '{}'", *segments, fault.text));
   }
   return {};
 }

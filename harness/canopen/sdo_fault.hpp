@@ -53,7 +53,7 @@ struct SdoFault {
 /// The protocol that the client asks for.
 enum class SdoProtocol : std::uint8_t { upload, download, block_upload, block_download };
 
-/// Error (where: "scenario") when a transfer of this protocol and so many segments (nullopt: not known
+/// Error (of the scenario) when a transfer of this protocol and so many segments (nullopt: not known
 /// before) has no place for it.
 [[nodiscard]] Result<void> check_fault(const SdoFault& fault, SdoProtocol protocol,
                                        std::optional<std::size_t> segments);

@@ -36,10 +36,10 @@ Result<std::unique_ptr<SdoClient>> make_sdo_client(const SdoRequest& request) {
       return std::unexpected(fits.error());
   }
   if (is_expedited(request) && (request.data.empty() || request.data.size() > 4))
-    return fail("an expedited download holds 1 to 4 bytes", "scenario");
+    return fail_scenario("an expedited download holds 1 to 4 bytes");
   if (request.announced &&
       (is_expedited(request) || !request.size_told || request.mode == SdoDownload::Mode::segmented_unsized)) {
-    return fail("this transfer announces no size", "scenario", "transfer: segmented or block does");
+    return fail_scenario("this transfer announces no size", "transfer: segmented or block does");
   }
   const auto plan = request.faults.empty() ? nullptr : std::make_shared<SdoFaultPlan>(request.faults);
   std::unique_ptr<SdoClient> client;

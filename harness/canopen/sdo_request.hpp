@@ -30,7 +30,7 @@ struct SdoRequest {
   std::size_t max_bytes = most_upload_bytes;
 };
 
-/// Error (where: "scenario") when a fault has no place in the transfer, or the data do not fit its mode.
+/// Error (of the scenario) when a fault has no place in the transfer, or the data do not fit its mode.
 [[nodiscard]] Result<std::unique_ptr<SdoClient>> make_sdo_client(const SdoRequest& request);
 
 }  // namespace conform::canopen

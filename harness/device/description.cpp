@@ -108,8 +108,8 @@ class Describer {
         described.parameter_name.empty() ? object.entry.parameter_name : described.parameter_name;
     if (!name.empty()) entry.name = printable(name.text);
     const auto at = described.at.known() ? described.at : described.implied_by;
-    entry.declared_at = place(at);
-    out_.places.entries.emplace(mux, entry.declared_at);
+    entry.described = true;
+    out_.places.entries.emplace(mux, place(at));
     read_type(described, standard.has_value(), entry);
     if (const auto access = eds::access(described)) {
       entry.access = access_of(*access);

@@ -25,7 +25,7 @@ struct UnusedText {
 struct Description {
   std::string file;  ///< as the user wrote it
   std::vector<Entry>
-      entries;  ///< ascending, all with `claimed` and `declared_at`; defaults without the node-ID
+      entries;  ///< ascending, all with `claimed` and `described`; defaults without the node-ID
   DescribedPlaces places;
   std::set<std::string, std::less<>> claims;  ///< features that follow from what is described
   std::optional<NodeId> node;                 ///< of a DCF

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.hpp"
 #include "device/profile_fields.hpp"
 #include "device/standard_objects.hpp"
 
@@ -63,6 +64,17 @@ bool Profile::is_untouchable(Multiplexer mux) const {
   return std::ranges::find(untouchable, mux) != untouchable.end();
 }
 
+std::string Profile::place_of(Multiplexer mux) const {
+  const auto& places = described_places.entries;
+  if (const auto entry = places.find(mux); entry != places.end()) return entry->second;
+  const auto object = described_places.objects.find(mux.index);
+  if (object == described_places.objects.end()) return described_in + ", without " + to_string(mux.index);
+  // A data type has no entries.
+  const auto first = places.lower_bound({mux.index, SubIndex(0)});
+  const bool has_entries = first != places.end() && first->first.index == mux.index;
+  return object->second + (has_entries ? ", without " + to_string(mux) : "");
+}
+
 std::optional<Duration> Profile::duration(std::string_view wanted) const {
   for (const DurationField& field : duration_fields()) {
     if (field.key == wanted || field.symbol == wanted) return this->*field.member;
@@ -115,7 +127,7 @@ Dictionary dictionary_of(const Profile& profile) {
     for (const Entry& listed : profile.objects) {
       Entry* entry = dictionary.find(listed.mux);
       const auto index = listed.mux.index.value();
-      if (entry->declared_at.empty() || index < 0x2000 || index > 0x9FFF) continue;
+      if (!entry->described || index < 0x2000 || index > 0x9FFF) continue;
       entry->open_to_writes = !entry->command;
       entry->safe =
           entry->writable() && !entry->access_open && !entry->command && !profile.is_untouchable(listed.mux);
@@ -133,16 +145,10 @@ Dictionary dictionary_of(const Profile& profile) {
 Profile default_profile(NodeId node) {
   Profile profile;
   profile.node = node;
-  profile.errors.push_back(heartbeat_trigger(NodeId{0x7E}));
+  // Every heartbeat consumer has it: the heartbeat of another node stays away.
+  profile.errors = {
+      {.name = "heartbeat loss", .code = 0x8130, .raise = {}, .clear = {}, .heartbeat_node = NodeId{0x7E}}};
   return profile;
-}
-
-ErrorTrigger heartbeat_trigger(NodeId producer) {
-  ErrorTrigger trigger;
-  trigger.name = "heartbeat loss";
-  trigger.code = 0x8130;
-  trigger.heartbeat_node = producer;
-  return trigger;
 }
 
 Result<ProfileDocument> load_profile_file(const std::string& path) {

@@ -111,6 +111,9 @@ struct Profile {
   [[nodiscard]] bool claimed(std::string_view feature) const { return claims.contains(feature); }
   [[nodiscard]] bool is_safe(Multiplexer mux) const;
   [[nodiscard]] bool is_untouchable(Multiplexer mux) const;
+  /// Where the device description tells of the entry, "device.eds:120", or that it does not, "device.eds,
+  /// without 2001h:00". There must be one.
+  [[nodiscard]] std::string place_of(Multiplexer mux) const;
   /// T_BOOT, T_SDO, T_NVM, T_NMT, T_QUIET, T_SRVTO, T_BLK, T_LSS by name, as conversations write them; also
   /// the keys of the file ("boot_time").
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;

@@ -16,7 +16,4 @@ struct DurationField {
 };
 [[nodiscard]] std::span<const DurationField> duration_fields();
 
-/// The trigger that every heartbeat consumer has: a heartbeat of `producer` that stays away.
-[[nodiscard]] ErrorTrigger heartbeat_trigger(NodeId producer);
-
 }  // namespace conform::device

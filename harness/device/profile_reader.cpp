@@ -289,7 +289,7 @@ class Reader {
 
   void read_errors() {
     const Field errors = fields_.optional("errors");
-    if (!errors.present()) profile_.errors.push_back(heartbeat_trigger(NodeId{0x7E}));
+    if (!errors.present()) profile_.errors = default_profile(profile_.node).errors;
     for (const Field& item : errors.items()) {
       Fields fields = item.fields("error trigger");
       ErrorTrigger trigger;

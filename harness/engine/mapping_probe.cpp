@@ -72,7 +72,8 @@ class Probe {
     if (!answer) {
       broken_ = answer.error();
     } else if (answer->kind == Kind::silence) {
-      broken_ = Error{"no answer when the mapping " + to_string(mapping_) + " was tried", "scenario", {}};
+      broken_ = Error{
+          "no answer when the mapping " + to_string(mapping_) + " was tried", {}, {}, Error::Of::scenario};
     } else if (answer->kind == Kind::confirmed) {
       return true;
     } else if (!why_) {

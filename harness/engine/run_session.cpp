@@ -36,7 +36,7 @@ Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
   auto answer = channel_.upload(object, std::nullopt);
   adapt();
   // A transfer that was given up is no reason to end the run.
-  if (!answer && answer.error().where == "scenario") {
+  if (!answer && answer.error().of == Error::Of::scenario) {
     steps::SdoAnswer given_up;
     given_up.kind = steps::SdoAnswer::Kind::gave_up;
     given_up.detail = answer.error().what;
@@ -84,7 +84,7 @@ Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Du
 
 Result<void> RunSession::will_change(Multiplexer object) {
   if (profile_.is_untouchable(object)) {
-    return fail(to_string(object) + " must not be written: untouchable in the device profile", "scenario");
+    return fail_scenario(to_string(object) + " must not be written: untouchable in the device profile");
   }
   const auto* found = entry(object);
   if (found != nullptr && found->command) recorder_.observer().commanding(object);
@@ -168,8 +168,8 @@ Result<void> RunSession::nmt(canopen::NmtCommand what) {
 
 Result<void> RunSession::play_heartbeat(NodeId other, canopen::NmtState state) {
   if (!may_play_nodes())
-    return fail("the run does not allow to play node " + std::to_string(other.value()), "scenario",
-                "--allow motion, or name an error trigger in the device profile");
+    return fail_scenario("the run does not allow to play node " + std::to_string(other.value()),
+                         "--allow motion, or name an error trigger in the device profile");
   return send_unguarded(canopen::encode_heartbeat(other, state));
 }
 
@@ -269,7 +269,7 @@ Result<void> RunSession::send_unguarded(const can::Frame& frame) {
 
 Result<steps::Window> RunSession::window_after(std::string_view label) const {
   const auto found = labels_.find(label);
-  if (found == labels_.end()) return fail("label '" + std::string(label) + "' was not reached", "scenario");
+  if (found == labels_.end()) return fail_scenario("label '" + std::string(label) + "' was not reached");
   return found->second;
 }
 

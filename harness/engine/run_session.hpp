@@ -45,7 +45,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::string access_of(Multiplexer object) const override;
   [[nodiscard]] bool may_change(Multiplexer object) const override;
   [[nodiscard]] bool claims(std::string_view feature) const override;
-  [[nodiscard]] std::size_t error_triggers() const override;
+  [[nodiscard]] Result<std::size_t> error_triggers() override;
+  [[nodiscard]] Result<std::vector<device::ErrorTrigger>> usable_triggers() override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
   /// What the run itself could not put back may come back with each reset where the device stores by itself.
   [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults && !left_changed_; }
@@ -74,7 +75,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer object) const override;
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
   [[nodiscard]] Result<void> play_heartbeat(NodeId node, canopen::NmtState state) override;
-  [[nodiscard]] bool may_play_nodes() const override { return guard_.run() >= steps::Tier::motion; }
+  [[nodiscard]] bool may_play_nodes() const { return guard_.run() >= steps::Tier::motion; }
   [[nodiscard]] Result<void> send(const can::Frame& frame) override;
   [[nodiscard]] Result<void> will_change(Multiplexer object) override;
   void sdo_channel_dirty() override { channel_.dirty(false); }

@@ -49,7 +49,7 @@ const steps::Value* RunSession::find(std::string_view name) const {
 }
 
 Result<steps::Value> RunSession::current() {
-  if (object_ == nullptr) return fail("'current' needs a step about an entry", "scenario");
+  if (object_ == nullptr) return fail_scenario("'current' needs a step about an entry");
   const auto object = object_->resolve(*this);
   if (!object) return std::unexpected(object.error());
   return read(*object);
@@ -59,7 +59,7 @@ Result<steps::Value> RunSession::read(Multiplexer object) {
   auto answer = peek(object);
   if (!answer) return std::unexpected(answer.error());
   if (answer->kind == steps::SdoAnswer::Kind::confirmed) return steps::Value::of_bytes(answer->data);
-  return fail("the value of " + to_string(object) + " cannot be read: " + answer->refusal(), "scenario");
+  return fail_scenario("the value of " + to_string(object) + " cannot be read: " + answer->refusal());
 }
 
 Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared what) {
@@ -76,7 +76,7 @@ Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared wh
     const auto sub = object.sub.value();
     if (sub >= 1 && sub <= 4 && wanted[sub - 1]) return steps::Value::of_bytes(to_le(*wanted[sub - 1], 4));
   }
-  if (!bytes) return fail("the description of " + to_string(object) + " does not say it", "scenario");
+  if (!bytes) return fail_scenario("the description of " + to_string(object) + " does not say it");
   auto value = steps::Value::of_bytes(*bytes);
   if (value.number && canopen::is_signed(known.type) && bytes->size() < 8 && (bytes->back() & 0x80U) != 0) {
     *value.number |= ~std::uint64_t{0} << (8 * bytes->size());
@@ -99,7 +99,7 @@ Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
   using Kind = steps::SdoAnswer::Kind;
   // Silence is neither: to take it for absence would excuse the device from every rule about the entry.
   if (answer->kind == Kind::silence)
-    return fail("no answer when " + to_string(object) + " was looked for", "scenario");
+    return fail_scenario("no answer when " + to_string(object) + " was looked for");
   const bool present = answer->kind != Kind::aborted || (answer->code != canopen::abort::no_object &&
                                                          answer->code != canopen::abort::no_sub_index);
   note_present(object, present, present ? "" : "abort " + canopen::describe(answer->code));
@@ -125,7 +125,7 @@ std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
     const auto* found = entry(object);
     if (found == nullptr) return std::string();
     return std::string(device::to_string(found->access)) +
-           (found->declared_at.empty() ? "" : ", " + found->declared_at);
+           (found->described ? ", " + profile_.place_of(object) : "");
   };
   switch (asked) {
     case Asked::presence: return noted(asked, object);
@@ -181,14 +181,13 @@ Result<bool> RunSession::is_writable(Multiplexer object) {
   auto value = peek(object);
   if (!value) return std::unexpected(value.error());
   const auto silent = [object] {
-    return fail("no answer when " + to_string(object) + " was tried", "scenario");
+    return fail_scenario("no answer when " + to_string(object) + " was tried");
   };
   if (value->kind == steps::SdoAnswer::Kind::silence) return silent();
   // An entry that cannot be read, or is answered against the protocol, was not tried.
   const auto not_tried = [object](std::string_view done, const steps::SdoAnswer& came) {
-    return fail("whether " + to_string(object) + " is writable cannot be tried: its value was not " +
-                    std::string(done) + ": " + came.refusal(),
-                "scenario");
+    return fail_scenario("whether " + to_string(object) + " is writable cannot be tried: its value was not " +
+                         std::string(done) + ": " + came.refusal());
   };
   if (value->kind != steps::SdoAnswer::Kind::confirmed) return not_tried("read", *value);
   auto answer = channel_.download(object, value->data, canopen::SdoDownload::Mode::automatic, std::nullopt);
@@ -218,7 +217,7 @@ Result<bool> RunSession::offers_block_transfer(bool upload) {
   }
   auto answer = channel_.try_block_initiate(block_initiate(0xA0, {Index(0x1000), SubIndex(0)}, 0x14));
   if (!answer) return std::unexpected(answer.error());
-  if (!*answer) return fail("no answer when a block upload was tried", "scenario");
+  if (!*answer) return fail_scenario("no answer when a block upload was tried");
   known = !refuses_block_transfer(**answer);
   if (!*known)
     grounds_[{steps::Asked::block_upload, {}}] = refusal_words(**answer, {Index(0x1000), SubIndex(0)});
@@ -229,7 +228,7 @@ Result<bool> RunSession::has_variable_mapping(Multiplexer object) {
   constexpr std::string_view feature = "variable mapping";
   if (profile_.claimed(feature)) return true;
   const auto pdo = canopen::pdo_communication(object.index);
-  if (!pdo) return fail(to_string(object) + " is not a PDO", "scenario");
+  if (!pdo) return fail_scenario(to_string(object) + " is not a PDO");
   const Multiplexer count{canopen::pdo_mapping(*pdo), SubIndex(0)};
   auto& why = grounds_[{steps::Asked::mapping, {*pdo, SubIndex(0)}}];
   if (profile_.not_claimed.contains(feature)) {
@@ -272,7 +271,7 @@ Result<bool> RunSession::try_block_download() {
     const auto size = static_cast<std::uint8_t>(found->size().value_or(0));
     auto answer = channel_.try_block_initiate(block_initiate(0xC2, object, size));
     if (!answer) return std::unexpected(answer.error());
-    if (!*answer) return fail("no answer when a block download was tried", "scenario");
+    if (!*answer) return fail_scenario("no answer when a block download was tried");
     const auto& data = **answer;
     const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(data).subspan(4))));
     if (data[0] == 0x80 && code == canopen::abort::read_only) continue;
@@ -311,13 +310,20 @@ bool RunSession::may_change(Multiplexer object) const {
 
 bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
 
-std::size_t RunSession::error_triggers() const {
-  // A heartbeat can stay away only from a device that consumes heartbeats.
-  const auto consumer = present_.find({Index(0x1016), SubIndex(1)});
-  const bool consumes = consumer != present_.end() && consumer->second;
-  return static_cast<std::size_t>(std::ranges::count_if(
-      profile_.errors,
-      [this, consumes](const auto& trigger) { return trigger.raise || (consumes && may_play_nodes()); }));
+Result<std::vector<device::ErrorTrigger>> RunSession::usable_triggers() {
+  const auto consumes = is_present({Index(0x1016), SubIndex(1)}, false);
+  if (!consumes) return std::unexpected(consumes.error());
+  std::vector<device::ErrorTrigger> out;
+  for (const auto& trigger : profile_.errors) {
+    if (trigger.raise || (*consumes && may_play_nodes())) out.push_back(trigger);
+  }
+  return out;
+}
+
+Result<std::size_t> RunSession::error_triggers() {
+  const auto usable = usable_triggers();
+  if (!usable) return std::unexpected(usable.error());
+  return usable->size();
 }
 
 }  // namespace conform::engine

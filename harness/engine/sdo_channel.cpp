@@ -128,8 +128,8 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     const auto ids = job.channel.value_or(default_ids_);
     auto& line = lines_[ids];
     if (std::ranges::find(lines, &line) != lines.end())
-      return fail("two transfers at the same time on the channel " + to_string(ids.request), "scenario",
-                  "give each a channel of its own");
+      return fail_scenario("two transfers at the same time on the channel " + to_string(ids.request),
+                           "give each a channel of its own");
     lines.push_back(&line);
     SdoRun run;
     run.client = client->get();
@@ -191,7 +191,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     first_request_ = std::min(first_request_, run.first_request.value_or(first_request_));
     last_request_ = &run == runs.data() ? run.last_request : std::max(last_request_, run.last_request);
   }
-  if (!misplaced.empty()) return fail(misplaced, "scenario");
+  if (!misplaced.empty()) return fail_scenario(misplaced);
   return out;
 }
 

@@ -24,7 +24,7 @@ class SdoChannel {
  public:
   SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Duration quiet);
 
-  /// Transfers at the same time, each on a channel of its own. Error (where: "scenario") when two share one,
+  /// Transfers at the same time, each on a channel of its own. Error (of the scenario) when two share one,
   /// or when a fault has no place.
   [[nodiscard]] Result<std::vector<steps::SdoAnswer>> run(std::span<const steps::SdoJob> jobs);
   [[nodiscard]] Result<steps::SdoAnswer> upload(Multiplexer object, std::optional<Duration> timeout);

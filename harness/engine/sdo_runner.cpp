@@ -55,10 +55,10 @@ class Runner {
         const auto granted = patience + run.heard * per_answer;
         if (run.over || taken < std::max(granted, std::min(patience + run.heard * pace, longest_patience)))
           continue;
-        return fail("the transfer of " + to_string(run.object) + " was given up after " +
-                        to_string(std::chrono::floor<std::chrono::seconds>(taken)) + " and " +
-                        std::to_string(run.heard) + " answers",
-                    "scenario", "at this pace it would take hours");
+        return fail_scenario("the transfer of " + to_string(run.object) + " was given up after " +
+                                 to_string(std::chrono::floor<std::chrono::seconds>(taken)) + " and " +
+                                 std::to_string(run.heard) + " answers",
+                             "at this pace it would take hours");
       }
       // What was heard may have given the clients something to say, or ended them.
       if (handed_over || heard) continue;

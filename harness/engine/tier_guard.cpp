@@ -24,9 +24,9 @@ bool shortens(const canopen::SdoFault& fault) { return fault.kind == canopen::Sd
 
 Result<void> TierGuard::needs(steps::Need need) const {
   if (need.covered_by(case_)) return {};
-  return fail(
+  return fail_scenario(
       "a scenario of risk '" + std::string(steps::word_of(case_)) + "' must not " + std::string(need.what),
-      "scenario", "give the scenario 'risk: " + std::string(steps::word_of(need.tier)) + "'");
+      "give the scenario 'risk: " + std::string(steps::word_of(need.tier)) + "'");
 }
 
 bool TierGuard::may_write(Multiplexer object) const {
@@ -41,9 +41,10 @@ Result<void> TierGuard::judge_download(Multiplexer object) const {
   if (auto allowed = needs(steps::need_of_download(object)); !allowed) return allowed;
   if (may_write(object)) return {};
   if (profile_.is_untouchable(object))
-    return fail(to_string(object) + " must not be written: untouchable in the device profile", "scenario");
-  return fail(to_string(object) + " must not be written: from 2000h on only what the profile calls safe",
-              "scenario", "name it under safe_objects in the device profile");
+    return fail_scenario(to_string(object) + " must not be written: untouchable in the device profile");
+  return fail_scenario(
+      to_string(object) + " must not be written: from 2000h on only what the profile calls safe",
+      "name it under safe_objects in the device profile");
 }
 
 Result<void> TierGuard::judge(const can::Frame& frame) const {

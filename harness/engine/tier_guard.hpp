@@ -23,7 +23,7 @@ class TierGuard {
   void begin_case(steps::Tier tier) { case_ = tier; }
   [[nodiscard]] steps::Tier run() const { return run_; }
 
-  // Errors (where: "scenario") say what must not be done, and the risk that the scenario would need.
+  // Errors (of the scenario) say what must not be done, and the risk that the scenario would need.
   [[nodiscard]] Result<void> needs(steps::Need need) const;
   [[nodiscard]] Result<void> judge(const can::Frame& frame) const;
   [[nodiscard]] Result<void> judge(const steps::SdoJob& job) const;

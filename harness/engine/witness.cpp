@@ -114,18 +114,6 @@ std::string deviation_of(const Step& step, const Actual& actual, RunSession& ses
   }
 }
 
-/// Where the description tells of an entry, or that it does not.
-std::string described_at(const device::Profile& profile, Multiplexer mux) {
-  const auto& [objects, entries] = profile.described_places;
-  if (const auto entry = entries.find(mux); entry != entries.end()) return entry->second;
-  const auto object = objects.find(mux.index);
-  if (object == objects.end()) return profile.described_in + ", without " + to_string(mux.index);
-  // A data type has no entries.
-  const auto first = entries.lower_bound({mux.index, SubIndex(0)});
-  const bool has_entries = first != entries.end() && first->first.index == mux.index;
-  return object->second + (has_entries ? ", without " + to_string(mux) : "");
-}
-
 }  // namespace
 
 /// An answer that did not come, or that says that ours came too late.
@@ -156,7 +144,7 @@ std::string Witness::declared_at(const Step& step, const Actual& actual) const {
   if (about.empty() && about_) about.push_back(*about_);
   std::vector<std::string> places;
   for (const auto mux : about) {
-    auto place = described_at(session_.profile(), mux);
+    auto place = session_.profile().place_of(mux);
     if (std::ranges::find(places, place) == places.end()) places.push_back(std::move(place));
   }
   return join(places, "; ");

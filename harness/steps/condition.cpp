@@ -293,7 +293,11 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
     return value;
   }
   if (node.kind == Kind::feature) return facts.claims(node.word);
-  if (node.kind == Kind::triggers) return facts.error_triggers() >= node.count;
+  if (node.kind == Kind::triggers) {
+    const auto known = facts.error_triggers();
+    if (!known) return std::unexpected(known.error());
+    return *known >= node.count;
+  }
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
   if (node.kind == Kind::described) return facts.is_described();
   if (node.kind == Kind::refused) return facts.write_was_refused();

@@ -42,7 +42,7 @@ class Facts : public Scope {
   [[nodiscard]] virtual bool may_change(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool claims(std::string_view feature) const = 0;
   /// Number of ways to raise an error that work with this device.
-  [[nodiscard]] virtual std::size_t error_triggers() const = 0;
+  [[nodiscard]] virtual Result<std::size_t> error_triggers() = 0;
   /// Whether the profile says how storing is made to fail.
   [[nodiscard]] virtual bool store_fault_known() const { return false; }
   /// Whether nothing is stored in the device, so that the values after a reset are the defaults.

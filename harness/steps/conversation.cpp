@@ -262,7 +262,7 @@ Bytes multiplexer_bytes(Multiplexer object) {
 
 Result<Bytes> named_bytes(const BytePattern& pattern, const Scope& scope) {
   const auto* value = scope.find(pattern.name);
-  if (value == nullptr) return fail("{" + pattern.name + "} has no value here", "scenario");
+  if (value == nullptr) return fail_scenario("{" + pattern.name + "} has no value here");
   Bytes all;
   if (value->bytes) {
     all = *value->bytes;
@@ -270,7 +270,7 @@ Result<Bytes> named_bytes(const BytePattern& pattern, const Scope& scope) {
     all =
         to_le(*value->number, pattern.size != 0 ? std::min<std::size_t>(pattern.from + pattern.size, 8) : 4);
   } else {
-    return fail("{" + pattern.name + "} is " + value->text() + ", not data", "scenario");
+    return fail_scenario("{" + pattern.name + "} is " + value->text() + ", not data");
   }
   const auto from = std::min(pattern.from, all.size());
   const auto size = pattern.size == 0 ? all.size() - from : std::min(pattern.size, all.size() - from);
@@ -313,8 +313,8 @@ Result<can::Frame> build_frame(const Line& line, Scope& scope, std::optional<Mul
       case Kind::reserved: bytes.push_back(0); break;
       case Kind::multiplexer: {
         if (!object)
-          return fail("{m} needs the object of the conversation", "scenario",
-                      "write talk: {object: 1008h:00, frames: ...}");
+          return fail_scenario("{m} needs the object of the conversation",
+                               "write talk: {object: 1008h:00, frames: ...}");
         const auto mux = multiplexer_bytes(*object);
         bytes.insert(bytes.end(), mux.begin(), mux.end());
         break;
@@ -335,7 +335,7 @@ Result<can::Frame> build_frame(const Line& line, Scope& scope, std::optional<Mul
         break;
     }
   }
-  if (bytes.size() > 8) return fail("more than eight bytes in '" + line.text + "'", "scenario");
+  if (bytes.size() > 8) return fail_scenario("more than eight bytes in '" + line.text + "'");
   auto frame = can::data_frame(line.can_id(scope.node()), bytes);
   frame.remote = line.remote;
   frame.extended = line.extended;

@@ -7,6 +7,7 @@
 #include "canopen/cob_id.hpp"
 #include "canopen/emcy.hpp"
 #include "canopen/nmt.hpp"
+#include "steps/sdo_access.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
@@ -19,35 +20,6 @@ constexpr Duration heartbeat_time = 100ms;
 
 constexpr Multiplexer consumer_entry{Index(0x1016), SubIndex(1)};
 constexpr Multiplexer error_behaviour{Index(0x1029), SubIndex(1)};
-
-Result<Actual> write(Session& session, Multiplexer object, const Bytes& bytes) {
-  auto answer = session.download(object, bytes, canopen::SdoDownload::Mode::automatic, std::nullopt);
-  if (!answer) return std::unexpected(answer.error());
-  Actual out;
-  out.decisive = answer->decisive;
-  if (answer->kind == SdoAnswer::Kind::confirmed) {
-    out.detail = "confirmed";
-    return out;
-  }
-  out.kind = answer->kind == SdoAnswer::Kind::aborted   ? Actual::Kind::aborted
-             : answer->kind == SdoAnswer::Kind::silence ? Actual::Kind::silence
-                                                        : Actual::Kind::violation;
-  out.code = answer->code;
-  out.detail = answer->detail;
-  return out;
-}
-
-/// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer of
-/// heartbeats.
-Result<std::vector<device::ErrorTrigger>> usable_triggers(Session& session) {
-  auto consumes = session.is_present(consumer_entry, false);
-  if (!consumes) return std::unexpected(consumes.error());
-  std::vector<device::ErrorTrigger> out;
-  for (const auto& trigger : session.profile().errors) {
-    if (trigger.raise || (*consumes && session.may_play_nodes())) out.push_back(trigger);
-  }
-  return out;
-}
 
 /// Whose heartbeat stays away: a node that is supposed not to be on the bus.
 NodeId missed_node(const Session& session, const device::ErrorTrigger& trigger) {
@@ -65,7 +37,8 @@ Result<void> keep_from_stopping(Session& session) {
   if (!*present) return {};
   const auto reaction = session.read(error_behaviour);
   if (!reaction || reaction->number != stops) return {};
-  if (auto told = write(session, error_behaviour, {no_change}); !told) return std::unexpected(told.error());
+  if (auto told = write(session, error_behaviour, Bytes{no_change}); !told)
+    return std::unexpected(told.error());
   return {};
 }
 
@@ -99,12 +72,12 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
   // While clear() is looking at the old value and writing the new one, the error must not come back: a server
   // that takes its time needs a longer one.
   const auto taken = session.now() - begin;
-  if (set && set->kind == Actual::Kind::matched && taken > heartbeat_time / 4) {
+  if (is_confirmed(set) && taken > heartbeat_time / 4) {
     time += 2 * taken;
     set = monitor(time);
   }
   delay = session.now() - start + 2 * time;
-  if (!set || set->kind != Actual::Kind::matched) return set;
+  if (!is_confirmed(set)) return set;
   auto sent = session.play_heartbeat(node, canopen::NmtState::operational);
   if (!sent) return std::unexpected(sent.error());
   // What comes next may count on the usual time.
@@ -168,13 +141,13 @@ class RaiseError final : public Action {
     return (clear_ ? "clear " : "raise ") + name;
   }
   Result<Actual> run(Session& session) const override {
-    const auto triggers = usable_triggers(session);
+    const auto triggers = session.usable_triggers();
     if (!triggers) return std::unexpected(triggers.error());
     const auto number = number_.number(session);
     if (!number) return std::unexpected(number.error());
     if (*number < 1 || *number > triggers->size()) {
-      return fail("error trigger " + std::to_string(*number) + " is not known", "scenario",
-                  "name one under errors: in the device profile");
+      return fail_scenario("error trigger " + std::to_string(*number) + " is not known",
+                           "name one under errors: in the device profile");
     }
     const auto& trigger = (*triggers)[*number - 1];
     if (auto ready = take_note(session, *number); !ready) return std::unexpected(ready.error());
@@ -204,9 +177,8 @@ class RaiseError final : public Action {
       return {};
     }
     if (session.find(cleared) == nullptr || !now || !was->number || (*now & ~*was->number) == 0) return {};
-    return fail("the error of trigger " + std::to_string(number) + " did not clear: 1001h is " +
-                    hex(*now, 2) + ", and was " + hex(*was->number, 2) + " before it was raised",
-                "scenario");
+    return fail_scenario("the error of trigger " + std::to_string(number) + " did not clear: 1001h is " +
+                         hex(*now, 2) + ", and was " + hex(*was->number, 2) + " before it was raised");
   }
 
   Expression number_;
@@ -227,7 +199,7 @@ class SwitchStoreFault final : public Action {
   std::string words(Session&) const override { return arm_ ? "make storing fail" : "let storing work again"; }
   Result<Actual> run(Session& session) const override {
     const auto& fault = session.profile().store_fault;
-    if (!fault) return fail("no way to make storing fail is known", "scenario", "when: store fault is known");
+    if (!fault) return fail_scenario("no way to make storing fail is known", "when: store fault is known");
     const auto& change = arm_ ? fault->arm : fault->disarm;
     return write(session, change.object, change.bytes);
   }
@@ -363,10 +335,10 @@ class FillHistory final : public Action {
   }
 
   Result<Actual> run(Session& session) const override {
-    const auto triggers = usable_triggers(session);
+    const auto triggers = session.usable_triggers();
     if (!triggers) return std::unexpected(triggers.error());
     if (triggers->size() < 2)
-      return fail("two error triggers are needed", "scenario", "when: 2 error triggers are known");
+      return fail_scenario("two error triggers are needed", "when: 2 error triggers are known");
     constexpr int most = 254 + 1;  // 1003h holds at most 254 errors (7.5.2.4)
     std::uint64_t count = 0;
     std::uint16_t newest = 0;
@@ -376,7 +348,7 @@ class FillHistory final : public Action {
       Duration delay{};
       for (const bool raising : {true, false}) {
         auto done = raising ? raise(session, trigger, delay) : clear(session, trigger);
-        if (!done || done->kind != Actual::Kind::matched) return done;
+        if (!is_confirmed(done)) return done;
         auto waited = session.wait_until(session.now() + delay + 5ms);
         if (!waited) return std::unexpected(waited.error());
       }
@@ -392,9 +364,8 @@ class FillHistory final : public Action {
       if (answer->data[0] <= count) {
         const auto now = error_register(session);
         if (before && now && (*now & ~*before) != 0)
-          return fail("errors do not clear: 1001h is " + hex(*now, 2) + ", and was " + hex(*before, 2) +
-                          " before they were raised",
-                      "scenario");
+          return fail_scenario("errors do not clear: 1001h is " + hex(*now, 2) + ", and was " +
+                               hex(*before, 2) + " before they were raised");
         session.set(depth_, Value::of_number(count));
         session.set(newest_, Value::of_number(trigger.code));
         session.set(previous_, Value::of_number(newest));

@@ -252,7 +252,7 @@ class Send final : public Action {
       auto value = named_data_.evaluate(session);
       if (!value) return std::unexpected(value.error());
       if (!value->bytes || value->bytes->size() > 8)
-        return fail("'" + named_data_.text() + "' is not up to eight bytes", "scenario");
+        return fail_scenario("'" + named_data_.text() + "' is not up to eight bytes");
       data = *value->bytes;
     }
     auto frame = can::data_frame(CanId(static_cast<std::uint32_t>(*id)), data);
@@ -261,8 +261,8 @@ class Send final : public Action {
     if (dlc_) frame.dlc = static_cast<std::uint8_t>(*dlc_);
     if (!remote_ && !extended_ && frame.id == 0 && frame.size() >= 2 &&
         frame.data[1] != session.node().value()) {
-      return fail("an NMT command that is not for the device under test", "scenario",
-                  "use nmt:; other nodes may be on the bus");
+      return fail_scenario("an NMT command that is not for the device under test",
+                           "use nmt:; other nodes may be on the bus");
     }
     return frame;
   }
@@ -474,7 +474,7 @@ class Collect final : public Action {
       stimuli.push_back(frames[**found].time);
       until = std::max(until, stimuli.back() + time);
     }
-    if (sent && stimuli.empty()) return fail("nothing was sent that could have been answered", "scenario");
+    if (sent && stimuli.empty()) return fail_scenario("nothing was sent that could have been answered");
     return measure(session, *window, hits, stimuli, until);
   }
 

@@ -171,9 +171,8 @@ class Produce final : public Action {
   }
   Result<Actual> run(Session& session) const override {
     if (node_ == session.node().value()) {
-      return fail(
-          "node " + std::to_string(node_) + " is the device under test, its heartbeat cannot be produced",
-          "scenario");
+      return fail_scenario("node " + std::to_string(node_) +
+                           " is the device under test, its heartbeat cannot be produced");
     }
     const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
     if (cyclic_) {

@@ -7,47 +7,13 @@
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/pdo.hpp"
+#include "steps/sdo_access.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
 namespace {
 
 constexpr std::uint64_t most_entries = 0x40;
-
-Actual from_answer(const SdoAnswer& answer) {
-  Actual out;
-  out.decisive = answer.decisive;
-  out.code = answer.code;
-  out.detail = answer.detail;
-  switch (answer.kind) {
-    case SdoAnswer::Kind::confirmed:
-      out.kind = Actual::Kind::confirmed;
-      out.data = answer.data;
-      out.measured["size_open"] = answer.size_indicated ? 0 : 1;
-      out.detail = "confirmed";
-      break;
-    case SdoAnswer::Kind::aborted: out.kind = Actual::Kind::aborted; break;
-    case SdoAnswer::Kind::silence: out.kind = Actual::Kind::silence; break;
-    case SdoAnswer::Kind::gave_up:
-    case SdoAnswer::Kind::violation: out.kind = Actual::Kind::violation; break;
-  }
-  return out;
-}
-
-Result<Actual> read(Session& session, Multiplexer object) {
-  auto answer = session.upload(object, std::nullopt);
-  if (!answer) return std::unexpected(answer.error());
-  return from_answer(*answer);
-}
-
-Result<Actual> write(Session& session, Multiplexer object, std::uint64_t value, std::size_t size) {
-  auto answer =
-      session.download(object, to_le(value, size), canopen::SdoDownload::Mode::automatic, std::nullopt);
-  if (!answer) return std::unexpected(answer.error());
-  return from_answer(*answer);
-}
-
-bool confirmed(const Result<Actual>& actual) { return actual && actual->kind == Actual::Kind::confirmed; }
 
 bool is_absent(const Actual& actual) {
   return actual.kind == Actual::Kind::aborted &&
@@ -59,8 +25,8 @@ Result<Index> communication_of(const ObjectReference& pdo, Session& session) {
   const auto object = pdo.resolve(session);
   if (!object) return std::unexpected(object.error());
   if (const auto index = canopen::pdo_communication(object->index)) return *index;
-  return fail(to_string(*object) + " is not a PDO", "scenario",
-              "1400h-15FFh, 1800h-19FFh or the mapping of one");
+  return fail_scenario(to_string(*object) + " is not a PDO",
+                       "1400h-15FFh, 1800h-19FFh or the mapping of one");
 }
 
 std::string pdo_words(const ObjectReference& pdo, Session& session) {
@@ -116,7 +82,7 @@ struct MappedEntry {
     } else {
       const auto* entry = session.dictionary().find(*mux);
       if (entry == nullptr || !entry->size())
-        return fail("the length of " + to_string(*mux) + " is not known", "scenario", "add bits:");
+        return fail_scenario("the length of " + to_string(*mux) + " is not known", "add bits:");
       length = *entry->size() * 8;
     }
     return (std::uint64_t{mux->index.value()} << 16U) | (std::uint64_t{mux->sub.value()} << 8U) | length;
@@ -172,22 +138,22 @@ class SetPdo final : public Action {
     if (!index) return std::unexpected(index.error());
     const Multiplexer cob_id{*index, SubIndex(1)};
     auto actual = read(session, cob_id);
-    if (!confirmed(actual)) return actual;
+    if (!is_confirmed(actual)) return actual;
     const auto before = static_cast<std::uint32_t>(load_le(actual->data));
     if ((before & canopen::cob_id::bit31) == 0) {
       actual = write(session, cob_id, before | canopen::cob_id::bit31, 4);
-      if (!confirmed(actual)) return actual;
+      if (!is_confirmed(actual)) return actual;
     }
     if (maps_) {
       actual = write_mapping(session, canopen::pdo_mapping(*index));
-      if (!confirmed(actual)) return actual;
+      if (!is_confirmed(actual)) return actual;
     }
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       if (values_[i].empty()) continue;
       const auto wanted = values_[i].number(session);
       if (!wanted) return std::unexpected(wanted.error());
       actual = write_parameter(session, {*index, SubIndex(parameters[i].sub)}, *wanted, parameters[i].size);
-      if (!confirmed(actual)) return actual;
+      if (!is_confirmed(actual)) return actual;
     }
     if (!valid_) return actual;
     auto target = before & ~canopen::cob_id::bit31;
@@ -196,7 +162,7 @@ class SetPdo final : public Action {
       if (!id) return std::unexpected(id.error());
       target = (before & canopen::cob_id::bit30) | static_cast<std::uint32_t>(*id);
       actual = write(session, cob_id, target | canopen::cob_id::bit31, 4);
-      if (!confirmed(actual)) return actual;
+      if (!is_confirmed(actual)) return actual;
     }
     actual = write(session, cob_id, target, 4);
     if (actual) actual->data.clear();
@@ -230,14 +196,14 @@ class SetPdo final : public Action {
 
   Result<Actual> write_mapping(Session& session, Index mapping) const {
     auto actual = write(session, {mapping, SubIndex(0)}, 0, 1);
-    if (!confirmed(actual)) return actual;
+    if (!is_confirmed(actual)) return actual;
     std::uint64_t bits = 0, count = 0;
     while (!entries_.empty() && count < most_entries && (count < entries_.size() || bits < least_bits_)) {
       const auto entry = entries_[count % entries_.size()].resolve(session);
       if (!entry) return std::unexpected(entry.error());
       ++count;
       actual = write(session, {mapping, SubIndex(static_cast<std::uint8_t>(count))}, *entry, 4);
-      if (!confirmed(actual)) return actual;
+      if (!is_confirmed(actual)) return actual;
       bits += *entry & 0xFF;
     }
     return count == 0 ? actual : write(session, {mapping, SubIndex(0)}, count, 1);
@@ -261,11 +227,11 @@ struct Mapping {
 /// Reads the mapping and the objects in it. Not confirmed: the answer that stood in the way.
 Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool needs_data) {
   auto actual = read(session, {mapping, SubIndex(0)});
-  if (!confirmed(actual)) return actual;
+  if (!is_confirmed(actual)) return actual;
   const auto count = load_le(actual->data);
   for (std::uint64_t sub = 1; sub <= count && count <= most_entries; ++sub) {
     actual = read(session, {mapping, SubIndex(static_cast<std::uint8_t>(sub))});
-    if (!confirmed(actual)) return actual;
+    if (!is_confirmed(actual)) return actual;
     const auto entry = static_cast<std::uint32_t>(load_le(actual->data));
     const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)),
                              SubIndex(static_cast<std::uint8_t>((entry >> 8U) & 0xFFU))};
@@ -338,7 +304,7 @@ class PdoMapping final : public Action {
     if (!index) return std::unexpected(index.error());
     Mapping mapping;
     auto actual = read_mapping(session, canopen::pdo_mapping(*index), mapping, data_);
-    if (!confirmed(actual)) return actual;
+    if (!is_confirmed(actual)) return actual;
     actual->kind = Actual::Kind::matched;
     if (data_) {
       actual->data = mapping.data;

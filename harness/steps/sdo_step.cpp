@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "steps/sdo_access.hpp"
 
 namespace conform::steps {
 namespace {
@@ -79,33 +80,15 @@ Bytes pattern_bytes(std::size_t size, bool visible) {
 }
 
 Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer object, bool upload) {
-  Actual out;
-  out.decisive = answer.decisive;
+  using Kind = SdoAnswer::Kind;
+  auto out = outcome_of(answer);
   if (const auto* entry = session.dictionary().find(object)) out.type = entry->type;
-  switch (answer.kind) {
-    case SdoAnswer::Kind::confirmed:
-      out.kind = Actual::Kind::confirmed;
-      out.has_data = upload;
-      out.data = answer.data;
-      break;
-    case SdoAnswer::Kind::aborted:
-      out.kind = Actual::Kind::aborted;
-      out.code = answer.code;
-      break;
-    case SdoAnswer::Kind::silence:
-      out.kind = Actual::Kind::silence;
-      out.detail = answer.detail;
-      break;
-    case SdoAnswer::Kind::violation:
-      out.kind = Actual::Kind::violation;
-      out.detail = answer.detail;
-      out.data = answer.data;
-      break;
-    case SdoAnswer::Kind::gave_up:
-      out.kind = Actual::Kind::matched;
-      out.detail = "the client aborted, and " + std::to_string(answer.counts.surplus) + " more frame" +
-                   (answer.counts.surplus == 1 ? "" : "s") + " came";
-      break;
+  out.has_data = upload && answer.kind == Kind::confirmed;
+  if (answer.kind == Kind::gave_up) {
+    // On purpose: the fault that was asked for.
+    out.kind = Actual::Kind::matched;
+    out.detail = "the client aborted, and " + std::to_string(answer.counts.surplus) + " more frame" +
+                 (answer.counts.surplus == 1 ? "" : "s") + " came";
   }
   const auto& counts = answer.counts;
   if (counts.block && answer.kind == SdoAnswer::Kind::confirmed) out.detail = counts_in_words(answer);
@@ -184,17 +167,17 @@ Result<canopen::SdoFault> FaultPhrase::resolve(Scope& scope) const {
       continue;
     }
     const auto* value = scope.find(word.substr(1));
-    if (value == nullptr) return fail("'" + std::string(word) + "' has no value", "scenario");
+    if (value == nullptr) return fail_scenario("'" + std::string(word) + "' has no value");
     if (value->word) {
       words.push_back(*value->word);
     } else if (value->number) {
       words.push_back(std::to_string(*value->number));
     } else {
-      return fail("'" + std::string(word) + "' is no number", "scenario");
+      return fail_scenario("'" + std::string(word) + "' is no number");
     }
   }
   auto out = canopen::SdoFault::parse(join(words, " "));
-  if (!out) return fail(out.error().what, "scenario", out.error().hint);
+  if (!out) return fail_scenario(out.error().what, out.error().hint);
   return out;
 }
 
@@ -311,7 +294,7 @@ Result<Bytes> SdoStep::encode(Session& session, Multiplexer object) const {
   if (!pattern_.empty()) {
     const auto size = pattern_.number(session);
     if (!size) return std::unexpected(size.error());
-    if (*size > longest_pattern) return fail("a pattern of more than 1 MiB", "scenario");
+    if (*size > longest_pattern) return fail_scenario("a pattern of more than 1 MiB");
     return pattern_bytes(static_cast<std::size_t>(*size), type == canopen::DataType::visible_string);
   }
   auto value = value_.evaluate(session);
@@ -320,16 +303,16 @@ Result<Bytes> SdoStep::encode(Session& session, Multiplexer object) const {
   if (value->word) return Bytes(value->word->begin(), value->word->end());
   if (!value->number) return fail("'" + value_.text() + "' is not a number");
   if (!type) {
-    return fail("the type of " + to_string(object) + " is not known", "scenario",
-                "add as: UNSIGNED16, or write bytes:");
+    return fail_scenario("the type of " + to_string(object) + " is not known",
+                         "add as: UNSIGNED16, or write bytes:");
   }
   const auto size = canopen::size_bytes(*type);
-  if (!size) return fail(to_string(object) + " has no fixed length", "scenario", "write bytes: or text:");
+  if (!size) return fail_scenario(to_string(object) + " has no fixed length", "write bytes: or text:");
   // Values outside the type are the author's slip; '~' makes the only legal exception (sign extension).
   const auto mask = *size >= 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * *size)) - 1;
   const auto above = *value->number & ~mask;
   if (above != 0 && above != ~mask) {
-    return fail(value->text() + " does not fit " + std::string(canopen::to_string(*type)), "scenario");
+    return fail_scenario(value->text() + " does not fit " + std::string(canopen::to_string(*type)));
   }
   return to_le(*value->number, *size);
 }
@@ -397,8 +380,8 @@ Result<SdoJob> SdoStep::job(Session& session) const {
                                  std::string_view what) -> Result<std::uint64_t> {
     auto value = expression.number(session);
     if (value && *value > most)
-      return fail(std::string(what) + " " + std::to_string(*value) + " is above " + std::to_string(most),
-                  "scenario");
+      return fail_scenario(std::string(what) + " " + std::to_string(*value) + " is above " +
+                           std::to_string(most));
     return value;
   };
   if (!size_.empty()) {

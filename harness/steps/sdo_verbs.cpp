@@ -76,7 +76,7 @@ class SetCobId final : public Action {
     const auto to = to_.number(session);
     if (!to) return std::unexpected(to.error());
     const auto kind = canopen::cob_id_kind(*object);
-    if (!kind) return fail(to_string(*object) + " is no COB-ID", "scenario");
+    if (!kind) return fail_scenario(to_string(*object) + " is no COB-ID");
     auto before = session.upload(*object, std::nullopt);
     if (!before) return std::unexpected(before.error());
     if (before->kind != SdoAnswer::Kind::confirmed || before->data.size() != 4) {

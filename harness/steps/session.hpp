@@ -89,18 +89,19 @@ class Session : public Facts {
                                                    canopen::SdoDownload::Mode mode,
                                                    std::optional<Duration> timeout) = 0;
   /// The same with everything that a transfer can have, several at once when each has a channel of its own.
-  /// Error with where "scenario": a fault has no place in its transfer.
+  /// Error of the scenario: a fault has no place in its transfer.
   [[nodiscard]] virtual Result<std::vector<SdoAnswer>> transfer(const std::vector<SdoJob>& jobs) = 0;
   /// What the entry held just before the last download to it in this scenario; nullopt if none, or not
   /// readable.
   [[nodiscard]] virtual std::optional<Bytes> before_last_write(Multiplexer object) const = 0;
   [[nodiscard]] virtual Result<void> nmt(canopen::NmtCommand command) = 0;
+  /// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer
+  /// of heartbeats, and from a run that may play one.
+  [[nodiscard]] virtual Result<std::vector<device::ErrorTrigger>> usable_triggers() = 0;
   /// A heartbeat of a node that is played because an error trigger of the device needs it. Which trigger that
   /// is, the profile says and not the scenario, so it is the run that must allow it and not the scenario's
   /// risk.
   [[nodiscard]] virtual Result<void> play_heartbeat(NodeId node, canopen::NmtState state) = 0;
-  /// Whether the run allows that.
-  [[nodiscard]] virtual bool may_play_nodes() const = 0;
   /// Any frame. A download hidden in it must have been announced with will_change() before.
   [[nodiscard]] virtual Result<void> send(const can::Frame& frame) = 0;
   [[nodiscard]] virtual Result<void> will_change(Multiplexer object) = 0;

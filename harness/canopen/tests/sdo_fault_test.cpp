@@ -39,7 +39,7 @@ std::string refused(SdoRequest request, const char* text) {
   request.faults.push_back(*fault);
   auto made = make_sdo_client(request);
   REQUIRE_FALSE(made);
-  CHECK(made.error().where == "scenario");
+  CHECK(made.error().of == Error::Of::scenario);
   return made.error().what;
 }
 

@@ -108,7 +108,8 @@ TEST_CASE("An entry has what the file says of it, and where") {
   CHECK(entry.high == Bytes{0xC8, 0});
   CHECK(entry.pdo_mappable);
   CHECK_FALSE(entry.may_change);
-  CHECK(entry.declared_at == "a.eds:1");
+  CHECK(entry.described);
+  CHECK(description.places.entries.at(entry.mux) == "a.eds:1");
 }
 
 TEST_CASE("PDOMapping goes above what rww and rwr suggest") {
@@ -159,7 +160,7 @@ TEST_CASE("Implied entries of CompactSubObj are claimed as well") {
   CHECK(entry_of(description, 0x2010, 0).default_value == Bytes{3});
   CHECK(entry_of(description, 0x2010, 3).default_value == Bytes{7, 0});
   CHECK(entry_of(description, 0x2010, 3).object == ObjectCode::array);
-  CHECK(entry_of(description, 0x2010, 3).declared_at == "a.eds:7");
+  CHECK(description.places.entries.at({Index(0x2010), SubIndex(3)}) == "a.eds:7");
 }
 
 TEST_CASE("ObjFlags keep writes and reads off an entry") {
@@ -213,7 +214,9 @@ TEST_CASE("The profile's own list goes above the description") {
                   described(variable("2000", "5", "rw") + variable("2001", "5", "rw", "ObjFlags=1")));
   const auto dictionary = dictionary_of(profile);
   CHECK(dictionary.find({Index(0x2000), SubIndex(0)})->name == "Own");
-  CHECK(dictionary.find({Index(0x2001), SubIndex(0)})->declared_at == "a.eds:7");
+  CHECK_FALSE(dictionary.find({Index(0x2000), SubIndex(0)})->described);
+  CHECK(dictionary.find({Index(0x2001), SubIndex(0)})->described);
+  CHECK(profile.place_of({Index(0x2001), SubIndex(0)}) == "a.eds:7");
   CHECK(profile.is_untouchable({Index(0x2001), SubIndex(0)}));
 }
 

@@ -72,7 +72,10 @@ class FakeSession final : public Session {
     return entry != nullptr && entry->may_change;
   }
   [[nodiscard]] bool claims(std::string_view feature) const override { return features.contains(feature); }
-  [[nodiscard]] std::size_t error_triggers() const override { return triggers; }
+  [[nodiscard]] Result<std::size_t> error_triggers() override { return triggers; }
+  [[nodiscard]] Result<std::vector<device::ErrorTrigger>> usable_triggers() override {
+    return device_profile.errors;
+  }
   [[nodiscard]] bool store_fault_known() const override { return device_profile.store_fault.has_value(); }
   [[nodiscard]] bool factory_defaults() const override { return factory; }
   [[nodiscard]] bool can_send_remote_frames() const override { return remote; }
@@ -104,7 +107,6 @@ class FakeSession final : public Session {
   [[nodiscard]] Result<void> play_heartbeat(NodeId node, canopen::NmtState state) override {
     return send(canopen::encode_heartbeat(node, state));
   }
-  [[nodiscard]] bool may_play_nodes() const override { return true; }
   [[nodiscard]] Result<void> will_change(Multiplexer) override { return {}; }
   void sdo_channel_dirty() override {}
   void sdo_answer_may_be_late() override {}

@@ -122,5 +122,5 @@ TEST_CASE("a collection for answers needs something that was sent") {
   const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
   const auto actual = steps[0].action->run(session);
   REQUIRE_FALSE(actual);
-  CHECK(actual.error().where == "scenario");
+  CHECK(actual.error().of == Error::Of::scenario);
 }
