@@ -22,7 +22,8 @@ def seconds(folder, *arguments):
         done = subprocess.run(command("--quiet", "--device", os.path.join(SUITES, "devices/reference-node.yaml"), *arguments, *SELECT),
                               capture_output=True, text=True, env=environment)
         spent = time.monotonic() - begin
-    if done.returncode != 0:
+    # 3: the machine was late for some case, which says nothing about the time that the reports take.
+    if done.returncode not in (0, 3):
         sys.exit(done.stdout[-3000:] + done.stderr)
     return spent
 
