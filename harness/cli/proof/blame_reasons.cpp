@@ -56,6 +56,8 @@ constexpr auto reasons = std::to_array<Reason>({
      "a length that is not heeded breaks the rules about stored values and those about wrong lengths"},
     {"four-bytes-taken-for-two",
      "a length that is misread breaks the rules about stored values and those about wrong lengths"},
+    {"nmt-reset-communication-ignored-in-preop",
+     "on the bus a reset that was not obeyed is one without its boot-up message, which the monitor sees first"},
     {"reset-communication-keeps-values", "mappings that are kept have a rule of their own"},
     {"foreign-heartbeat-ends-a-transfer",
      "the heartbeat that ends the transfer is not seen by the heartbeat consumer either: two "
