@@ -32,11 +32,11 @@ class Change {
     if constexpr (std::invocable<F&, Parts&>) {
       change_ = std::move(how);
     } else if constexpr (std::invocable<F&, ObjectDictionary&, std::uint8_t>) {
-      change_ = [how](Parts& parts) { how(parts.device.dictionary, parts.device.node_id); };
+      change_ = [how = std::move(how)](Parts& parts) { how(parts.device.dictionary, parts.device.node_id); };
     } else if constexpr (std::invocable<F&, const FilterContext&, std::vector<Outgoing>&>) {
-      change_ = [how](Parts& parts) { parts.device.outbox.add_filter(how); };
+      change_ = [how = std::move(how)](Parts& parts) { parts.device.outbox.add_filter(how); };
     } else {
-      change_ = [how](Parts& parts) {
+      change_ = [how = std::move(how)](Parts& parts) {
         parts.device.inbox.add_filter(
             [&parts, how](std::vector<Frame>& frames) mutable { how(parts, frames); });
       };
