@@ -165,8 +165,7 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     if (static_cast<std::int64_t>(*high) < static_cast<std::int64_t>(*low)) continue;
     if (*high - *low >= most_values || values.size() + (*high - *low) >= most_values) {
       return cannot_go_on(
-          step,
-          {"more than " + std::to_string(most_values) + " values to walk over", {}, {}, Error::Of::scenario});
+          step, fail_scenario("more than " + std::to_string(most_values) + " values to walk over").error());
     }
     for (auto value = *low;; ++value) {
       values.push_back(steps::Value::of_number(value));

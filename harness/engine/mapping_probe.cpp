@@ -72,8 +72,7 @@ class Probe {
     if (!answer) {
       broken_ = answer.error();
     } else if (answer->kind == Kind::silence) {
-      broken_ = Error{
-          "no answer when the mapping " + to_string(mapping_) + " was tried", {}, {}, Error::Of::scenario};
+      broken_ = fail_scenario("no answer when the mapping " + to_string(mapping_) + " was tried").error();
     } else if (answer->kind == Kind::confirmed) {
       return true;
     } else if (!why_) {

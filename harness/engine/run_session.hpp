@@ -45,8 +45,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::string access_of(Multiplexer object) const override;
   [[nodiscard]] bool may_change(Multiplexer object) const override;
   [[nodiscard]] bool claims(std::string_view feature) const override;
-  [[nodiscard]] Result<std::size_t> error_triggers() override;
-  [[nodiscard]] Result<std::vector<device::ErrorTrigger>> usable_triggers() override;
+  [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
   /// What the run itself could not put back may come back with each reset where the device stores by itself.
   [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults && !left_changed_; }
@@ -75,7 +74,6 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::optional<Bytes> before_last_write(Multiplexer object) const override;
   [[nodiscard]] Result<void> nmt(canopen::NmtCommand command) override;
   [[nodiscard]] Result<void> play_heartbeat(NodeId node, canopen::NmtState state) override;
-  [[nodiscard]] bool may_play_nodes() const { return guard_.run() >= steps::Tier::motion; }
   [[nodiscard]] Result<void> send(const can::Frame& frame) override;
   [[nodiscard]] Result<void> will_change(Multiplexer object) override;
   void sdo_channel_dirty() override { channel_.dirty(false); }
@@ -144,6 +142,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<steps::SdoAnswer> peek(Multiplexer object);
 
  private:
+  [[nodiscard]] bool may_play_nodes() const { return guard_.run() >= steps::Tier::motion; }
   /// A start, stop or enter pre-operational that the device may not have followed yet.
   struct Ordered {
     std::size_t index = 0;  ///< of the command in the capture

@@ -310,7 +310,7 @@ bool RunSession::may_change(Multiplexer object) const {
 
 bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
 
-Result<std::vector<device::ErrorTrigger>> RunSession::usable_triggers() {
+Result<std::vector<device::ErrorTrigger>> RunSession::error_triggers() {
   const auto consumes = is_present({Index(0x1016), SubIndex(1)}, false);
   if (!consumes) return std::unexpected(consumes.error());
   std::vector<device::ErrorTrigger> out;
@@ -318,12 +318,6 @@ Result<std::vector<device::ErrorTrigger>> RunSession::usable_triggers() {
     if (trigger.raise || (*consumes && may_play_nodes())) out.push_back(trigger);
   }
   return out;
-}
-
-Result<std::size_t> RunSession::error_triggers() {
-  const auto usable = usable_triggers();
-  if (!usable) return std::unexpected(usable.error());
-  return usable->size();
 }
 
 }  // namespace conform::engine

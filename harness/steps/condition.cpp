@@ -296,7 +296,7 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
   if (node.kind == Kind::triggers) {
     const auto known = facts.error_triggers();
     if (!known) return std::unexpected(known.error());
-    return *known >= node.count;
+    return known->size() >= node.count;
   }
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
   if (node.kind == Kind::described) return facts.is_described();

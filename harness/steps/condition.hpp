@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "device/profile.hpp"
 #include "result/run_result.hpp"
 #include "steps/expression.hpp"
 
@@ -41,8 +42,9 @@ class Facts : public Scope {
   [[nodiscard]] virtual std::string access_of(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool may_change(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool claims(std::string_view feature) const = 0;
-  /// Number of ways to raise an error that work with this device.
-  [[nodiscard]] virtual Result<std::size_t> error_triggers() = 0;
+  /// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer
+  /// of heartbeats, and from a run that may play one.
+  [[nodiscard]] virtual Result<std::vector<device::ErrorTrigger>> error_triggers() = 0;
   /// Whether the profile says how storing is made to fail.
   [[nodiscard]] virtual bool store_fault_known() const { return false; }
   /// Whether nothing is stored in the device, so that the values after a reset are the defaults.

@@ -155,8 +155,9 @@ Why about_bench(const Tree& node, Facts& facts, bool held) {
                                  (node.word == "only node on the bus" ? "', if it is so"
                                                                       : "', if the device has it")}});
     case Kind::triggers: {
-      // It was just counted for the condition itself.
-      const auto known = facts.error_triggers().value_or(0);
+      // They were just counted for the condition itself.
+      const auto usable = facts.error_triggers();
+      const auto known = usable ? usable->size() : 0;
       const auto words = [](std::size_t count) {
         return count == 0   ? std::string("no error trigger is known")
                : count == 1 ? std::string("only one error trigger is known")

@@ -37,8 +37,7 @@ Result<void> keep_from_stopping(Session& session) {
   if (!*present) return {};
   const auto reaction = session.read(error_behaviour);
   if (!reaction || reaction->number != stops) return {};
-  if (auto told = write(session, error_behaviour, Bytes{no_change}); !told)
-    return std::unexpected(told.error());
+  if (auto told = write(session, error_behaviour, no_change, 1); !told) return std::unexpected(told.error());
   return {};
 }
 
@@ -64,7 +63,7 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
   const auto monitor = [&](Duration time) {
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time).count();
     const auto value = (std::uint32_t{node.value()} << 16U) | static_cast<std::uint16_t>(ms);
-    return write(session, consumer_entry, to_le(value, 4));
+    return write(session, consumer_entry, value, 4);
   };
   const auto begin = session.now();
   auto time = heartbeat_time;
@@ -96,7 +95,7 @@ Result<Actual> clear(Session& session, const device::ErrorTrigger& trigger) {
   // The heartbeat is back; give the device its loop time to notice, then switch the consumer off again.
   auto waited = session.wait_until(session.now() + 20ms);
   if (!waited) return std::unexpected(waited.error());
-  return write(session, consumer_entry, to_le(0, 4));
+  return write(session, consumer_entry, 0, 4);
 }
 
 class RaiseError final : public Action {
@@ -141,7 +140,7 @@ class RaiseError final : public Action {
     return (clear_ ? "clear " : "raise ") + name;
   }
   Result<Actual> run(Session& session) const override {
-    const auto triggers = session.usable_triggers();
+    const auto triggers = session.error_triggers();
     if (!triggers) return std::unexpected(triggers.error());
     const auto number = number_.number(session);
     if (!number) return std::unexpected(number.error());
@@ -335,7 +334,7 @@ class FillHistory final : public Action {
   }
 
   Result<Actual> run(Session& session) const override {
-    const auto triggers = session.usable_triggers();
+    const auto triggers = session.error_triggers();
     if (!triggers) return std::unexpected(triggers.error());
     if (triggers->size() < 2)
       return fail_scenario("two error triggers are needed", "when: 2 error triggers are known");
@@ -352,11 +351,11 @@ class FillHistory final : public Action {
         auto waited = session.wait_until(session.now() + delay + 5ms);
         if (!waited) return std::unexpected(waited.error());
       }
-      auto answer = session.upload({Index(0x1003), SubIndex(0)}, std::nullopt);
+      const auto answer = read(session, {Index(0x1003), SubIndex(0)});
       if (!answer) return std::unexpected(answer.error());
       Actual out;
       out.decisive = answer->decisive;
-      if (answer->kind != SdoAnswer::Kind::confirmed || answer->data.size() != 1) {
+      if (!is_confirmed(answer) || answer->data.size() != 1) {
         out.kind = Actual::Kind::mismatched;
         out.detail = "1003h:00 could not be read while the history was being filled";
         return out;

@@ -95,9 +95,6 @@ class Session : public Facts {
   /// readable.
   [[nodiscard]] virtual std::optional<Bytes> before_last_write(Multiplexer object) const = 0;
   [[nodiscard]] virtual Result<void> nmt(canopen::NmtCommand command) = 0;
-  /// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer
-  /// of heartbeats, and from a run that may play one.
-  [[nodiscard]] virtual Result<std::vector<device::ErrorTrigger>> usable_triggers() = 0;
   /// A heartbeat of a node that is played because an error trigger of the device needs it. Which trigger that
   /// is, the profile says and not the scenario, so it is the run that must allow it and not the scenario's
   /// risk.

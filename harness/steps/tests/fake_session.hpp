@@ -72,9 +72,8 @@ class FakeSession final : public Session {
     return entry != nullptr && entry->may_change;
   }
   [[nodiscard]] bool claims(std::string_view feature) const override { return features.contains(feature); }
-  [[nodiscard]] Result<std::size_t> error_triggers() override { return triggers; }
-  [[nodiscard]] Result<std::vector<device::ErrorTrigger>> usable_triggers() override {
-    return device_profile.errors;
+  [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override {
+    return std::vector<device::ErrorTrigger>(triggers);
   }
   [[nodiscard]] bool store_fault_known() const override { return device_profile.store_fault.has_value(); }
   [[nodiscard]] bool factory_defaults() const override { return factory; }
