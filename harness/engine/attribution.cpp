@@ -55,7 +55,8 @@ std::vector<std::string> Attribution::rules_below(const steps::Actual& actual) c
 
 std::vector<std::string> Attribution::rules_broken(const steps::Actual& actual) const {
   using Kind = steps::Actual::Kind;
-  if (actual.kind != Kind::mismatched || !actual.decisive) return rules_below(actual);
+  const bool read = actual.kind == Kind::mismatched || actual.kind == Kind::aborted;
+  if (!read || !actual.decisive) return rules_below(actual);
   const auto found = broken_.find(*actual.decisive);
   if (found == broken_.end()) return {};
   auto out = found->second;

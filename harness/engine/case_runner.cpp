@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/case_runner.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
@@ -32,6 +35,16 @@ steps::Value bind(const std::string& text, RunSession& session, const scenario::
     if (auto value = expression->evaluate(session)) return *value;
   }
   return steps::Value::of_word(text);
+}
+
+/// The first frame on `can_id` after the last one that was sent.
+std::optional<std::size_t> next_answer(const can::Capture& capture, CanId can_id) {
+  const auto& frames = capture.frames();
+  std::optional<std::size_t> out;
+  for (auto i = frames.size(); i-- > 0 && frames[i].direction == can::Direction::received;) {
+    if (frames[i].frame.is_data(can_id)) out = i;
+  }
+  return out;
 }
 
 }  // namespace
@@ -272,6 +285,13 @@ Result<CaseRunner::Flow> CaseRunner::run_branches(const Step& step, const Actual
   if (seen.kind == Actual::Kind::matched) {
     seen.kind = Actual::Kind::mismatched;
     seen.detail = "what came next is none of the ways listed";
+    const auto answers = canopen::connection_set(session_.node()).sdo_response;
+    if (const auto next = next_answer(session_.capture(), answers)) {
+      const auto& frame = session_.capture().frames()[*next].frame;
+      seen.decisive = next;
+      seen.detail = fmt::format("{}: {} came, none of the ways listed", to_string(CanId(frame.id)),
+                                hex_bytes(frame.bytes()));
+    }
   }
   if (checks.empty()) return set_up_failed(step, seen);
   for (const auto& requirement : checks) {

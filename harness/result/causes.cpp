@@ -14,7 +14,6 @@ namespace conform::result {
 namespace {
 
 constexpr std::size_t few_objects = 2;
-constexpr std::uint16_t manufacturers_objects = 0x2000;
 /// Behind every rule: what was seen beside.
 constexpr int beside = 10;
 
@@ -45,6 +44,12 @@ std::string family_of(const std::string& requirement) {
   return requirement.substr(0, requirement.rfind('-'));
 }
 
+/// The frame that decided, or else the one after which it was decided; counted from 1.
+std::size_t decided_at(const Finding& finding) {
+  const auto* frame = decisive_frame(finding);
+  return frame == nullptr ? finding.frames_seen : frame->capture_index + 1;
+}
+
 class Grouping {
  public:
   explicit Grouping(const RunResult& run) : run_(run) {
@@ -63,11 +68,12 @@ class Grouping {
       const auto& finding = *place.finding;
       const auto* service = service_of_requirement(finding.requirement);
       if (service != nullptr) own_rule_broken_.insert(std::string(service->name));
-      if (is_counted(place) && explanations_->steps(i) == 0)
+      if (is_counted(place) && explanations_->steps(i) == 0 && !is_told_by_a_service(place))
         parts_with_[finding.deviation].insert(place.part());
     }
     for (std::size_t i = 0; i < places_.size(); ++i) keys_.push_back(key_of(places_[explanations_->root(i)]));
     explain_by_lower_layers();
+    join_transfers();
     join_kin();
     join_general_rules();
     join_what_never_fails_alone();
@@ -101,6 +107,14 @@ class Grouping {
     const bool says_little = deviation.starts_with("no ") && deviation != "no answer";
     return !place.is_monitor() && place.finding->broken_rules.empty() && !deviation.empty() && !says_little;
   }
+  /// A rule about entries in general, where the case shows the same of a service as well: its entry was lent.
+  [[nodiscard]] bool is_told_by_a_service(const Place& place) const {
+    if (service_of_requirement(place.finding->requirement) != nullptr) return false;
+    return std::ranges::any_of(places_, [&](const Place& other) {
+      return other.owner == place.owner && other.finding->deviation == place.finding->deviation &&
+             service_of_requirement(other.finding->requirement) != nullptr;
+    });
+  }
   [[nodiscard]] bool is_shared(const std::string& deviation) const {
     const auto found = parts_with_.find(deviation);
     return found != parts_with_.end() && found->second.size() >= many_parts;
@@ -130,6 +144,22 @@ class Grouping {
     }
   }
 
+  /// What one transfer service answers wrongly and another one answers as well: they have one server.
+  void join_transfers() {
+    std::map<std::string, std::size_t> first;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const auto& finding = *places_[i].finding;
+      const auto* service = service_of_requirement(finding.requirement);
+      const bool counts = is_counted(places_[i]) && finding.deviation != "no answer" &&
+                          finding.deviation != "not what was written" &&
+                          finding.deviation != "protocol violation";
+      if (!counts || service == nullptr || service->depth > deepest_of_sdo || explanations_->steps(i) != 0)
+        continue;
+      const auto other = first.try_emplace(finding.deviation, i).first->second;
+      joined_.join(keys_[i], keys_[other]);
+    }
+  }
+
   /// Rules that say the same of several services, where they are broken in the same way as far as is known.
   void join_kin() {
     for (const auto rules : kin()) {
@@ -139,7 +169,10 @@ class Grouping {
         if (!is_in(rules, finding.requirement)) continue;
         if (first) {
           const auto& other = places_[*first].finding->deviation;
-          if (finding.deviation != other && !finding.deviation.empty() && !other.empty()) continue;
+          // What something else explains is alike only where the same was seen.
+          const bool explained = explanations_->steps(i) != 0 || explanations_->steps(*first) != 0;
+          const bool known = !finding.deviation.empty() && !other.empty();
+          if ((known || explained) && !(known && finding.deviation == other)) continue;
           joined_.join(keys_[i], keys_[*first]);
         }
         first = i;
@@ -163,47 +196,70 @@ class Grouping {
     }
   }
 
-  /// A part that fails only in cases in which another fails as well, or only about objects about which
-  /// another fails as well, has no cause of its own: with two faults one of them would show alone somewhere.
-  void join_what_never_fails_alone() {
-    for (bool changed = true; changed;) {
-      changed = false;
-      std::map<std::string, std::set<std::string>> cases;
-      std::map<std::string, std::set<std::uint16_t>> objects;
-      std::set<std::string> without_object, has_own_rules;
-      for (std::size_t i = 0; i < places_.size(); ++i) {
-        const auto key = joined_.root(keys_[i]);
-        const auto& place = places_[i];
-        cases[key].insert(place.is_monitor() ? place.finding->during : place.owner->name());
-        // Entries of the manufacturer lend themselves to tests of anything: they are common ground of SDO and
-        // dictionary only.
-        const auto object = place.finding->object;
-        const auto* service = service_of_requirement(place.finding->requirement);
-        if (service != nullptr && service->depth > deepest_of_sdo) has_own_rules.insert(key);
-        const bool lent = object && object->value() >= manufacturers_objects && service != nullptr &&
-                          service->depth > deepest_of_sdo;
-        if (object && !lent && is_seen_through_sdo(*place.finding)) {
-          objects[key].insert(place.finding->object->value());
-        } else {
-          without_object.insert(key);
-        }
-      }
-      for (const auto& [one, in] : cases) {
-        for (const auto& [other, where] : cases) {
-          if (one == other) continue;
-          const bool same_cases = std::ranges::includes(where, in);
-          // What fails about many objects says nothing about a part that breaks rules of its own.
-          const bool near = !has_own_rules.contains(one) || objects[other].size() <= few_objects;
-          const bool same_objects =
-              !without_object.contains(one) && near && std::ranges::includes(objects[other], objects[one]);
-          if (!same_cases && !same_objects) continue;
-          joined_.join(one, other);
-          changed = true;
-          break;
-        }
-        if (changed) break;
+  /// Where the findings of one key show.
+  struct Footprint {
+    /// With the frame that decided first; 0 where a monitor did: it looks at frames, not at what they were
+    /// sent for.
+    std::map<std::string, std::size_t> cases;
+    std::set<std::uint16_t> objects;
+    bool without_object = false;
+    bool is_sdo = false;         ///< a rule of an SDO service is among them
+    bool has_own_rules = false;  ///< one of another service
+  };
+  [[nodiscard]] std::map<std::string, Footprint> footprints() {
+    std::map<std::string, Footprint> out;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const auto& place = places_[i];
+      auto& one = out[joined_.root(keys_[i])];
+      const auto at = place.is_monitor() ? 0 : decided_at(*place.finding);
+      const auto& name = place.is_monitor() ? place.finding->during : place.owner->name();
+      auto& first = one.cases.try_emplace(name, at).first->second;
+      first = std::min(first, at);
+      const auto object = place.finding->object;
+      const auto* service = service_of_requirement(place.finding->requirement);
+      const bool deep = service != nullptr && service->depth > deepest_of_sdo;
+      if (service != nullptr) (deep ? one.has_own_rules : one.is_sdo) = true;
+      // Entries of other parts lend themselves to tests of anything: they are common ground of SDO and
+      // dictionary only.
+      const bool lent = deep && object && service != &service_of_object(*object);
+      if (object && !lent && is_seen_through_sdo(*place.finding)) {
+        one.objects.insert(object->value());
+      } else {
+        one.without_object = true;
       }
     }
+    return out;
+  }
+
+  static bool shows_first(const Footprint& other, const Footprint& one) {
+    return std::ranges::all_of(one.cases, [&](const auto& each) {
+      const auto found = other.cases.find(each.first);
+      return found != other.cases.end() && (each.second == 0 || found->second <= each.second);
+    });
+  }
+  /// Two services that are tried with the same objects have nothing else in common: only where another one's
+  /// few objects are all that was tried is it about them.
+  static bool is_about_the_objects_of(const Footprint& one, const Footprint& other) {
+    if (one.without_object || !std::ranges::includes(other.objects, one.objects)) return false;
+    if (!one.has_own_rules && !one.is_sdo) return true;
+    return other.has_own_rules && !other.is_sdo && other.objects.size() <= few_objects;
+  }
+
+  /// A part that fails only in cases in which another has failed before, or only about objects about which
+  /// another fails as well, has no cause of its own: with two faults one of them would show alone somewhere.
+  void join_what_never_fails_alone() {
+    const auto join_one = [this] {
+      const auto all = footprints();
+      for (const auto& [key, one] : all) {
+        for (const auto& [other_key, other] : all) {
+          if (key == other_key || !(shows_first(other, one) || is_about_the_objects_of(one, other))) continue;
+          joined_.join(key, other_key);
+          return true;
+        }
+      }
+      return false;
+    };
+    while (join_one()) continue;
   }
 
   /// What explains what: a fault before what rests on it, nearer to the frame before farther, then the order
@@ -240,11 +296,9 @@ class Grouping {
     const auto weight = [&](std::size_t i) {
       const auto& place = places_[i];
       const auto& finding = *place.finding;
-      const auto* frame = decisive_frame(finding);
-      const auto at = frame == nullptr ? finding.frames_seen : frame->capture_index + 1;
       const auto deep = depth(place);
       return std::tuple(place.formless, explanations_->steps(i), deep == beside,
-                        place.verdict != Verdict::fail, deep, at);
+                        place.verdict != Verdict::fail, deep, decided_at(finding));
     };
     return *std::ranges::min_element(members, {}, weight);
   }

@@ -15,6 +15,14 @@ constexpr std::string_view reserved_bytes = "SDO-GEN-05";
 
 bool is_sdo(std::string_view requirement) { return requirement.starts_with("SDO-"); }
 
+/// Whether it was decided by an abort of the server, of whatever content.
+bool is_abort(const Finding& finding) {
+  if (finding.deviation.starts_with("abort")) return true;
+  const auto* frame = decisive_frame(finding);
+  return frame != nullptr && frame->frame.id > 0x580 && frame->frame.id < 0x600 && frame->frame.size() > 0 &&
+         frame->frame.data[0] == 0x80;
+}
+
 bool contains(const std::vector<std::string>& list, const std::string& one) {
   return std::ranges::find(list, one) != list.end();
 }
@@ -29,7 +37,7 @@ const EvidenceFrame* decisive_frame(const Finding& finding) {
 bool is_seen_through_sdo(const Finding& finding) {
   // Where no answer came, the request decided.
   if (const auto* frame = decisive_frame(finding)) return frame->frame.id > 0x580 && frame->frame.id < 0x680;
-  return finding.object.has_value();
+  return finding.object && finding.deviation == "no answer";
 }
 
 std::string Place::part() const {
@@ -101,14 +109,48 @@ void Explanations::note_single_objects() {
   }
 }
 
+/// Whether it shows in answers of the same kind: one that confirms a download says nothing of uploads, and
+/// one of two bytes nothing of those of three. What was read wrongly may be refused, for its length or its
+/// value.
+bool Explanations::shows_in_such_an_answer(std::string_view requirement, const Finding& finding) const {
+  constexpr int download_confirmed = 3, upload_initiated = 2;
+  constexpr auto not_for_content = std::to_array<std::string_view>(
+      {"abort 0601", "abort 0602", "abort 0609 0011h", "abort 0503", "abort 0504"});
+  const auto command = [](const Finding& of) -> std::optional<int> {
+    const auto* frame = decisive_frame(of);
+    if (frame == nullptr || frame->frame.size() == 0) return std::nullopt;
+    return frame->frame.data[0];
+  };
+  const auto found = broken_.find(requirement);
+  const auto shows_in = [&](const auto& alike) {
+    return found != broken_.end() &&
+           std::ranges::any_of(found->second, [&](std::size_t i) { return alike(*places_[i].finding); });
+  };
+  const bool refused = std::ranges::any_of(
+      not_for_content, [&](std::string_view each) { return finding.deviation.starts_with(each); });
+  if (refused && requirement.starts_with("SDO-UPL"))
+    return shows_in([&](const Finding& other) { return other.deviation == finding.deviation; });
+  const auto seen = command(finding);
+  const bool read = seen && (*seen >> 5 == download_confirmed || *seen >> 5 == upload_initiated) &&
+                    finding.deviation != "protocol violation";
+  return !read || shows_in([&](const Finding& other) { return !command(other) || command(other) == seen; });
+}
+
 bool Explanations::explains(std::string_view ground, const Place& place) const {
   const auto& requirement = place.finding->requirement;
   const auto found = parts_.find(ground);
   if (found == parts_.end() || ground == requirement) return false;
-  // One entry that breaks a rule about entries in general says nothing about another part of the device.
-  const bool general = service_of_requirement(ground) == nullptr;
-  return !general || is_sdo(requirement) || service_of_requirement(requirement) == nullptr ||
-         found->second.size() >= many_parts;
+  // One entry that breaks a rule about entries in general says nothing about another part of the device, and
+  // a part of the device nothing about an entry of another one.
+  const auto* from = service_of_requirement(ground);
+  const auto* to = service_of_requirement(requirement);
+  const auto& object = place.finding->object;
+  if (from == nullptr) {
+    return is_sdo(requirement) || to == nullptr || found->second.size() >= many_parts;
+  }
+  const bool of_entries = requirement.starts_with("OD-") || requirement.starts_with("EDS-");
+  return to != nullptr || !of_entries || !object || from->depth <= deepest_of_sdo ||
+         from == &service_of_object(*object);
 }
 
 std::optional<std::string> Explanations::first_that_explains(std::string_view grounds,
@@ -152,12 +194,16 @@ std::optional<std::string> Explanations::by_the_answer(const Place& place) const
   const auto& requirement = finding.requirement;
   if (contains(finding.broken_rules, requirement)) return std::nullopt;
   const bool silent = finding.deviation == "no answer" || finding.deviation == "abort 0504 0000h";
-  const auto aborts = finding.deviation.starts_with("abort") ? grounds_of_any_abort() : std::string_view();
+  const auto aborts = is_abort(finding) ? grounds_of_any_abort() : std::string_view();
   const auto stored =
       finding.deviation == "not what was written" ? grounds_of_what_is_stored() : std::string_view();
+  // A rule about the form of any answer spoils only the answers that break it.
+  const bool well_formed = finding.deviation.starts_with("abort") && finding.broken_rules.empty();
   for (const auto list : {any, silent ? silence : std::string_view(), aborts, stored}) {
     for (const auto ground : words(list)) {
       if (ground == requirement) break;
+      if (well_formed && is_about_form(ground) && list == any) continue;
+      if (list == any && !shows_in_such_an_answer(ground, finding)) continue;
       if (!single_.contains(ground) && explains(ground, place) && is_fault(ground))
         return std::string(ground);
     }
@@ -180,14 +226,16 @@ std::optional<std::string> Explanations::by_the_transfer(const Place& place) con
   const bool read_back =
       (finding.requirement.starts_with("SDO-BDN") || finding.requirement.starts_with("SDO-SDN")) &&
       finding.step.starts_with("upload");
+  const bool unreadable = read_back && finding.deviation == "protocol violation";
   if (!read_back && service != nullptr && service->depth <= deepest_of_sdo) return std::nullopt;
   for (const auto& other : places_) {
     const auto& ground = *other.finding;
-    if (other.is_monitor() || ground.deviation != finding.deviation || single_.contains(ground.requirement))
-      continue;
+    if (other.is_monitor() || single_.contains(ground.requirement)) continue;
+    if (!unreadable && ground.deviation != finding.deviation) continue;
     const bool same_object = ground.object && ground.object == finding.object;
-    const bool is_content = ground.deviation.empty() || ground.deviation == "not what was written" ||
-                            ground.deviation == "a refused value is stored";
+    const bool is_content =
+        !unreadable && (ground.deviation.empty() || ground.deviation == "not what was written" ||
+                        ground.deviation == "a refused value is stored");
     if (is_content && !same_object) continue;
     if (is_in(read_back ? uploads : transfers, ground.requirement) && explains(ground.requirement, place))
       return ground.requirement;
@@ -196,9 +244,9 @@ std::optional<std::string> Explanations::by_the_transfer(const Place& place) con
 }
 
 /// What a scenario has met that blames the form of a frame: the same deviation elsewhere, or else whatever is
-/// wrong with the SDO server.
+/// wrong with the SDO server or with the object.
 std::optional<std::string> Explanations::met_in_its_place(const Place& place) const {
-  std::optional<std::string> alike, of_sdo;
+  std::optional<std::string> alike, of_sdo, of_object;
   for (const auto& other : places_) {
     const auto& requirement = other.finding->requirement;
     if (other.formless || other.is_monitor() || requirement == place.finding->requirement) continue;
@@ -207,8 +255,10 @@ std::optional<std::string> Explanations::met_in_its_place(const Place& place) co
       if (!alike && !other.finding->deviation.empty()) alike = requirement;
     }
     if (!of_sdo && is_sdo(requirement)) of_sdo = requirement;
+    if (!of_object && other.finding->object == place.finding->object) of_object = requirement;
   }
-  return alike ? alike : of_sdo;
+  if (alike) return alike;
+  return of_sdo ? of_sdo : of_object;
 }
 
 std::optional<std::string> Explanations::explained_by(const Place& place) const {

@@ -49,6 +49,7 @@ class Explanations {
   [[nodiscard]] std::optional<std::string> explained_by(const Place& place) const;
   /// Whether `ground` is broken so that it can explain `place`.
   [[nodiscard]] bool explains(std::string_view ground, const Place& place) const;
+  [[nodiscard]] bool shows_in_such_an_answer(std::string_view requirement, const Finding& finding) const;
   [[nodiscard]] std::optional<std::string> first_that_explains(std::string_view grounds,
                                                                const Place& place) const;
   [[nodiscard]] std::optional<std::string> by_relation(const Place& place) const;

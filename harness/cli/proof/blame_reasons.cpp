@@ -44,6 +44,9 @@ constexpr auto reasons = std::to_array<Reason>({
     {"empty-entry-command-byte-53h",
      "an empty text after a download is the same impossible command byte, seen by the rule of "
      "that download"},
+    {"upload-size-not-indicated",
+     "numbers without their length are one fault in all entries; where one is uploaded in several ways, "
+     "the rule that they agree is broken as well"},
     {"empty-entry-silent",
      "an empty entry has no rule of its own in the scenario that meets the silence, and its "
      "time-out falls into block uploads"},

@@ -208,6 +208,30 @@ TEST_CASE("a conversation shows the first wrong byte") {
   CHECK(out.only().judgements.front().findings.front().actual.find("91 [01] 00 00") != std::string::npos);
 }
 
+TEST_CASE("an answer that is none of the ways left open is shown") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - talk: |
+          > 600+N: 40 00 10 00 00 00 00 00
+        either:
+          - talk: |
+              silence 580+N for 50 ms
+            checks: T-MUST
+          - talk: |
+              < 580+N: 80 ..
+            checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  const auto& finding = out.only().judgements.front().findings.front();
+  CHECK(finding.actual == "581h: 43 00 10 00 91 01 00 00 came, none of the ways listed");
+  const auto shown = std::ranges::find_if(finding.evidence, &result::EvidenceFrame::decisive);
+  REQUIRE(shown != finding.evidence.end());
+  CHECK(shown->frame.id == 0x581);
+}
+
 TEST_CASE("the next conversation line sees frames that came before it was reached") {
   ScriptedDevice device;
   device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {

@@ -29,6 +29,14 @@ CaseResult failed(const std::string& id, const std::string& requirement, const s
   return out;
 }
 
+CaseResult answered(CaseResult one, std::initializer_list<std::uint8_t> bytes) {
+  EvidenceFrame frame;
+  frame.frame = can::data_frame(CanId(0x581), bytes);
+  frame.decisive = true;
+  one.judgements[0].findings[0].evidence = {frame};
+  return one;
+}
+
 void add(CaseResult& to, const std::string& requirement) {
   to.judgements.push_back(failed(to.id, requirement).judgements.front());
 }
@@ -136,8 +144,10 @@ TEST_CASE("an SDO rule broken about one object, which breaks its own rule, is th
 
 TEST_CASE("a server whose uploads are wrong explains what is read, and not what is heard") {
   RunResult run;
-  run.cases = {failed("a", "SDO-UPL-02", {}, Index(0x1001)), failed("b", "OD-1005-01", {}, Index(0x1005)),
-               failed("c", "OD-1400-15", {}, Index(0x1400)), failed("d", "EC-HBP-01")};
+  run.cases = {answered(failed("a", "SDO-UPL-02", {}, Index(0x1001)), {0x43, 0x01, 0x10, 0, 1, 0, 0, 0}),
+               answered(failed("b", "OD-1005-01", {}, Index(0x1005)), {0x43, 0x05, 0x10, 0, 0, 0, 0, 0}),
+               answered(failed("c", "OD-1400-15", {}, Index(0x1400)), {0x43, 0x00, 0x14, 2, 0xFF, 0, 0, 0}),
+               failed("d", "EC-HBP-01")};
   const auto causes = causes_of(run);
   REQUIRE(causes.size() == 2);
   CHECK(causes[0].primary.finding->requirement == "SDO-UPL-02");
@@ -166,4 +176,61 @@ TEST_CASE("a warning alone is a cause, behind every failure") {
   REQUIRE(causes.size() == 2);
   CHECK(causes[1].verdict == Verdict::warn);
   CHECK(causes[1].about == "SYNC");
+}
+
+TEST_CASE("a part of the device explains nothing about an entry of another part") {
+  RunResult run;
+  run.cases = {failed("a", "OD-1400-15", {}, Index(0x1400)), failed("b", "OD-1400-01", {}, Index(0x1400)),
+               failed("c", "OD-1201-03", {}, Index(0x1201)), failed("d", "OD-DSC-03", {}, Index(0x1201))};
+  const auto causes = causes_of(run);
+  REQUIRE(causes.size() == 2);
+  CHECK(causes[0].about == "RPDO");
+  CHECK(causes[1].about == "additional SDO channels");
+  CHECK(causes[1].cases.size() == 2);
+}
+
+TEST_CASE("what fails first in a case is not hidden by what fails behind it") {
+  RunResult run;
+  run.cases = {failed("a", "OD-1012-04", {}, Index(0x1012)), failed("b", "SDO-DNL-03", {}, Index(0x2000))};
+  add(run.cases[0], "SDO-DNL-03");
+  auto& behind = run.cases[0].judgements[1].findings[0];
+  SECTION("behind it") {
+    behind.frames_seen = 12;
+    CHECK(causes_of(run).size() == 2);
+  }
+  SECTION("before it") {
+    behind.frames_seen = 8;
+    CHECK(causes_of(run).size() == 1);
+  }
+}
+
+TEST_CASE("services that are tried with the same object have nothing else in common") {
+  RunResult run;
+  run.cases = {
+      answered(failed("a", "SDO-BUP-17", "no answer", Index(0x2000)), {0x60, 0, 0x20, 1, 0, 0, 0, 0}),
+      answered(failed("b", "SDO-DNL-03", "not what was written", Index(0x2000)),
+               {0x60, 0, 0x20, 1, 0, 0, 0, 0})};
+  CHECK(causes_of(run).size() == 2);
+}
+
+TEST_CASE(
+    "uploads of the wrong length explain no download that was confirmed, and no access that was refused") {
+  RunResult run;
+  run.cases = {answered(failed("a", "SDO-UPL-04", {}, Index(0x2000)), {0x43, 0, 0x20, 1, 1, 2, 3, 0}),
+               answered(failed("b", "OD-1022-03", "confirmed instead of any abort", Index(0x1022)),
+                        {0x60, 0x22, 0x10, 0, 0, 0, 0, 0}),
+               answered(failed("c", "OD-1005-04", "abort 0601 0000h", Index(0x1005)),
+                        {0x80, 0x05, 0x10, 0, 0, 0, 0x01, 0x06})};
+  CHECK(causes_of(run).size() == 3);
+  run.cases[2] = answered(failed("c", "OD-1005-04", "abort 0607 0012h", Index(0x1005)),
+                          {0x80, 0x05, 0x10, 0, 0x12, 0, 0x07, 0x06});
+  CHECK(causes_of(run).size() == 2);
+}
+
+TEST_CASE("a wrong abort that two transfer services give is one cause") {
+  RunResult run;
+  run.cases = {failed("a", "SDO-SUP-05", "abort 0609 0030h"), failed("b", "SDO-SDN-05", "abort 0609 0030h")};
+  CHECK(causes_of(run).size() == 1);
+  run.cases[1] = failed("b", "SDO-SDN-05", "abort 0800 0000h");
+  CHECK(causes_of(run).size() == 2);
 }
