@@ -308,6 +308,11 @@ bool RunSession::may_change(Multiplexer object) const {
   return found != nullptr && found->may_change;
 }
 
+bool RunSession::is_integer(Multiplexer object) const {
+  const auto* found = entry(object);
+  return found != nullptr && canopen::is_integer(found->type);
+}
+
 bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
 
 Result<std::vector<device::ErrorTrigger>> RunSession::error_triggers() {

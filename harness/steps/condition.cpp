@@ -28,8 +28,8 @@ TreePtr negate(TreePtr inner) {
   return node;
 }
 
-/// "is present", "is not writable", "is rw", "may change by itself" behind an object; null when it is no such
-/// phrase.
+/// "is present", "is not writable", "is rw", "has limits", "may change by itself" behind an object; null when
+/// it is no such phrase.
 Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, bool whole) {
   auto node = std::make_shared<Tree>();
   node->object = std::move(object);
@@ -41,9 +41,23 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
     node->kind = Kind::changes;
     return node;
   }
-  if (in.peek() == "has" && in.peek(1) == "a" && in.peek(2) == "default") {
-    for (int i = 0; i < 3; ++i) in.take();
-    node->kind = Kind::has_default;
+  struct Said {
+    std::vector<std::string_view> words;
+    std::vector<Declared> what;
+  };
+  static const std::vector<Said> of_description = {
+      {{"has", "a", "default"}, {Declared::default_value}},
+      {{"has", "a", "low", "limit"}, {Declared::low_limit}},
+      {{"has", "a", "high", "limit"}, {Declared::high_limit}},
+      {{"has", "limits"}, {Declared::low_limit, Declared::high_limit}},
+  };
+  for (const auto& said : of_description) {
+    std::size_t same = 0;
+    while (same < said.words.size() && in.peek(same) == said.words[same]) ++same;
+    if (same != said.words.size()) continue;
+    for (; same > 0; --same) in.take();
+    node->kind = Kind::described_by;
+    node->declared = said.what;
     return node;
   }
   if (in.peek() == "has" && in.peek(1) == "a" && in.peek(2) == "variable" && in.peek(3) == "mapping") {
@@ -65,6 +79,13 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
                                       : Kind::present;
     TreePtr out = node;
     return negative != (word == "absent") ? negate(out) : out;
+  }
+  if (word == "an" && in.peek(1) == "integer") {
+    in.take();
+    in.take();
+    node->kind = Kind::integer;
+    TreePtr out = node;
+    return negative ? negate(out) : out;
   }
   if (word == "ro" || word == "rw" || word == "wo" || word == "const" || word == "rwr" || word == "rww") {
     in.take();
@@ -319,7 +340,10 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
     case Kind::claimed: return facts.is_claimed(*object, node.whole_object);
     case Kind::readable: return facts.is_readable(*object);
     case Kind::writable: return facts.is_writable(*object);
-    case Kind::has_default: return facts.declared(*object, Declared::default_value).has_value();
+    case Kind::described_by:
+      return std::ranges::all_of(node.declared,
+                                 [&](Declared what) { return facts.declared(*object, what).has_value(); });
+    case Kind::integer: return facts.is_integer(*object);
     case Kind::access: return facts.access_of(*object) == node.word;
     case Kind::remaps: return facts.has_variable_mapping(*object);
     default: return facts.may_change(*object);
@@ -396,7 +420,11 @@ std::vector<std::string_view> condition_forms() {
           "1017h:00 is readable",
           "1017h:00 is const",
           "$object may change by itself",
+          "1017h:00 is an integer",
           "1018h:03 has a default",
+          "$object has a low limit",
+          "$object has a high limit",
+          "$object has limits",
           "1A00h:00 has a variable mapping",
           "value of 1003h:00 is not 0",
           "value of 1018h:00 is at least 2",

@@ -41,6 +41,8 @@ class Facts : public Scope {
   /// Access word of the dictionary ("ro", "const", ...), empty when unknown.
   [[nodiscard]] virtual std::string access_of(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool may_change(Multiplexer object) const = 0;
+  /// Whether its type is an INTEGERxx or UNSIGNEDxx; false where it is not known.
+  [[nodiscard]] virtual bool is_integer(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool claims(std::string_view feature) const = 0;
   /// The triggers of the profile that work with this device: a heartbeat can stay away only from a consumer
   /// of heartbeats, and from a run that may play one.

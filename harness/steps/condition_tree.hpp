@@ -17,7 +17,8 @@ struct Condition::Tree {
     writable,
     access,
     changes,  // about an entry
-    has_default,
+    integer,
+    described_by,
     remaps,
     feature,
     triggers,
@@ -42,6 +43,7 @@ struct Condition::Tree {
   bool whole_object = false;
   std::string word;
   std::uint64_t count = 0;
+  std::vector<Declared> declared;  ///< of `described_by`: the description says all of them
   Expression left, right;
 };
 

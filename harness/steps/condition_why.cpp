@@ -127,7 +127,16 @@ Why about_entry(const Tree& node, Facts& facts, bool held) {
       if (!held) out.text += ", not " + node.word;
       break;
     }
-    case Kind::has_default: says("has a default", "has no default in the description"); break;
+    case Kind::integer: says("is an integer", "is no integer"); break;
+    case Kind::described_by: {
+      const auto what = node.declared.size() > 1                        ? "limits"
+                        : node.declared.front() == Declared::low_limit  ? "low limit"
+                        : node.declared.front() == Declared::high_limit ? "high limit"
+                                                                        : "default";
+      const char* one = node.declared.size() > 1 ? "has " : "has a ";
+      says(std::string(one) + what, std::string("has no ") + what + " in the description");
+      break;
+    }
     case Kind::remaps:
       says("has a variable mapping", "has no mapping that can be changed");
       with_grounds(Asked::mapping);
@@ -257,7 +266,8 @@ Why explain(const Tree& node, Facts& facts, bool held) {
     case Kind::writable:
     case Kind::access:
     case Kind::changes:
-    case Kind::has_default:
+    case Kind::integer:
+    case Kind::described_by:
     case Kind::remaps: return about_entry(node, facts, held);
     case Kind::equal:
     case Kind::at_least:

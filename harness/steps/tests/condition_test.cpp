@@ -26,28 +26,33 @@ FakeSession device() {
   entry.mux = {Index(0x1003), SubIndex(0)};
   entry.access = device::Access::rw;
   entry.may_change = true;
+  entry.type = canopen::DataType::unsigned8;
   out.known.add(entry);
   out.features = {"sync producer"};
   out.triggers = 2;
   out.names["object"] = Value::of_object({Index(0x1003), SubIndex(0)});
   out.names["count"] = Value::of_number(3);
   out.defaults[{Index(0x1003), SubIndex(0)}] = {0};
+  out.low_limits[{Index(0x1003), SubIndex(0)}] = {0};
   return out;
 }
 
 TEST_CASE("Conditions about an entry ask the device and its description") {
   auto session = device();
   for (const char* text :
-       {"1003h is present", "object 1003h is present", "1003h:00 is present", "1010h is absent",
-        "1010h is not present", "object 1010h is absent", "1003h is claimed", "1010h is not claimed",
-        "1003h:00 is readable", "1003h:00 is writable", "1005h:00 is not writable", "1003h:00 is rw",
-        "1003h:00 is not const", "$object may change by itself", "$object may change",
-        "1003h:00 has a default", "$object is present"}) {
+       {"1003h is present",       "object 1003h is present",      "1003h:00 is present",
+        "1010h is absent",        "1010h is not present",         "object 1010h is absent",
+        "1003h is claimed",       "1010h is not claimed",         "1003h:00 is readable",
+        "1003h:00 is writable",   "1005h:00 is not writable",     "1003h:00 is rw",
+        "1003h:00 is not const",  "$object may change by itself", "$object may change",
+        "1003h:00 has a default", "$object is present",           "$object has a low limit",
+        "$object is an integer",  "1005h:00 is not an integer"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
   for (const char* text :
-       {"1003h:01 is present", "1003h is absent", "1005h:00 is rw", "1005h:00 has a default"}) {
+       {"1003h:01 is present", "1003h is absent", "1005h:00 is rw", "1005h:00 has a default",
+        "$object has a high limit", "$object has limits", "$object is not an integer"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "no");
   }
@@ -106,6 +111,8 @@ TEST_CASE("A condition that is false names the part, the entry and the value tha
   CHECK(why("$count is at least 4") == "count is 3, not 4 or more");
   CHECK(why("$count + 1 is 9") == "3 + 1 is 4, not 9");
   CHECK(why("$object is const") == "1003h:00 is rw, not const");
+  CHECK(why("$object has limits") == "1003h:00 has no limits in the description");
+  CHECK(why("$object is not an integer") == "1003h:00 is an integer");
   CHECK(why("not $object is writable") == "1003h:00 is writable");
   CHECK(why("1010h:01 is present and device claims emcy") ==
         "1010h:01 is absent, and the device does not claim 'emcy'");

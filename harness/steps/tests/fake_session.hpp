@@ -19,7 +19,7 @@ class FakeSession final : public Session {
   std::map<std::string, Value, std::less<>> names;
   std::map<Multiplexer, Bytes> entries;
   std::set<std::string, std::less<>> features;
-  std::map<Multiplexer, Bytes> defaults;
+  std::map<Multiplexer, Bytes> defaults, low_limits, high_limits;
   std::size_t triggers = 0;
   std::string others;  ///< what somebody else sent
   bool described = false, sweeps = false, factory = false, remote = false;
@@ -43,9 +43,11 @@ class FakeSession final : public Session {
     return Value::of_bytes(found->second);
   }
   [[nodiscard]] Result<Value> declared(Multiplexer object, Declared what) override {
-    const auto found = defaults.find(object);
-    if (what != Declared::default_value || found == defaults.end())
-      return fail("nothing is known of " + to_string(object));
+    const auto& said = what == Declared::low_limit    ? low_limits
+                       : what == Declared::high_limit ? high_limits
+                                                      : defaults;
+    const auto found = said.find(object);
+    if (found == said.end()) return fail("nothing is known of " + to_string(object));
     return Value::of_bytes(found->second);
   }
 
@@ -70,6 +72,10 @@ class FakeSession final : public Session {
   [[nodiscard]] bool may_change(Multiplexer object) const override {
     const auto* entry = known.find(object);
     return entry != nullptr && entry->may_change;
+  }
+  [[nodiscard]] bool is_integer(Multiplexer object) const override {
+    const auto* entry = known.find(object);
+    return entry != nullptr && canopen::is_integer(entry->type);
   }
   [[nodiscard]] bool claims(std::string_view feature) const override { return features.contains(feature); }
   [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override {
