@@ -63,7 +63,7 @@ struct Defect {
 
 using DefectTable = std::vector<Defect>;
 
-// The tables, one per file.
+// The tables, one per file; the first word of a file is the room whose faults it holds.
 [[nodiscard]] DefectTable sdo_defects();
 [[nodiscard]] DefectTable sdo_expedited_defects();
 [[nodiscard]] DefectTable sdo_segment_defects();
@@ -71,21 +71,24 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable sdo_block_upload_defects();
 [[nodiscard]] DefectTable sdo_block_download_defects();
 [[nodiscard]] DefectTable sdo_channel_defects();
-[[nodiscard]] DefectTable abort_defects();
+[[nodiscard]] DefectTable dictionary_abort_defects();
 [[nodiscard]] DefectTable dictionary_defects();
-[[nodiscard]] DefectTable history_defects();
+[[nodiscard]] DefectTable emergency_history_defects();
 [[nodiscard]] DefectTable emergency_defects();
 [[nodiscard]] DefectTable nmt_defects();
-[[nodiscard]] DefectTable heartbeat_defects();
+[[nodiscard]] DefectTable error_control_heartbeat_defects();
 [[nodiscard]] DefectTable cob_id_defects();
 [[nodiscard]] DefectTable storage_defects();
-[[nodiscard]] DefectTable receive_pdo_defects();
-[[nodiscard]] DefectTable transmit_pdo_defects();
-[[nodiscard]] DefectTable structure_defects();
-[[nodiscard]] DefectTable error_behaviour_defects();
+[[nodiscard]] DefectTable pdo_receive_defects();
+[[nodiscard]] DefectTable pdo_transmit_defects();
+[[nodiscard]] DefectTable dictionary_structure_defects();
+[[nodiscard]] DefectTable error_control_behaviour_defects();
 [[nodiscard]] DefectTable emergency_consumer_defects();
-[[nodiscard]] DefectTable guarding_defects();
-[[nodiscard]] DefectTable optional_object_defects();
-[[nodiscard]] DefectTable operating_system_defects();
+[[nodiscard]] DefectTable error_control_guarding_defects();
+[[nodiscard]] DefectTable time_defects();
+[[nodiscard]] DefectTable sync_defects();
+[[nodiscard]] DefectTable storage_stamp_defects();
+[[nodiscard]] DefectTable objects_description_defects();
+[[nodiscard]] DefectTable objects_operating_system_defects();
 
 }  // namespace refnode

@@ -179,16 +179,6 @@ DefectTable emergency_defects() {
        "Errors that come during the inhibit time of 1015h are never reported",
        {"EMCY-INH-01"},
        lost_while_inhibited()},
-      {"sync-right-length-reported",
-       "A SYNC without data causes EMCY 8240h although no counter is configured",
-       {"SYNC-CON-03"},
-       Change([](Parts& parts) {
-         // Whatever has the right length is what clears the error of a wrong one.
-         parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {
-           if (cause.source != ErrorSource::sync) return former(cause);
-           parts.device.errors.raise(cause, 0);
-         });
-       })},
       {"emcy-without-error",
        "EMCY 1000h follows the boot-up message although there is no error",
        {"EMCY-SEQ-03"},
@@ -198,10 +188,6 @@ DefectTable emergency_defects() {
                                                     {0x00, 0x10, 0, 0, 0, 0, 0, 0}),
                            {}});
        })},
-      {"sync-length-not-reported",
-       "A SYNC with unexpected data causes no EMCY",
-       {"SYNC-CON-05", "NMT-SVC-02"},
-       unnoticed(ErrorSource::sync)},
   };
 }
 

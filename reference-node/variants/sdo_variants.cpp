@@ -142,6 +142,8 @@ VariantTable sdo_variants() {
   using std::chrono::milliseconds;
   using std::chrono::seconds;
   return {
+      {"1200-absent", "the default SDO is not described", "OD-1200-01", absent({0x1200})},
+      {"1200-const", "1200h constant", "OD-1200-04", access_all(0x1200, Access::ro, Access::constant)},
       {"sdo-unused-bytes", "bytes without data are not 00h in uploads", "SDO-GEN-05", fill_unused_bytes},
       {"sdo-turnaround-5ms", "answers after 5 ms", "SDO-GEN-18: no limit is set", turnaround(milliseconds(5)),
        "turnaround"},

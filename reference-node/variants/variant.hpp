@@ -34,14 +34,17 @@ struct Variant {
 
 using VariantTable = std::vector<Variant>;
 
-// The tables, one per file.
-[[nodiscard]] VariantTable object_variants();
-[[nodiscard]] VariantTable default_variants();
-[[nodiscard]] VariantTable abort_variants();
-[[nodiscard]] VariantTable cob_id_variants();
-[[nodiscard]] VariantTable service_variants();
+// The tables, one per room of the node.
+[[nodiscard]] VariantTable objects_variants();
+[[nodiscard]] VariantTable dictionary_variants();
+[[nodiscard]] VariantTable storage_variants();
+[[nodiscard]] VariantTable sync_variants();
+[[nodiscard]] VariantTable time_variants();
+[[nodiscard]] VariantTable emergency_variants();
+[[nodiscard]] VariantTable error_control_variants();
+[[nodiscard]] VariantTable nmt_variants();
 [[nodiscard]] VariantTable pdo_variants();
 [[nodiscard]] VariantTable sdo_variants();
-[[nodiscard]] VariantTable optional_object_variants();
+[[nodiscard]] VariantTable cob_id_variants();
 
 }  // namespace refnode

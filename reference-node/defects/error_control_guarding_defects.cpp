@@ -7,7 +7,7 @@ namespace refnode {
 
 using namespace defect;
 
-DefectTable guarding_defects() {
+DefectTable error_control_guarding_defects() {
   return {
       {"100c-absent",
        "100Ch does not exist although the node is guarded",

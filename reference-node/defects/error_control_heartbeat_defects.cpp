@@ -129,7 +129,7 @@ void never_resolves(Parts& parts) {
 
 }  // namespace
 
-DefectTable heartbeat_defects() {
+DefectTable error_control_heartbeat_defects() {
   return {
       {"1017-period-wrong",
        "The heartbeat comes at half the rate of 1017h",

@@ -32,7 +32,7 @@ Change reacts(std::uint64_t class_value, NmtState present, NmtState wrong) {
 
 }  // namespace
 
-DefectTable error_behaviour_defects() {
+DefectTable error_control_behaviour_defects() {
   return {
       {"1029-sub0-out-of-range", "1029h:00 is 00h", {"OD-1029-01", "OD-GEN-11"}, preset(0x1029, 0, 0)},
       {"1029-sub0-is-u32",

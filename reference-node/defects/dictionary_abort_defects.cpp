@@ -326,7 +326,7 @@ DefectTable length_and_range_rows() {
 
 }  // namespace
 
-DefectTable abort_defects() {
+DefectTable dictionary_abort_defects() {
   DefectTable rows = existence_rows();
   for (DefectTable part : {access_rows(), length_and_range_rows()}) {
     rows.insert(rows.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));

@@ -151,7 +151,7 @@ DefectTable structure_rows() {
 
 }  // namespace
 
-DefectTable structure_defects() {
+DefectTable dictionary_structure_defects() {
   DefectTable rows = type_rows();
   for (auto& row : structure_rows()) rows.push_back(std::move(row));
   return rows;

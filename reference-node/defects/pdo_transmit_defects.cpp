@@ -31,7 +31,7 @@ Change at_sync(bool (*sent)(const SentAtSync& former, std::uint8_t type, std::ui
 
 }  // namespace
 
-DefectTable transmit_pdo_defects() {
+DefectTable pdo_transmit_defects() {
   return {
       {"1800-absent-for-existing-mapping", "1A00h exists without 1800h", {"OD-1800-03"}, absent(0x1800)},
       {"1a00-absent-for-existing-pdo", "1800h exists without 1A00h", {"OD-1800-03"}, absent(0x1A00)},

@@ -54,7 +54,7 @@ Change remembers_more_than_it_shows() {
 
 }  // namespace
 
-DefectTable history_defects() {
+DefectTable emergency_history_defects() {
   return {
       {"1003-nonzero-write-accepted",
        "1003h:00 confirms any value, but keeps the history",

@@ -40,7 +40,7 @@ DictionaryEdit writable(std::uint16_t index, std::uint8_t sub) {
 
 }  // namespace
 
-DefectTable operating_system_defects() {
+DefectTable objects_operating_system_defects() {
   return {
       {"1023-sub0-wrong", "1023h:00 is 02h", {"OD-1023-01", "OD-GEN-11"}, preset(0x1023, 0, 2)},
       {"1023-sub0-writable",

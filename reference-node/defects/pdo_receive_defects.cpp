@@ -20,7 +20,7 @@ ReceivePdoRules& rpdo_traffic(Parts& parts) { return parts.pdos.rpdo.rules; }
 
 }  // namespace
 
-DefectTable receive_pdo_defects() {
+DefectTable pdo_receive_defects() {
   return {
       {"1400-absent-for-existing-mapping",
        "1600h exists without 1400h",

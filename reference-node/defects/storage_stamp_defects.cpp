@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of the configuration stamp (1020h).
+#include "defects/hooks.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+constexpr DataType u16 = DataType::unsigned16;
+
+/// Each of two entries delivers what the other one holds.
+DictionaryEdit swapped(std::uint16_t index, std::uint8_t one, std::uint8_t other) {
+  return [=](ObjectDictionary& od, std::uint8_t) {
+    Entry* first = od.entry(index, one);
+    Entry* second = od.entry(index, other);
+    if (first == nullptr || second == nullptr) return;
+    first->read = [second]() -> Upload { return second->value; };
+    second->read = [first]() -> Upload { return first->value; };
+  };
+}
+
+StampRules& of_stamp(Parts& parts) { return parts.store.stamp.rules; }
+
+/// What was stored of a group goes when its defaults are restored.
+bool is_restored(const Images& former, const Images& images) { return images.size() < former.size(); }
+
+/// "load" makes date and time of the configuration what 1020h begins with after a reset.
+Change stamp_becomes_default() {
+  return checking_all(0x1011, [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted restored = former(bytes);
+    for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+      Entry* entry = parts.device.dictionary.entry(0x1020, sub);
+      if (restored && entry != nullptr) entry->default_value = entry->value;
+    }
+    return restored;
+  });
+}
+
+}  // namespace
+
+DefectTable storage_stamp_defects() {
+  return {
+      {"1020-sub0-wrong", "1020h:00 is 03h", {"OD-1020-01", "OD-GEN-11"}, preset(0x1020, 0, 3)},
+      {"1020-sub0-writable",
+       "1020h:00 can be written",
+       {"OD-1020-02", "OD-ACC-02", "SDO-DNL-09"},
+       access(0x1020, 0, Access::rw)},
+      {"1020-not-writable",
+       "1020h:01 is read-only",
+       {"OD-1020-03", "STO-1020-01", "SDO-DNL-21"},
+       access(0x1020, 1, Access::ro)},
+      {"1020-is-u16",
+       "1020h:02 has two bytes",
+       {"OD-1020-03", "OD-GEN-19", "OD-LEN-04", "OD-GEN-17"},
+       type(0x1020, 2, u16)},
+      {"1020-subs-swapped",
+       "Date and time of 1020h are exchanged when they are read",
+       {"OD-1020-03", "OD-1020-04"},
+       swapped(0x1020, 1, 2)},
+      {"1020-not-stored",
+       "1020h is not stored with the parameters",
+       {"OD-1020-04", "STO-1020-02"},
+       [](ObjectDictionary& od, std::uint8_t) {
+         for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+           if (Entry* entry = od.entry(0x1020, sub)) entry->storable = false;
+         }
+       }},
+      {"1020-stamp-survives-change",
+       "1020h stays although another configuration is stored",
+       {"OD-1020-05", "STO-1020-03"},
+       decides(of_stamp, &StampRules::same_configuration,
+               [](const auto& former, const Images& before, const Images& after) {
+                 return !is_restored(before, after) || former(before, after);
+               })},
+      {"1020-survives-restore",
+       "Restoring the defaults leaves 1020h",
+       {"STO-1020-04"},
+       together(decides(of_stamp, &StampRules::same_configuration,
+                        [](const auto& former, const Images& before, const Images& after) {
+                          return is_restored(before, after) || former(before, after);
+                        }),
+                stamp_becomes_default())},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// EMCY, its history and its consumer.
+#include "variants/tools.hpp"
+
+namespace refnode {
+
+using namespace variant;
+
+namespace {
+
+/// After boot-up, one EMCY 0000h.
+void announce_no_error(Parts& parts) {
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::boot_up || frames.empty()) return;
+    frames.push_back({conform::can::data_frame(conform::CanId(0x80U + context.node_id),
+                                               {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}),
+                      std::chrono::milliseconds(2)});
+  });
+}
+
+/// Bytes 3 to 7 are the manufacturer's.
+void fill_manufacturer_bytes(Parts& parts) {
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency) return;
+    for (Outgoing& outgoing : frames) {
+      for (std::size_t i = 3; i < 8; ++i) outgoing.frame.data[i] = static_cast<std::uint8_t>(0xA0U + i);
+    }
+  });
+}
+
+}  // namespace
+
+VariantTable emergency_variants() {
+  return {
+      {"1003-absent", "no error history", "7.5.2.4: optional", absent({0x1003}), "1003"},
+      {"1003-depth-1", "a history of one error", "7.5.2.4: 1 to 254 fields",
+       both(absent_from(0x1003, 2), [](Parts& node) { node.emergency.history.choices.depth = 1; }), "1003"},
+      {"1003-depth-2", "a history of two errors", "7.5.2.4: 1 to 254 fields",
+       both(absent_from(0x1003, 3), [](Parts& node) { node.emergency.history.choices.depth = 2; }), "1003"},
+      {"1003-depth-7", "a history of seven errors", "7.5.2.4: 1 to 254 fields",
+       both(absent_from(0x1003, 8), [](Parts& node) { node.emergency.history.choices.depth = 7; }), "1003"},
+      {.id = "emcy-absent",
+       .summary = "no EMCY: 1014h and 1015h absent",
+       .legal = "7.2.7.1: optional",
+       .how = absent({0x1014, 0x1015}),
+       .group = "emcy",
+       .lacks = {"emcy"}},
+      {"1015-absent", "no EMCY inhibit time", "7.5.2.18: optional", absent({0x1015}), "1015"},
+      {"1014-const", "the COB-ID of EMCY cannot be changed", "OD-1014-09",
+       access(0x1014, 0, Access::constant)},
+      {"1014-not-valid",
+       "no EMCY by default",
+       "OD-1014-02: bit 31 is not judged",
+       preset_with_node_id(0x1014, 0, 0x80000080),
+       "1014-default",
+       {"1014-const"}},
+      {.id = "1015-10ms",
+       .summary = "an EMCY inhibit time of 10 ms by default",
+       .legal = "OD-1015-02, tolerated: a profile-specific default",
+       .how = preset(0x1015, 0, 100),
+       .group = "1015",
+       .warns = {"OD-1015-02"}},
+      {.id = "1015-100ms",
+       .summary = "an EMCY inhibit time of 100 ms by default",
+       .legal = "OD-1015-02, tolerated: a profile-specific default",
+       .how = preset(0x1015, 0, 1000),
+       .group = "1015",
+       .warns = {"OD-1015-02"}},
+      {"abort-empty-history-0800-0000", "an empty history is a general error", "OD-1003-03",
+       [](Parts& node) {
+         node.emergency.history.choices.nothing_recorded = node.emergency.history.choices.unused_field =
+             abort_code::general_error;
+       }},
+      {"abort-unused-history-0609-0011",
+       "an unused field of the history does not exist",
+       "OD-1003-05, OD-1003-09",
+       [](Parts& node) { node.emergency.history.choices.unused_field = abort_code::no_sub_index; },
+       {},
+       {"abort-empty-history-0800-0000"}},
+      {.id = "register-generic-only",
+       .summary = "the error register has bit 0 only",
+       .legal = "7.5.2.2: all others are optional; EMCY-FMT-05 is a recommendation",
+       .how = [](Parts& node) { node.emergency.choices.register_generic_only = true; },
+       .warns = {"EMCY-FMT-05"}},
+      {"error-reset-for-each", "EMCY 0000h for each error that goes, with what is left", "EMCY-SEQ-05",
+       [](Parts& node) { node.emergency.choices.error_reset_for_each = true; }},
+      {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
+       [](Parts& node) { node.emergency.choices.dropped_in_stopped = true; }},
+      {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
+       fill_manufacturer_bytes},
+      {.id = "emcy-no-error-at-boot-up",
+       .summary = "EMCY 0000h after boot-up",
+       .legal = "EMCY-SEQ-03, tolerated",
+       .how = announce_no_error,
+       .excludes = {"emcy", "1014-not-valid"},
+       .warns = {"EMCY-SEQ-03"}},
+      {.id = "1028-absent",
+       .summary = "consumes no EMCY",
+       .legal = "7.5.2.31: optional",
+       .how = absent({0x1028, 0x2F11}),
+       .group = "1028",
+       .lacks = {"emcy consumer"}},
+      {"1028-one", "consumes the EMCY of node 1", "7.5.2.31: 01h to 7Fh", absent_from(0x1028, 2), "1028"},
+      {"1028-gap", "consumes the EMCY of the nodes 1, 3 and 4", "OD-1028-03: gaps are tolerated",
+       gap(0x1028, 2), "1028"},
+      {"1028-const", "which EMCY are consumed is fixed", "OD-1028-08",
+       access_all(0x1028, Access::rw, Access::constant), "1028"},
+      {"abort-1028-bit-30-0609-0031", "reserved bit 30 of 1028h: value too high",
+       "7.5.2.31: no code is named",
+       [](Parts& node) { node.emergencies.cob_id_rules.choices.fixed_bit = abort_code::value_too_high; }},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boot-up and the NMT state machine, where the standard leaves the when to the device.
+#include <chrono>
+
+#include "variants/tools.hpp"
+
+namespace refnode {
+
+using namespace variant;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// 1F80h, NMT start-up: bit 2 is 0, so the device starts without an NMT master.
+void start_by_itself(Parts& parts) {
+  parts.device.dictionary.add_variable(0x1F80,
+                                       integer_entry("NMT start-up", DataType::unsigned32, Access::ro, 0));
+  parts.nmt.choices.self_starting = true;
+}
+
+How boots_in(Duration after_reset_node, Duration after_reset_communication) {
+  return [=](Parts& node) {
+    node.nmt.choices.node_start_up = after_reset_node;
+    node.nmt.choices.communication_start_up = after_reset_communication;
+  };
+}
+
+How follows_after(Duration latency) {
+  return [=](Parts& node) { node.nmt.choices.latency = latency; };
+}
+
+}  // namespace
+
+VariantTable nmt_variants() {
+  return {
+      {"boot-up-at-once", "boots in no time", "7.3.2.2.1: no time is given", boots_in(0ms, 0ms), "boot"},
+      {"boot-up-200ms", "boots in 200 ms", "7.3.2.2.1: no time is given", boots_in(200ms, 200ms), "boot"},
+      {"boot-up-2s", "boots in 2 s, after reset communication in 0.7 s", "7.3.2.2.1: no time is given",
+       boots_in(2s, 700ms), "boot"},
+      {"boot-up-4900ms", "boots in 4.9 s", "7.3.2.2.1: no time is given, NMT-BOOT-08: T_BOOT",
+       boots_in(4900ms, 4900ms), "boot"},
+      {"nmt-10ms", "follows start, stop and enter pre-operational after 10 ms",
+       "7.3.2.2: no time is given, NMT-FSA-20: T_NMT", follows_after(10ms), "nmt-latency"},
+      {"nmt-90ms", "follows start, stop and enter pre-operational after 90 ms",
+       "7.3.2.2: no time is given, NMT-FSA-20: T_NMT", follows_after(90ms), "nmt-latency"},
+      {"self-starting", "goes on into Operational after boot-up, as its 1F80h says",
+       "CiA 302-2, 1F80h bit 2 = 0; NMT-BOOT-07 does not apply", start_by_itself},
+  };
+}
+
+}  // namespace refnode
