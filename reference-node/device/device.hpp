@@ -50,12 +50,15 @@ struct Device {
   }
 };
 
+/// Makes `first` the earlier of both; a time that is missing is never.
+inline void keep_earlier(std::optional<BusTime>& first, const std::optional<BusTime>& time) {
+  if (time && (!first || *time < *first)) first = time;
+}
+
 /// The earliest of some wake-up times.
 [[nodiscard]] inline std::optional<BusTime> earliest(std::initializer_list<std::optional<BusTime>> times) {
   std::optional<BusTime> first;
-  for (const auto& time : times) {
-    if (time && (!first || *time < *first)) first = time;
-  }
+  for (const auto& time : times) keep_earlier(first, time);
   return first;
 }
 

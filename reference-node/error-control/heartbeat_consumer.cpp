@@ -86,7 +86,7 @@ void HeartbeatConsumer::lose(std::uint8_t sub) {
 
 std::optional<BusTime> HeartbeatConsumer::next_wakeup() const {
   std::optional<BusTime> first;
-  for (const Watch& watch : watches_) first = earliest({first, watch.due});
+  for (const Watch& watch : watches_) keep_earlier(first, watch.due);
   return first;
 }
 

@@ -64,8 +64,8 @@ void Pdos::on_time() {
 
 std::optional<BusTime> Pdos::next_wakeup() const {
   std::optional<BusTime> first;
-  for (const ReceivePdo& pdo : receive_) first = earliest({first, pdo.next_wakeup()});
-  for (const TransmitPdo& pdo : transmit_) first = earliest({first, pdo.next_wakeup()});
+  for (const ReceivePdo& pdo : receive_) keep_earlier(first, pdo.next_wakeup());
+  for (const TransmitPdo& pdo : transmit_) keep_earlier(first, pdo.next_wakeup());
   return first;
 }
 

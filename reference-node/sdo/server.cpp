@@ -302,7 +302,7 @@ std::optional<BusTime> SdoServer::next_wakeup() const {
   std::optional<BusTime> next;
   if (const auto limit = choices_->time_out) next = active_at_ + *limit;
   if (const auto* transfer = std::get_if<BlockDownload>(&transfer_)) {
-    next = earliest({next, transfer->acknowledge_at()});
+    keep_earlier(next, transfer->acknowledge_at());
   }
   const auto* sending = std::get_if<BlockUpload>(&transfer_);
   if (sending != nullptr && sending->has_segment()) {

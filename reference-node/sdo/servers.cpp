@@ -64,7 +64,7 @@ void SdoServers::send_segments() {
 
 std::optional<BusTime> SdoServers::next_wakeup() const {
   std::optional<BusTime> first;
-  for (const SdoServer* server : servers_) first = earliest({first, server->next_wakeup()});
+  for (const SdoServer* server : servers_) keep_earlier(first, server->next_wakeup());
   return first;
 }
 
