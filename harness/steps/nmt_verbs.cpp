@@ -147,6 +147,14 @@ class Produce final : public Action {
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<Produce>();
     auto fields = value.fields("produce");
+    if (const auto guard = fields.optional("guard")) {
+      out->guards_ = true;
+      auto inner = guard.fields("guard");
+      const auto every = inner.required("every");
+      if (!every) return nullptr;
+      if (auto time = parse_time_at(every)) out->every_ = *time;
+      return out;
+    }
     const auto heartbeat = fields.required("heartbeat");
     if (!heartbeat) return nullptr;
     auto inner = heartbeat.fields("heartbeat");
@@ -164,12 +172,21 @@ class Produce final : public Action {
     context.know("heartbeat");
     return out->node_ == 0 ? nullptr : std::move(out);
   }
-  Need need() const override { return {Tier::motion, "play other nodes"}; }
+  Need need() const override {
+    return guards_ ? Need{Tier::config, "send remote frames"} : Need{Tier::motion, "play other nodes"};
+  }
   std::string words(Session&) const override {
+    if (guards_) return "produce guard requests every " + every_.text();
     return "produce heartbeat of node " + std::to_string(node_) +
            (cyclic_ ? " every " + every_.text() : ", once");
   }
   Result<Actual> run(Session& session) const override {
+    if (guards_) {
+      const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
+      auto begun = session.produce({"guard", request, every_.resolve(session.profile()), {}});
+      if (!begun) return std::unexpected(begun.error());
+      return Actual{};
+    }
     if (node_ == session.node().value()) {
       return fail_scenario("node " + std::to_string(node_) +
                            " is the device under test, its heartbeat cannot be produced");
@@ -196,6 +213,7 @@ class Produce final : public Action {
   }
 
  private:
+  bool guards_ = false;  ///< the device under test, by remote frames
   std::uint64_t node_ = 0;
   canopen::NmtState state_ = canopen::NmtState::operational;
   TimeReference every_;
@@ -207,14 +225,22 @@ class Stop final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
     auto out = std::make_unique<Stop>();
-    return value.one_of({"heartbeat"}) ? std::move(out) : nullptr;
+    const auto what = value.one_of({"heartbeat", "guard"});
+    if (!what) return nullptr;
+    out->what_ = *what;
+    return out;
   }
   bool acts() const override { return false; }
-  std::string words(Session&) const override { return "stop producing heartbeats"; }
+  std::string words(Session&) const override {
+    return what_ == "guard" ? "stop producing guard requests" : "stop producing heartbeats";
+  }
   Result<Actual> run(Session& session) const override {
-    session.stop_producing("heartbeat");
+    session.stop_producing(what_);
     return Actual{};
   }
+
+ private:
+  std::string what_;
 };
 
 constexpr Verb table[] = {
@@ -226,10 +252,10 @@ constexpr Verb table[] = {
      "within: time (default: boot time of the profile)\nexactly: once",
      "- nmt: reset node\n- boot_up: {within: $profile.boot_time, exactly: once}\n  checks: NMT-BOOT-01",
      &BootUp::parse},
-    {"produce", "Send heartbeats of another node, once or beside the following steps.",
-     "heartbeat: {node, state, every, count}",
+    {"produce", "Send heartbeats of another node, or guard requests, once or beside the following steps.",
+     "heartbeat: {node, state, every, count}\nguard: {every}, to the device under test",
      "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}", &Produce::parse},
-    {"stop", "End what `produce` began.", "(word): heartbeat", "- stop: heartbeat", &Stop::parse},
+    {"stop", "End what `produce` began.", "(word): heartbeat, guard", "- stop: heartbeat", &Stop::parse},
 };
 
 }  // namespace

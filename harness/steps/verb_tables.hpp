@@ -19,6 +19,7 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> conversation_verbs();
 [[nodiscard]] std::span<const Verb> segment_verbs();
 [[nodiscard]] std::span<const Verb> noise_verbs();
+[[nodiscard]] std::span<const Verb> guard_verbs();
 
 /// The first frame of ours recorded at or behind `begin`, for labels of sending steps.
 [[nodiscard]] inline std::optional<std::size_t> sent_frame(const Session& session, std::size_t begin) {

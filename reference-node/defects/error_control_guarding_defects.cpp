@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of node guarding and life guarding (100Ch, 100Dh).
+#include <chrono>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <utility>
+
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -7,7 +13,274 @@ namespace refnode {
 
 using namespace defect;
 
-DefectTable error_control_guarding_defects() {
+namespace {
+
+constexpr std::uint8_t toggle_bit = 0x80;
+
+GuardingRules& of_guarding(Parts& parts) { return parts.guarding.rules; }
+
+bool is_request(const Parts& parts, const Frame& frame) {
+  return frame.remote && frame.id == 0x700U + parts.device.node_id;
+}
+
+Change life_time(Duration (*wrong)(std::uint64_t guard_time, std::uint64_t factor)) {
+  return decides(of_guarding, &GuardingRules::life_time,
+                 [wrong](const auto&, std::uint64_t guard_time, std::uint64_t factor) {
+                   return wrong(guard_time, factor);
+                 });
+}
+
+/// The toggle bit of replies is counted on its own and begins with 0 again where `begins` says so.
+Change toggle_restarts(bool (*begins)(NmtState before, NmtState now, bool node_was_reset)) {
+  return [begins](Parts& parts) {
+    struct Memory {
+      bool toggle = false, node_reset = false;
+      NmtState state = NmtState::initialising;
+    };
+    auto memory = std::make_shared<Memory>();
+    parts.device.inbox.add_filter([memory](std::vector<Frame>& frames) {
+      for (const Frame& frame : frames) {
+        if (frame.id == 0 && frame.size() == 2 && frame.data[0] >= 0x81)
+          memory->node_reset = frame.data[0] == 0x81;
+      }
+    });
+    parts.device.outbox.add_filter(
+        [memory, begins](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service == Service::boot_up) {
+            if (begins(memory->state, NmtState::initialising, memory->node_reset)) memory->toggle = false;
+            memory->state = NmtState::pre_operational;
+          }
+          if (context.service != Service::guarding) return;
+          if (context.state != memory->state && begins(memory->state, context.state, false))
+            memory->toggle = false;
+          memory->state = context.state;
+          for (Outgoing& outgoing : frames) {
+            outgoing.frame.data[0] &= static_cast<std::uint8_t>(~toggle_bit);
+            if (std::exchange(memory->toggle, !memory->toggle)) outgoing.frame.data[0] |= toggle_bit;
+          }
+        });
+  };
+}
+
+/// A reply is as long as the request asks for.
+void length_as_asked(Parts& parts) {
+  auto asked = std::make_shared<std::uint8_t>(1);
+  parts.device.inbox.add_filter([&parts, asked](std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) {
+      if (is_request(parts, frame)) *asked = frame.dlc;
+    }
+  });
+  parts.device.outbox.add_filter([asked](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::guarding) return;
+    for (Outgoing& outgoing : frames) outgoing.frame.dlc = *asked;
+  });
+}
+
+/// After a life guarding event nothing is answered until a reset.
+void dumb_after_the_event(Parts& parts) {
+  auto lost = std::make_shared<bool>(false);
+  parts.guarding.on_loss = [lost, former = parts.guarding.on_loss] {
+    *lost = true;
+    if (former) former();
+  };
+  parts.device.outbox.add_filter([lost](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) *lost = false;
+    if (context.service == Service::guarding && *lost) frames.clear();
+  });
+}
+
+/// The second life guarding event behind a reset is not noticed.
+void noticed_once(Parts& parts) {
+  auto noticed = std::make_shared<bool>(false);
+  parts.device.errors.raise.replace([noticed](const auto& former, const ErrorCause& cause, auto detail) {
+    if (cause.source == ErrorSource::guarding && std::exchange(*noticed, true)) return;
+    former(cause, detail);
+  });
+  parts.device.outbox.add_filter([noticed](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.service == Service::boot_up) *noticed = false;
+  });
+}
+
+/// Once there was a heartbeat, guard requests are not answered any more.
+void dead_after_heartbeat(Parts& parts) {
+  auto dead = std::make_shared<bool>(false);
+  parts.device.outbox.add_filter([dead](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) *dead = false;
+    if (context.service == Service::heartbeat) *dead = true;
+    if (context.service == Service::guarding && *dead) frames.clear();
+  });
+}
+
+/// 0 in the entry is stored and changes nothing before the next request.
+Change not_switched_off_by(std::uint16_t index) {
+  return after_writing(index, 0, [index](Parts& parts, const std::function<void()>& former) {
+    if (parts.device.dictionary.number(index, 0) != 0) former();
+  });
+}
+
+Change says_in(NmtState real, NmtState told) {
+  return Filter([real, told](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::guarding || context.state != real) return;
+    for (Outgoing& outgoing : frames) {
+      outgoing.frame.data[0] =
+          static_cast<std::uint8_t>((outgoing.frame.data[0] & toggle_bit) | static_cast<std::uint8_t>(told));
+    }
+  });
+}
+
+DefectTable request_rows() {
+  return {
+      {"guard-no-reply",
+       "Guard requests are not answered",
+       {"EC-NG-01", "EC-NG-02", "EC-NG-12"},
+       deaf_to([](Parts& parts, const Frame& frame) { return is_request(parts, frame); })},
+      {"guard-toggle-starts-with-1",
+       "The first guard reply after a reset has toggle bit 1",
+       {"EC-NG-01", "EC-NG-03"},
+       reshape(Service::guarding, [](const FilterContext&, Frame& frame) { frame.data[0] ^= toggle_bit; })},
+      {"guard-toggle-constant",
+       "The toggle bit of guard replies is always 0",
+       {"EC-NG-02", "EC-NG-03"},
+       reshape(Service::guarding, [](const FilterContext&, Frame& frame) { frame.data[0] &= 0x7F; })},
+      {"guard-toggle-begins-anew-in-operational",
+       "The toggle bit begins with 0 when the node becomes Operational",
+       {"EC-NG-03"},
+       toggle_restarts([](NmtState, NmtState now, bool) {
+         return now == NmtState::operational || now == NmtState::initialising;
+       })},
+      {"guard-toggle-begins-anew-with-each-state",
+       "The toggle bit begins with 0 at each change of the NMT state",
+       {"EC-NG-03"},
+       toggle_restarts([](NmtState, NmtState, bool) { return true; })},
+      {"guard-toggle-survives-reset-communication",
+       "The toggle bit goes on over reset communication",
+       {"EC-NG-03", "EC-NG-01"},
+       toggle_restarts(
+           [](NmtState, NmtState now, bool node) { return now == NmtState::initialising && node; })},
+      {"guard-toggle-survives-reset-node",
+       "The toggle bit goes on over reset node",
+       {"EC-NG-03"},
+       toggle_restarts(
+           [](NmtState, NmtState now, bool node) { return now == NmtState::initialising && !node; })},
+      {"guard-state-operational-wrong",
+       "Guard replies tell Pre-operational in Operational",
+       {"EC-NG-04"},
+       says_in(NmtState::operational, NmtState::pre_operational)},
+      {"guard-state-stopped-wrong",
+       "Guard replies tell Pre-operational in Stopped",
+       {"EC-NG-04"},
+       says_in(NmtState::stopped, NmtState::pre_operational)},
+      {"guard-reply-of-two-bytes",
+       "Guard replies have two bytes",
+       {"EC-NG-05", "EC-NG-14"},
+       reshape(Service::guarding, [](const FilterContext&, Frame& frame) { frame.dlc = 2; })},
+      {"guard-reply-as-long-as-asked",
+       "A guard reply has the length that the remote frame asks for",
+       {"EC-NG-14"},
+       length_as_asked},
+      {"guard-answers-every-node",
+       "Guard requests for any node are answered",
+       {"EC-NG-06"},
+       misreads([](Parts& parts, Frame& frame) {
+         if (frame.remote && !frame.extended && frame.id >= 0x700) frame.id = 0x700U + parts.device.node_id;
+       })},
+      {"guard-answers-node-id-without-bit6",
+       "Guard requests for a node-ID that differs in bit 6 only are answered",
+       {"EC-NG-06"},
+       misreads([](Parts& parts, Frame& frame) {
+         if (frame.remote && !frame.extended && frame.id == ((0x700U + parts.device.node_id) ^ 0x40U))
+           frame.id = 0x700U + parts.device.node_id;
+       })},
+      {"guard-answered-before-boot-up",
+       "Guard requests are answered while the node is initialising",
+       {"EC-NG-13"},
+       decides(of_guarding, &GuardingRules::is_answered_in, [](const auto&, NmtState) { return true; })},
+      {"guard-answers-extended-frames",
+       "Remote frames of 29 bits are taken for guard requests",
+       {"EC-NG-15"},
+       misreads([](Parts&, Frame& frame) {
+         if (frame.remote && frame.id >= 0x700 && frame.id <= 0x77F) frame.extended = false;
+       })},
+      {"guard-answered-while-heartbeat-on",
+       "Guarding goes on while the heartbeat is on",
+       {"EC-NG-11"},
+       decides(of_guarding, &GuardingRules::is_used, [](const auto&, std::uint64_t) { return true; })},
+      {"guarding-dead-after-heartbeat",
+       "Guard requests are not answered any more when the heartbeat was on once",
+       {"EC-NG-12"},
+       dead_after_heartbeat},
+  };
+}
+
+DefectTable life_rows() {
+  return {
+      {"life-guarding-too-early",
+       "The life guarding event comes after half of the life time",
+       {"EC-NG-07"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(static_cast<std::int64_t>(guard_time * factor / 2));
+       })},
+      {"life-guarding-factor-ignored",
+       "The life guarding event comes after one guard time",
+       {"EC-NG-07"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(factor == 0 ? 0 : static_cast<std::int64_t>(guard_time));
+       })},
+      {"life-time-of-8-bits",
+       "The life time is computed in 8 bits",
+       {"EC-NG-07"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(static_cast<std::int64_t>((guard_time * factor) & 0xFFU));
+       })},
+      {"life-time-of-16-bits",
+       "The life time is computed in 16 bits",
+       {"EC-NG-07"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(static_cast<std::int64_t>((guard_time * factor) & 0xFFFFU));
+       })},
+      {"life-guarding-twice-as-long",
+       "The life guarding event comes after twice the life time",
+       {"EC-NG-07"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(static_cast<std::int64_t>(guard_time * factor * 2));
+       })},
+      {"life-guarding-without-request",
+       "Life guarding starts when it is configured",
+       {"EC-NG-08"},
+       decides(of_guarding, &GuardingRules::begins_the_watch, [](const auto&, bool) { return true; })},
+      {"life-guarding-with-factor-0",
+       "A life time factor of 0 is taken for 1",
+       {"EC-NG-09"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(static_cast<std::int64_t>(guard_time * (factor == 0 ? 1 : factor)));
+       })},
+      {"life-guarding-with-guard-time-0",
+       "A guard time of 0 is taken for 100 ms",
+       {"EC-NG-09"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::milliseconds(
+             static_cast<std::int64_t>((guard_time == 0 ? 100 : guard_time) * factor));
+       })},
+      {"life-guarding-not-switched-off-by-100c",
+       "A watch that runs goes on when 100Ch becomes 0",
+       {"EC-NG-09"},
+       not_switched_off_by(0x100C)},
+      {"life-guarding-not-switched-off-by-100d",
+       "A watch that runs goes on when 100Dh becomes 0",
+       {"EC-NG-09"},
+       not_switched_off_by(0x100D)},
+      {"life-guarding-never-resolved",
+       "After a life guarding event guard requests are not answered any more",
+       {"EC-NG-10", "OD-1029-10"},
+       dumb_after_the_event},
+      {"life-guarding-noticed-once",
+       "A second life guarding event is not reported",
+       {"EC-NG-10"},
+       noticed_once},
+  };
+}
+
+DefectTable entry_rows() {
   return {
       {"100c-absent",
        "100Ch does not exist although the node is guarded",
@@ -45,6 +318,15 @@ DefectTable error_control_guarding_defects() {
        {"OD-1029-10", "EC-NG-07"},
        together(unnoticed(ErrorSource::guarding), [](Parts& parts) { parts.guarding.on_loss = nullptr; })},
   };
+}
+
+}  // namespace
+
+DefectTable error_control_guarding_defects() {
+  DefectTable rows = entry_rows();
+  for (DefectTable table : {request_rows(), life_rows()})
+    rows.insert(rows.end(), std::make_move_iterator(table.begin()), std::make_move_iterator(table.end()));
+  return rows;
 }
 
 }  // namespace refnode

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error-control/node_guarding.hpp"
 
-#include <chrono>
-
 namespace refnode {
 
 namespace {
@@ -24,7 +22,7 @@ void NodeGuarding::bind() {
     if (entry == nullptr) continue;
     // Another life time begins with the next request, and what was lost does not count any more.
     entry->written = [this] {
-      due_.reset();
+      watch(false);
       if (lost_) device_->errors.clear(lost);
       lost_ = false;
     };
@@ -33,25 +31,26 @@ void NodeGuarding::bind() {
 
 bool NodeGuarding::in_use() const {
   const ObjectDictionary& od = device_->dictionary;
-  return od.entry(0x100C, 0) != nullptr && od.entry(0x100D, 0) != nullptr && od.number(0x1017, 0) == 0;
+  return od.entry(0x100C, 0) != nullptr && od.entry(0x100D, 0) != nullptr &&
+         rules.is_used(od.number(0x1017, 0));
 }
 
-// Milliseconds times a factor; zero when either is: no life guarding.
-Duration NodeGuarding::life_time() const {
+void NodeGuarding::watch(bool requested) {
+  due_.reset();
   const ObjectDictionary& od = device_->dictionary;
-  return std::chrono::milliseconds(static_cast<std::int64_t>(od.number(0x100C, 0) * od.number(0x100D, 0)));
+  const Duration life_time = rules.life_time(od.number(0x100C, 0), od.number(0x100D, 0));
+  if (life_time > Duration::zero() && rules.begins_the_watch(requested)) due_ = device_->now + life_time;
 }
 
 bool NodeGuarding::on_remote(const Frame& frame) {
   if (frame.id != 0x700U + device_->node_id) return false;
-  if (device_->state == NmtState::initialising || !in_use()) return true;
+  if (!rules.is_answered_in(device_->state) || !in_use()) return true;
   const auto state = static_cast<std::uint8_t>(device_->state);
   const auto data = static_cast<std::uint8_t>(toggle_ ? state | toggle_bit : state);
   device_->send(Service::guarding,
                 conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {data}));
   toggle_ = !toggle_;
-  due_.reset();
-  if (life_time() > Duration::zero()) due_ = device_->now + life_time();
+  watch(true);
   if (lost_) device_->errors.clear(lost);
   lost_ = false;
   return true;

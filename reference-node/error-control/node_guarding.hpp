@@ -3,12 +3,31 @@
 // is on there is neither.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 
 #include "device/device.hpp"
+#include "rules/rule.hpp"
 
 namespace refnode {
+
+/// What CiA 301, 7.2.8.2.2 and 7.2.8.3.2 say of guarding.
+struct GuardingRules {
+  /// While the heartbeat is on there is neither node guarding nor life guarding.
+  Rule<bool(std::uint64_t heartbeat_time)> is_used = [](std::uint64_t heartbeat_time) {
+    return heartbeat_time == 0;
+  };
+  /// Nobody is answered before the boot-up message.
+  Rule<bool(NmtState)> is_answered_in = [](NmtState state) { return state != NmtState::initialising; };
+  /// The life time: guard time (100Ch, ms) times factor (100Dh); zero, where either is: no life guarding.
+  Rule<Duration(std::uint64_t, std::uint64_t)> life_time = [](std::uint64_t guard_time,
+                                                              std::uint64_t factor) {
+    return Duration(std::chrono::milliseconds(static_cast<std::int64_t>(guard_time * factor)));
+  };
+  /// The first request begins the watch; that it was configured does not.
+  Rule<bool(bool requested)> begins_the_watch = [](bool requested) { return requested; };
+};
 
 class NodeGuarding {
  public:
@@ -18,6 +37,7 @@ class NodeGuarding {
   void add_objects();
   void bind();
 
+  GuardingRules rules;
   std::function<void()> on_loss;  ///< the master does not guard any more
 
   /// True when the frame was a guard request.
@@ -28,7 +48,7 @@ class NodeGuarding {
 
  private:
   [[nodiscard]] bool in_use() const;
-  [[nodiscard]] Duration life_time() const;
+  void watch(bool requested);
 
   Device* device_;
   bool toggle_ = false;
