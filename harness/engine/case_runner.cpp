@@ -41,8 +41,10 @@ steps::Value bind(const std::string& text, RunSession& session, const scenario::
 std::optional<std::size_t> next_answer(const can::Capture& capture, CanId can_id) {
   const auto& frames = capture.frames();
   std::optional<std::size_t> out;
-  for (auto i = frames.size(); i-- > 0 && frames[i].direction == can::Direction::received;) {
-    if (frames[i].frame.is_data(can_id)) out = i;
+  for (std::size_t i = frames.size(); i > 0; --i) {
+    const auto& each = frames[i - 1];
+    if (each.direction != can::Direction::received) break;
+    if (each.frame.is_data(can_id)) out = i - 1;
   }
   return out;
 }
