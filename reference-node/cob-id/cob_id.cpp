@@ -104,6 +104,11 @@ bool CobId::valid() const {
   return rules_->valid(value());
 }
 
-std::uint32_t CobId::can_id() const { return rules_->can_id(value(), default_); }
+std::uint32_t CobId::can_id() const {
+  const Entry* entry = device_->dictionary.entry(index_, sub_);
+  const auto at_power_on =
+      entry == nullptr ? default_ : static_cast<std::uint32_t>(conform::load_le(entry->default_value));
+  return rules_->can_id(value(), at_power_on);
+}
 
 }  // namespace refnode

@@ -41,6 +41,7 @@ DictionaryEdit preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value
     if (Entry* entry = od.entry(index, sub)) {
       conform::store_le(entry->value, value);
       entry->default_value = entry->value;
+      entry->adds_node_id = false;
     }
   };
 }
@@ -48,6 +49,7 @@ DictionaryEdit preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value
 DictionaryEdit preset_with_node_id(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
   return [index, sub, value](ObjectDictionary& od, std::uint8_t node_id) {
     preset(index, sub, value + node_id)(od, node_id);
+    if (Entry* entry = od.entry(index, sub)) entry->adds_node_id = true;
   };
 }
 

@@ -82,6 +82,12 @@ Entry integer_entry(std::string name, DataType type, Access access, std::uint64_
   return entry;
 }
 
+Entry cob_id_entry(std::string name, Access access, std::uint32_t base, std::uint8_t node_id) {
+  Entry entry = integer_entry(std::move(name), DataType::unsigned32, access, base + node_id);
+  entry.adds_node_id = true;
+  return entry;
+}
+
 Entry bytes_entry(std::string name, DataType type, Access access, Bytes value, std::size_t max_size) {
   Entry entry;
   entry.name = std::move(name);
@@ -140,6 +146,18 @@ Entry& ObjectDictionary::add_sub(std::uint16_t index, std::uint8_t sub, Entry en
 
 void ObjectDictionary::remove_sub(std::uint16_t index, std::uint8_t sub) {
   if (const auto found = objects_.find(index); found != objects_.end()) found->second.entries.erase(sub);
+}
+
+void ObjectDictionary::change_node_id(std::uint8_t from, std::uint8_t to) {
+  if (from == to) return;
+  for (auto& [index, object] : objects_) {
+    for (auto& [sub, entry] : object.entries) {
+      if (!entry.adds_node_id) continue;
+      const std::uint64_t base = conform::load_le(entry.default_value) - from;
+      entry.default_value = conform::to_le(base + to, entry.default_value.size());
+      if (entry.access != Access::rw && entry.access != Access::wo) entry.value = entry.default_value;
+    }
+  }
 }
 
 Entry* ObjectDictionary::entry(std::uint16_t index, std::uint8_t sub) {

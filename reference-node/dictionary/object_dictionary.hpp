@@ -81,6 +81,7 @@ struct Entry {
   bool tx_mappable = false;
   bool command = false;                  ///< a write triggers `check` and is not kept (1010h, 1011h, 2F00h)
   bool storable = true;                  ///< taken into the storage image if it is rw and no command
+  bool adds_node_id = false;             ///< the default value is a base plus the node-ID
   std::function<bool()> not_stored_now;  ///< true: left out of the storage image for the present
   std::function<Upload()> read;          ///< replaces `value` on an upload
   std::function<Accepted(ByteView)> check;  ///< last word before a value is taken
@@ -102,6 +103,8 @@ struct Object {
 
 /// An integer entry; the default value has the length of the type.
 [[nodiscard]] Entry integer_entry(std::string name, DataType type, Access access, std::uint64_t value);
+/// A COB-ID of 32 bits whose default value is the sum of both.
+[[nodiscard]] Entry cob_id_entry(std::string name, Access access, std::uint32_t base, std::uint8_t node_id);
 /// An entry of a type of variable length (or of REAL, TIME_OF_DAY, ...) with its bytes.
 [[nodiscard]] Entry bytes_entry(std::string name, DataType type, Access access, Bytes value,
                                 std::size_t max_size = 0);
@@ -131,6 +134,8 @@ class ObjectDictionary {
   Entry& add_sub(std::uint16_t index, std::uint8_t sub, Entry entry);
   void remove(std::uint16_t index) { objects_.erase(index); }
   void remove_sub(std::uint16_t index, std::uint8_t sub);
+  /// The defaults follow another node-ID; values that cannot be written do so at once.
+  void change_node_id(std::uint8_t from, std::uint8_t to);
 
   [[nodiscard]] const std::map<std::uint16_t, Object>& objects() const { return objects_; }
   [[nodiscard]] std::map<std::uint16_t, Object>& objects() { return objects_; }

@@ -46,8 +46,7 @@ void Emergency::add_objects() {
   od.add_variable(0x1001, integer_entry("Error register", DataType::unsigned8, Access::ro, 0)).tx_mappable =
       true;
   history.add_objects();
-  od.add_variable(0x1014,
-                  integer_entry("COB-ID EMCY", DataType::unsigned32, Access::rw, 0x80U + device_->node_id));
+  od.add_variable(0x1014, cob_id_entry("COB-ID EMCY", Access::rw, 0x80, device_->node_id));
   od.add_variable(0x1015, integer_entry("Inhibit time EMCY", DataType::unsigned16, Access::rw, 0));
 }
 

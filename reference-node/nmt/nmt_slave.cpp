@@ -12,16 +12,21 @@ constexpr std::uint8_t enter_pre_operational = 0x80;
 constexpr std::uint8_t reset_node = 0x81;
 constexpr std::uint8_t reset_communication = 0x82;
 
+bool is_node_id(std::uint8_t value) { return value >= 1 && value <= 127; }
+
 }  // namespace
 
 NmtSlave::NmtSlave(Device& device)
     : rules{.start_up_time{[this](Reset reset) {
               return reset == Reset::node ? choices.node_start_up : choices.communication_start_up;
-            }}},
+            }},
+            .may_boot_up{is_node_id}},
       device_(&device) {}
 
 bool NmtSlave::addressed(const Frame& frame) const {
-  return frame.size() == 2 && (frame.data[1] == 0 || frame.data[1] == device_->node_id);
+  if (frame.size() != 2) return false;
+  const std::uint8_t node_id = frame.data[1];
+  return node_id == 0 || (node_id == device_->node_id && is_node_id(node_id));
 }
 
 void NmtSlave::on_command(const Frame& frame) {
@@ -70,6 +75,7 @@ void NmtSlave::on_time() {
   }
   if (!boot_up_due_ || device_->now < *boot_up_due_) return;
   boot_up_due_.reset();
+  if (!rules.may_boot_up(device_->node_id)) return;
   device_->send(Service::boot_up,
                 conform::can::data_frame(conform::CanId(0x700U + device_->node_id), {0x00}));
   device_->state = choices.self_starting ? NmtState::operational : NmtState::pre_operational;

@@ -26,6 +26,8 @@ struct NmtChoices {
 struct NmtRules {
   /// From a reset to the boot-up message.
   Rule<Duration(Reset)> start_up_time;
+  /// Without a node-ID there is no boot-up message: the start-up goes on until LSS gives one (CiA 305).
+  Rule<bool(std::uint8_t node_id)> may_boot_up;
 };
 
 class NmtSlave {

@@ -53,7 +53,7 @@ DynamicChannelsSupported=0
 GroupMessaging=0
 NrOfRXPDO=1
 NrOfTXPDO=1
-LSS_Supported=0
+LSS_Supported=1
 
 [DummyUsage]
 Dummy0001=0

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "eds/eds.hpp"
 #include "emergency/trigger.hpp"
 #include "node/eds_text.hpp"
 #include "node/switches.hpp"
@@ -36,6 +37,14 @@ struct Node::Impl : Parts {
 };
 
 Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(options.node_id, options.storage) {
+  if (options.description)
+    lss.choices.supported =
+        conform::eds::flag_of(options.description->device_info.lss_supported).value_or(false);
+  lss.stored_node_id = [this] { return store.stored_node_id(); };
+  lss.keep = [this](std::uint8_t node_id, std::optional<std::uint8_t> bit_rate) {
+    return store.store_layer_setting(node_id, bit_rate);
+  };
+  lss.on_node_id = [this] { nmt.start_reset(Reset::communication); };
   nmt.on_reset = [this](Reset kind) { reset(kind); };
   nmt.on_boot_up = [this] { boot_up(); };
   nmt.on_change = [this](NmtState from) { change_state(from); };
@@ -107,6 +116,9 @@ void Node::Impl::take_over(Twin twin) {
 }
 
 void Node::Impl::reset(Reset kind) {
+  const std::uint8_t node_id = lss.on_reset(kind == Reset::node);
+  device.dictionary.change_node_id(device.node_id, node_id);
+  device.node_id = node_id;
   device.inbox.clear();
   device.outbox.clear();
   sdo.on_state_change();
@@ -154,6 +166,7 @@ void Node::Impl::dispatch(const Frame& frame) {
   }
 
   if (frame.id == 0x000) return nmt.on_command(frame);
+  if (lss.on_frame(frame)) return;
   if (sdo.on_frame(frame)) return;
   if (device.state == NmtState::initialising) return;
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {
@@ -168,9 +181,9 @@ Node::Node(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Node::~Node() = default;
 
 conform::Result<std::unique_ptr<Node>> Node::create(Options options) {
-  if (options.node_id < 1 || options.node_id > 127) {
+  if ((options.node_id < 1 || options.node_id > 127) && options.node_id != LssSlave::no_node_id) {
     return conform::fail("node-ID " + std::to_string(options.node_id) + " is out of range", {},
-                         "CANopen node-IDs are 1 to 127");
+                         "CANopen node-IDs are 1 to 127; 255 is a node without one, which waits for LSS");
   }
   if (!options.storage) options.storage = std::make_shared<MemoryStorage>();
   std::optional<Twin> twin;

@@ -26,7 +26,7 @@ namespace refnode {
 struct Parts;
 
 struct Options {
-  std::uint8_t node_id = 1;            ///< 1..127
+  std::uint8_t node_id = 1;            ///< 1..127, or 255: none, LSS gives one
   std::vector<std::string> defects{};  ///< ids of defects()
   std::shared_ptr<Storage> storage{};  ///< non-volatile memory; empty: fresh memory that lives with the node
   std::function<void(Parts&)> adjust{};  ///< what else to set before the node starts

@@ -18,12 +18,8 @@ void add_identity_objects(Device& device) {
   od.add_sub(0x1018, 3, integer_entry("Revision number", DataType::unsigned32, Access::ro, 0x00010000));
   od.add_sub(0x1018, 4, integer_entry("Serial number", DataType::unsigned32, Access::ro, 0x00000001));
   od.add_complex(0x1200, "SDO server parameter", ObjectKind::record);
-  od.add_sub(
-      0x1200, 1,
-      integer_entry("COB-ID client -> server", DataType::unsigned32, Access::ro, 0x600U + device.node_id));
-  od.add_sub(
-      0x1200, 2,
-      integer_entry("COB-ID server -> client", DataType::unsigned32, Access::ro, 0x580U + device.node_id));
+  od.add_sub(0x1200, 1, cob_id_entry("COB-ID client -> server", Access::ro, 0x600, device.node_id));
+  od.add_sub(0x1200, 2, cob_id_entry("COB-ID server -> client", Access::ro, 0x580, device.node_id));
 }
 
 }  // namespace refnode

@@ -12,6 +12,7 @@
 #include "error-control/heartbeat_consumer.hpp"
 #include "error-control/heartbeat_producer.hpp"
 #include "error-control/node_guarding.hpp"
+#include "lss/lss_slave.hpp"
 #include "nmt/nmt_slave.hpp"
 #include "objects/operating_system.hpp"
 #include "pdo/pdos.hpp"
@@ -40,7 +41,8 @@ struct Parts {
         store(device, std::move(storage)),
         nmt(device),
         error_behaviour(device),
-        sdo(device) {}
+        sdo(device),
+        lss(device) {}
 
   Device device;
   Emergency emergency;
@@ -57,6 +59,7 @@ struct Parts {
   NmtSlave nmt;
   ErrorBehaviour error_behaviour;
   SdoServers sdo;
+  LssSlave lss;
 };
 
 }  // namespace refnode

@@ -20,14 +20,14 @@ constexpr std::uint64_t first_multiplexed = 0xFE;  // FEh and FFh in sub-index 0
 
 }  // namespace
 
-void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t cob_id,
+void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t cob_id, std::uint8_t node_id,
                      const std::vector<std::uint32_t>& mapping) {
   constexpr std::uint8_t entries = 8;
   const bool receive = direction == PdoDirection::receive;
   const std::uint16_t index = first_communication_index(direction);
   od.add_complex(index, receive ? "RPDO communication parameter" : "TPDO communication parameter",
                  ObjectKind::record);
-  od.add_sub(index, 1, integer_entry("COB-ID", DataType::unsigned32, Access::rw, cob_id));
+  od.add_sub(index, 1, cob_id_entry("COB-ID", Access::rw, cob_id, node_id));
   od.add_sub(index, type_sub, integer_entry("Transmission type", DataType::unsigned8, Access::rw, 0xFF));
   od.add_sub(index, inhibit_sub, integer_entry("Inhibit time", DataType::unsigned16, Access::rw, 0));
   // Sub-index 04h is reserved and left out.

@@ -22,7 +22,7 @@ inline constexpr std::uint16_t pdos_of_a_direction = 512;
 /// Adds both parameters of the first PDO of a direction; `mapping` are the default entries, of eight there
 /// can be.
 void add_pdo_objects(ObjectDictionary& dictionary, PdoDirection direction, std::uint32_t cob_id,
-                     const std::vector<std::uint32_t>& mapping);
+                     std::uint8_t node_id, const std::vector<std::uint32_t>& mapping);
 
 class PdoParameters {
  public:

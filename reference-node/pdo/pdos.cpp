@@ -8,9 +8,9 @@ namespace refnode {
 void Pdos::add_objects() {
   // Two digital outputs and an analog one, two digital inputs and an analog one. Bit 30 of the TPDO: not on
   // remote request.
-  add_pdo_objects(device_->dictionary, PdoDirection::receive, 0x200U + device_->node_id,
+  add_pdo_objects(device_->dictionary, PdoDirection::receive, 0x200, device_->node_id,
                   {0x62000108, 0x62000208, 0x64110110});
-  add_pdo_objects(device_->dictionary, PdoDirection::transmit, 0x40000180U + device_->node_id,
+  add_pdo_objects(device_->dictionary, PdoDirection::transmit, 0x40000180, device_->node_id,
                   {0x60000108, 0x60000208, 0x64010110});
 }
 

@@ -27,12 +27,14 @@ std::string_view group_name(Group group) {
     case Group::communication: return "communication";
     case Group::application: return "application";
     case Group::manufacturer: return "manufacturer";
+    case Group::layer_setting: return "layer setting";
   }
   return "";
 }
 
 std::optional<Group> group_named(std::string_view name) {
-  for (const Group group : {Group::communication, Group::application, Group::manufacturer}) {
+  for (const Group group :
+       {Group::communication, Group::application, Group::manufacturer, Group::layer_setting}) {
     if (group_name(group) == name) return group;
   }
   return std::nullopt;
@@ -90,6 +92,7 @@ std::string reason() { return std::generic_category().message(errno); }
 }  // namespace
 
 Group group_of(conform::Index index) {
+  if (index.value() == 0) return Group::layer_setting;
   if (index.value() >= 0x1000 && index.value() <= 0x1FFF) return Group::communication;
   if (index.value() >= 0x6000 && index.value() <= 0x9FFF) return Group::application;
   return Group::manufacturer;

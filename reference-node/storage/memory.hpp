@@ -13,10 +13,11 @@
 
 namespace refnode {
 
-/// Groups of CiA 301, 7.5.2.13: sub-index 01h means all three, 02h and 03h one each.
-enum class Group : std::uint8_t { communication, application, manufacturer };
+/// Groups of CiA 301, 7.5.2.13: sub-index 01h means all three, 02h and 03h one each. What LSS stores (CiA
+/// 305) has no entry in the dictionary, and 1010h and 1011h leave it alone.
+enum class Group : std::uint8_t { communication, application, manufacturer, layer_setting };
 
-/// 1000h-1FFFh, 6000h-9FFFh, and the rest.
+/// 0000h, 1000h-1FFFh, 6000h-9FFFh, and the rest.
 [[nodiscard]] Group group_of(conform::Index index);
 
 using Image = std::map<conform::Multiplexer, conform::Bytes>;

@@ -16,6 +16,10 @@ constexpr std::uint64_t on_command = 1;    // capability, bit 0
 constexpr std::uint64_t autonomously = 2;  // of 1010h only, bit 1
 constexpr Group all_groups[] = {Group::communication, Group::application, Group::manufacturer};
 
+// Index 0000h is no entry of the dictionary: places in the memory.
+constexpr Multiplexer node_id_setting{conform::Index(0), conform::SubIndex(1)};
+constexpr Multiplexer bit_rate_setting{conform::Index(0), conform::SubIndex(2)};
+
 // The text in transmission order, least significant byte first.
 bool is_signature(std::string_view wanted, ByteView given) {
   return std::ranges::equal(
@@ -172,6 +176,22 @@ Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
   if (auto kept = keep(std::move(images)); !kept) return kept;
   for (const Group group : groups_of(sub)) restored_.insert(group);
   return {};
+}
+
+bool ParameterStore::store_layer_setting(std::uint8_t node_id, std::optional<std::uint8_t> bit_rate) {
+  Images images = storage_->images();
+  Image& image = images[Group::layer_setting];
+  image[node_id_setting] = {node_id};
+  if (bit_rate) image[bit_rate_setting] = {*bit_rate};
+  return keep(std::move(images)).has_value();
+}
+
+std::optional<std::uint8_t> ParameterStore::stored_node_id() const {
+  const auto group = storage_->images().find(Group::layer_setting);
+  if (group == storage_->images().end()) return std::nullopt;
+  const auto value = group->second.find(node_id_setting);
+  if (value == group->second.end() || value->second.size() != 1) return std::nullopt;
+  return value->second.front();
 }
 
 void ParameterStore::load_power_on_values(bool whole_node) {

@@ -49,6 +49,10 @@ class ParameterStore {
   /// 1000h-1FFFh.
   void load_power_on_values(bool whole_node);
 
+  /// What LSS stores: node-ID and bit rate (CiA 305). False: the memory failed.
+  [[nodiscard]] bool store_layer_setting(std::uint8_t node_id, std::optional<std::uint8_t> bit_rate);
+  [[nodiscard]] std::optional<std::uint8_t> stored_node_id() const;
+
   void on_time();
   [[nodiscard]] std::optional<BusTime> next_wakeup() const { return store_at_; }
 

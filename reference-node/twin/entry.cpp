@@ -208,6 +208,13 @@ void TwinEntryMaker::set_value(const Job& job, Entry& entry) {
     }
   }
   const bool understood = value.has_value();
+  // Whether another node-ID makes another value of it.
+  if (is_integer(entry.type)) {
+    const auto other = static_cast<std::uint8_t>(node_id_ ^ 1U);
+    entry.adds_node_id =
+        understood ? read_value(field.text, entry.type, other) != entry.value
+                   : usual_value(job.index, job.sub, other) != usual_value(job.index, job.sub, node_id_);
+  }
   entry.value = understood ? std::move(*value) : silent_value(job, entry);
   if (!field.empty() && !understood) {
     remark(job, field.at, "value",

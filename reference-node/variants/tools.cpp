@@ -53,11 +53,15 @@ How preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
     if (entry == nullptr) return;
     conform::store_le(entry->value, value);
     entry->default_value = entry->value;
+    entry->adds_node_id = false;
   };
 }
 
 How preset_with_node_id(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
-  return [index, sub, value](Parts& parts) { preset(index, sub, value + parts.device.node_id)(parts); };
+  return [index, sub, value](Parts& parts) {
+    preset(index, sub, value + parts.device.node_id)(parts);
+    if (Entry* entry = parts.device.dictionary.entry(index, sub)) entry->adds_node_id = true;
+  };
 }
 
 How text(std::uint16_t index, std::string_view value) {
