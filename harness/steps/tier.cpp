@@ -5,6 +5,7 @@
 #include <array>
 
 #include "canopen/cob_id.hpp"
+#include "canopen/lss.hpp"
 
 namespace conform::steps {
 namespace {
@@ -22,7 +23,12 @@ constexpr TierRow table[] = {
     {Tier::config, "NMT stop, enter Pre-operational and both resets, in two bytes, the second of them N"},
     {Tier::config,
      "remote frames on the CAN-IDs of the device's own pre-defined services: 80h, 180h, 280h, 380h, 480h, 580h, 600h and 700h + N (guarding)"},
+    {Tier::config,
+     "LSS on 7E5h: all slaves to waiting, select one, identify, inquire, configure node-ID and bit timing"},
     {Tier::nvm, "SDO downloads to 1010h:01-FF and 1011h:01-FF: store and restore parameters"},
+    {Tier::nvm, "LSS on 7E5h: store configuration"},
+    {Tier::motion,
+     "LSS on 7E5h: all slaves to configuration, fastscan, activate bit timing, unknown commands, frames that are not of eight bytes"},
     {Tier::motion, "NMT start: outputs may move"},
     {Tier::motion,
      "NMT commands to all nodes, to other nodes, unknown, or not of two bytes: a neighbour may obey them"},
@@ -50,6 +56,25 @@ Need need_of_nmt(const can::Frame& frame, NodeId node) {
   if (std::ranges::find(harmless, frame.data[0]) == harmless.end())
     return {Tier::motion, "send unknown NMT commands"};
   return {Tier::config, "send NMT commands"};
+}
+
+/// With the others waiting, who has been selected obeys, and nobody else.
+Need need_of_lss(const can::Frame& frame) {
+  using canopen::LssCommand;
+  constexpr Need odd{Tier::motion, "send LSS frames that are no commands"};
+  if (frame.dlc != 8 || canopen::lss_command_name(frame.data[0]).empty()) return odd;
+  switch (static_cast<LssCommand>(frame.data[0])) {
+    case LssCommand::switch_global:
+      if (frame.data[1] == 0) return {Tier::config, "use LSS"};
+      return {Tier::motion, "switch all LSS slaves"};
+    case LssCommand::fastscan: return {Tier::motion, "use LSS fastscan, in which others may take part"};
+    case LssCommand::store: return {Tier::nvm, "store by LSS"};
+    case LssCommand::activate_bit_timing: return {Tier::motion, "switch the bit rate"};
+    case LssCommand::selected:
+    case LssCommand::identified:
+    case LssCommand::non_configured: return odd;
+    default: return {Tier::config, "use LSS"};
+  }
 }
 
 /// Client command specifier, bits 7-5: 0 download segment, 1 initiate download, 2 initiate upload, 3 upload
@@ -104,6 +129,7 @@ Need need_of(const can::Frame& frame, NodeId node) {
   }
   if (frame.id == canopen::nmt_can_id.value()) return need_of_nmt(frame, node);
   if (frame.id == own.sdo_request.value()) return need_of_sdo(frame, node);
+  if (frame.id == canopen::lss_request_can_id.value()) return need_of_lss(frame);
   if (frame.id == canopen::sync_can_id.value()) return {Tier::motion, "send SYNC"};
   if (frame.id > 0x600 && frame.id <= 0x67F) return {Tier::motion, "send on the SDO channels of other nodes"};
   if (frame.id > 0x700 && frame.id <= 0x77F) return {Tier::motion, "play other nodes"};

@@ -47,6 +47,7 @@ class Reading {
           frame.data[0] == 2 || frame.data[0] == 128 || frame.data[0] == 129 || frame.data[0] == 130;
       return tame ? config : motion;
     }
+    if (frame.id == 0x7E5) return layer_setting(frame);
     return frame.id == 0x600 + node_ ? request(frame, forbidden) : motion;
   }
 
@@ -56,6 +57,15 @@ class Reading {
   }
 
  private:
+  static int layer_setting(const can::Frame& frame) {
+    const unsigned command = frame.dlc == 8 ? frame.data[0] : 0U;
+    if (command == 0x17) return nvm;
+    const bool selects = (command == 0x04 && frame.data[1] == 0) || (command >= 0x40 && command <= 0x43);
+    const bool identifies = command >= 0x46 && command <= 0x4C;
+    const bool inquires = command >= 0x5A && command <= 0x5E;
+    return selects || identifies || inquires || command == 0x11 || command == 0x13 ? config : motion;
+  }
+
   int request(const can::Frame& frame, std::string& forbidden) {
     const unsigned command = frame.dlc == 0 ? 0U : frame.data[0];
     const bool ends = (command & 0xE3U) == 0xC1 || (command == 0x80 && frame.dlc == 8);
@@ -201,6 +211,12 @@ TEST_CASE("the reading of the table tells frames apart") {
   CHECK(tier(0x000, {0x81}) == motion);
   CHECK(tier(0x000, {0x81, 0}) == motion);
   for (const std::uint32_t id : {0x80U, 0x100U, 0x205U, 0x6C0U, 0x77EU}) CHECK(tier(id, {}) == motion);
+  CHECK(tier(0x7E5, {0x5E, 0, 0, 0, 0, 0, 0, 0}) == config);
+  CHECK(tier(0x7E5, {0x17, 0, 0, 0, 0, 0, 0, 0}) == nvm);
+  for (const std::uint8_t command : {0x15, 0x44, 0x4F, 0x51, 0xFF})
+    CHECK(tier(0x7E5, {command, 0, 0, 0, 0, 0, 0, 0}) == motion);
+  CHECK(tier(0x7E5, {0x04, 1}) == motion);
+  CHECK(tier(0x7E5, {0x04, 1, 0, 0, 0, 0, 0, 0}) == motion);
   CHECK(tier(0x605, {0x2B, 0x00, 0x20, 0x01, 1, 0, 0, 0}) == config);
   CHECK(forbidden.empty());
   CHECK(tier(0x605, {0x2B, 0x00, 0x20, 0x02, 1, 0, 0, 0}) == config);
@@ -239,7 +255,8 @@ TEST_CASE("a device that does wrong does not lead a run out of its tier") {
 TEST_CASE("nor does a legal one with habits of its own") {
   for (const std::vector<std::string>& variants : {std::vector<std::string>{"1018-vendor-only", "1800-const"},
                                                    {"1017-absent"},
-                                                   {"tpdo-event-driven-only"}}) {
+                                                   {"tpdo-event-driven-only"},
+                                                   {"lss-absent"}}) {
     auto profile = shipped::reference();
     auto node = refnode::Node::create({.node_id = profile.node.value(), .defects = {}, .variants = variants});
     REQUIRE(node.has_value());
