@@ -67,6 +67,8 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
       now_.guarded = guard_request_ && captured.time <= *guard_request_ + explained_for;
       now_.guard_answer = std::exchange(guard_open_, false) && now_.guarded;
     }
+  } else if (frame.is_data(canopen::lss_request_can_id)) {
+    now_.subject = Subject::lss_request;
   } else if (frame.id == 0x080U + node && from_device && !frame.remote) {
     now_.subject = Subject::emcy;
   }

@@ -27,6 +27,7 @@ struct Observation {
     foreign_request,  ///< SDO request that is not for the device: other node-ID, node-ID 0, 29-bit identifier
     error_control,    ///< data frame on 700h + node-ID from the device
     emcy,             ///< data frame on 080h + node-ID from the device
+    lss_request,      ///< data frame on 7E5h
   };
   const can::CapturedFrame* captured = nullptr;
   std::size_t index = 0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "canopen/cob_id.hpp"
+#include "canopen/lss.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -22,6 +23,12 @@ bool starts_program(const can::Frame& frame) {
          multiplexer_of(frame).index == Index(0x1F51);
 }
 
+/// Another node-ID by LSS (CiA 305): older slaves start with it when they leave the configuration state, and
+/// so does every slave that had none.
+bool changes_node_id(const can::Frame& frame) {
+  return frame.dlc == 8 && frame.data[0] == static_cast<std::uint8_t>(canopen::LssCommand::configure_node_id);
+}
+
 }  // namespace
 
 Start Starts::on_frame(const Observation& seen, const Follower& follower) {
@@ -31,6 +38,8 @@ Start Starts::on_frame(const Observation& seen, const Follower& follower) {
   } else if (seen.subject == Subject::sdo_request) {
     asked_since_order_ = request_open_ = true;
     programmed_ = programmed_ || starts_program(seen.frame());
+  } else if (seen.subject == Subject::lss_request) {
+    readdressed_ = readdressed_ || changes_node_id(seen.frame());
   }
   if (!seen.from_device()) return Start::none;
   if (std::exchange(request_open_, false)) boot_up_before_.reset();
@@ -40,7 +49,7 @@ Start Starts::on_frame(const Observation& seen, const Follower& follower) {
   }
   const auto out = of_boot_up(seen, follower);
   boot_up_before_ = seen.time();
-  lost_ = programmed_ = false;
+  lost_ = programmed_ = readdressed_ = false;
   return out;
 }
 
@@ -49,7 +58,7 @@ Start Starts::of_boot_up(const Observation& seen, const Follower& follower) cons
   const auto& facts = follower.facts();
   if (nmt.booting() || (nmt.resets() > 0 && seen.time() <= nmt.reset_at() + facts.boot_time))
     return Start::due;
-  if (lost_ || programmed_ || !seen.heard_before) return Start::due;
+  if (lost_ || programmed_ || readdressed_ || !seen.heard_before) return Start::due;
   // A download may have made it restart, and so may a request that it did not answer.
   if (!asked_since_order_ && !unanswered_ && nmt.ordered_at() &&
       seen.time() <= *nmt.ordered_at() + effect_of_order)

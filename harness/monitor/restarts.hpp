@@ -35,6 +35,7 @@ class Starts {
   bool unanswered_ = false;                ///< ... or was open when that came
   bool request_open_ = false;              ///< an SDO request came since the device was last heard
   bool programmed_ = false;                ///< an SDO request about program control came since the last start
+  bool readdressed_ = false;               ///< LSS configured a node-ID since the last start
   std::optional<BusTime> boot_up_before_;  ///< when the last frame of the device was a boot-up message
 };
 

@@ -50,6 +50,15 @@ TEST_CASE("The start of a program is no restart by itself") {
             .empty());
 }
 
+TEST_CASE("The start with a node-ID that LSS configured is no restart by itself, the next one is") {
+  const std::string configure = "> 7E5: 11 01 00 00 00 00 00 00", leave = "> 7E5: 04 00 00 00 00 00 00 00";
+  CHECK(told_in_run({boot_up, upload, answer, configure, leave, "wait 2 s", boot_up}).empty());
+  CHECK(told_in_run({boot_up, upload, answer, leave, "wait 2 s", boot_up}) ==
+        Told{"inconclusive NMT-BOOT-10 in frame 5"});
+  CHECK(told_in_run({boot_up, configure, leave, "wait 2 s", boot_up, upload, answer, "wait 2 s", boot_up}) ==
+        Told{"inconclusive NMT-BOOT-10 in frame 7"});
+}
+
 TEST_CASE("A device that starts when it is told to passes") {
   const auto cases = judged(trace({reset_node, "wait 2 s", boot_up, upload, answer}));
   CHECK(verdict_of(cases, "monitor/restarts") == Verdict::pass);
