@@ -90,5 +90,6 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable storage_stamp_defects();
 [[nodiscard]] DefectTable objects_description_defects();
 [[nodiscard]] DefectTable objects_operating_system_defects();
+[[nodiscard]] DefectTable lss_defects();
 
 }  // namespace refnode

@@ -46,7 +46,8 @@ std::span<const Defect> defects() {
                                        sync_defects,
                                        storage_stamp_defects,
                                        objects_description_defects,
-                                       objects_operating_system_defects});
+                                       objects_operating_system_defects,
+                                       lss_defects});
   return all;
 }
 
