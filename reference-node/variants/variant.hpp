@@ -43,6 +43,7 @@ using VariantTable = std::vector<Variant>;
 [[nodiscard]] VariantTable emergency_variants();
 [[nodiscard]] VariantTable error_control_variants();
 [[nodiscard]] VariantTable nmt_variants();
+[[nodiscard]] VariantTable lss_variants();
 [[nodiscard]] VariantTable pdo_variants();
 [[nodiscard]] VariantTable sdo_variants();
 [[nodiscard]] VariantTable cob_id_variants();

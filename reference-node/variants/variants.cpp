@@ -8,9 +8,10 @@ namespace refnode {
 std::span<const Variant> variants() {
   static const VariantTable all = [] {
     VariantTable joined;
-    for (VariantTable table : {objects_variants(), dictionary_variants(), storage_variants(), sync_variants(),
-                               time_variants(), emergency_variants(), error_control_variants(),
-                               nmt_variants(), pdo_variants(), sdo_variants(), cob_id_variants()}) {
+    for (VariantTable table :
+         {objects_variants(), dictionary_variants(), storage_variants(), sync_variants(), time_variants(),
+          emergency_variants(), error_control_variants(), nmt_variants(), lss_variants(), pdo_variants(),
+          sdo_variants(), cob_id_variants()}) {
       for (Variant& row : table) joined.push_back(std::move(row));
     }
     return joined;
