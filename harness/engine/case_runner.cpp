@@ -129,6 +129,7 @@ Result<void> CaseRunner::run_cleanup(const Steps& list) {
     auto actual = step.action->run(session_);
     session_.end_step();
     if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
+    if (actual && !step.label.empty()) session_.label(step, *actual);
   }
   return {};
 }
