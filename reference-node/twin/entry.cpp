@@ -208,6 +208,7 @@ void TwinEntryMaker::set_value(const Job& job, Entry& entry) {
     }
   }
   const bool understood = value.has_value();
+  entry.value = understood ? std::move(*value) : silent_value(job, entry);
   // Whether another node-ID makes another value of it.
   if (is_integer(entry.type)) {
     const auto other = static_cast<std::uint8_t>(node_id_ ^ 1U);
@@ -215,7 +216,6 @@ void TwinEntryMaker::set_value(const Job& job, Entry& entry) {
         understood ? read_value(field.text, entry.type, other) != entry.value
                    : usual_value(job.index, job.sub, other) != usual_value(job.index, job.sub, node_id_);
   }
-  entry.value = understood ? std::move(*value) : silent_value(job, entry);
   if (!field.empty() && !understood) {
     remark(job, field.at, "value",
            fmt::format("{} is no value of {}; it starts with {}", quoted(field), name_of(entry.type),

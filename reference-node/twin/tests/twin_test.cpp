@@ -91,6 +91,19 @@ TEST_CASE("A device that is described as it should not be is as described") {
   CHECK(bench.sdo("40 01 10 00 00 00 00 00") == "43 01 10 00 00 00 00 00");
 }
 
+TEST_CASE("LSS is there where the description says so, and moves what adds the node-ID, nothing else") {
+  const auto text = identity + entry("1014", u32, "rw", "$NODEID+0x80") + entry("1200", u32, "ro", "0x605");
+  Bench without(described(text));
+  without.wait(100ms);
+  CHECK(without.send("7E5: 04 01 00 00 00 00 00 00\n7E5: 5E 00 00 00 00 00 00 00").empty());
+  Bench bench(described(text + "[DeviceInfo]\nLSS_Supported=1\n"));
+  bench.wait(100ms);
+  bench.send("7E5: 04 01 00 00 00 00 00 00\n7E5: 11 07 00 00 00 00 00 00\n000: 82 05");
+  CHECK(bench.wait(100ms) == Frames{"707: 00"});
+  CHECK(bench.send("607: 40 14 10 00 00 00 00 00") == Frames{"587: 43 14 10 00 87 00 00 00"});
+  CHECK(bench.send("607: 40 18 10 01 00 00 00 00") == Frames{"587: 43 18 10 01 FE 5A 00 00"});
+}
+
 TEST_CASE("Any number of PDOs is served") {
   std::string text = identity + process + entry("1005", u32, "rw", "0x80");
   for (const char* number : {"00", "03", "25"})
