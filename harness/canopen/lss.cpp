@@ -116,9 +116,12 @@ void LssScan::answered(bool yes) {
 }
 
 std::optional<LssAnswer> decode_lss(const can::Frame& frame) {
-  if (!frame.is_data(lss_response_can_id) || frame.dlc != 8) return std::nullopt;
-  const auto bytes = frame.bytes();
+  if (!frame.is_data(lss_response_can_id) || frame.size() == 0) return std::nullopt;
+  Data data{};
+  std::ranges::copy(frame.bytes(), data.begin());
+  const ByteView bytes(data);
   LssAnswer out;
+  out.eight_bytes = frame.dlc == 8;
   out.specifier = bytes[0];
   out.error = bytes[1];
   out.detail = bytes[2];

@@ -91,8 +91,9 @@ struct LssAnswer {
   std::uint8_t detail = 0;   ///< where `error` is FFh
   std::uint32_t number = 0;  ///< of 5Ah to 5Dh
   bool reserved_zero = true;
+  bool eight_bytes = true;  ///< what is missing counts as 0
 };
-/// nullopt: no data frame of eight bytes on 7E4h.
+/// nullopt: no data frame on 7E4h, or an empty one.
 [[nodiscard]] std::optional<LssAnswer> decode_lss(const can::Frame& frame);
 
 /// "0", "1 (out of range)": the error code of an answer to 11h, 13h or 17h in words.

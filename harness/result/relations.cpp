@@ -131,6 +131,11 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"OD-100C-02", "OD-100C-01"},
     {"OD-100D-02", "OD-100D-01"},
     {"OD-1014-10 EC-HBP-13 PDO-MAP-21 SDO-MUL-05 OD-1201-08 NMT-FSA-29", "NMT-FSA-24 OD-1010-18"},
+    // LSS: what is asked of a slave needs the way into the configuration state.
+    {"LSS-SS-* LSS-SG-03 LSS-INQ-* LSS-CN-* LSS-BT-* LSS-ST-* LSS-ID-* LSS-FS-* LSS-GEN-*",
+     "LSS-SG-01 LSS-SG-02"},
+    {"LSS-INQ-* LSS-CN-* LSS-BT-* LSS-ST-* LSS-ID-* LSS-FS-* LSS-GEN-*", "LSS-SS-01"},
+    {"LSS-SS-04 LSS-SS-02", "LSS-SS-03"},
     // EMCY and errors.
     {"EC-HBC-07 EC-HBC-08 EC-HBC-09 EC-HBC-10 EC-HBC-12 EC-HBC-13 EC-EB-* EMCY-FMT-05", "EC-HBC-03"},
     {"EMCY-INH-* EMCY-SEQ-* EMCY-FMT-* OD-1003-10 OD-1003-11 NMT-SVC-02", "EMCY-FMT-01"},

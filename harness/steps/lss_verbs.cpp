@@ -59,13 +59,14 @@ Result<Actual> ask(Session& session, const can::Frame& request, LssCommand due, 
   const auto answer = canopen::decode_lss(frame);
   if (!answer || answer->specifier != static_cast<std::uint8_t>(due)) {
     out.kind = Actual::Kind::mismatched;
-    out.detail = "due: LSS answer " + hex(static_cast<std::uint8_t>(due), 2) + " of eight bytes, came " +
-                 hex_bytes(frame.bytes());
+    out.detail =
+        "due: LSS answer " + hex(static_cast<std::uint8_t>(due), 2) + ", came " + hex_bytes(frame.bytes());
     return out;
   }
   const auto latency = session.capture().frames()[**found].time - session.capture().frames()[*from - 1].time;
   out.measured["latency"] = static_cast<std::uint64_t>(std::max<Duration::rep>(0, latency.count()));
   out.data.assign(frame.bytes().begin(), frame.bytes().end());
+  out.data.resize(8);  // that some are missing is another rule's
   return out;
 }
 

@@ -37,14 +37,16 @@ TEST_CASE("LSS requests have eight bytes on 7E5h, numbers least significant byte
   CHECK(bytes_of(encode(LssFastscan{0x12345678, 31, 2, 3})) == Bytes{0x51, 0x78, 0x56, 0x34, 0x12, 31, 2, 3});
 }
 
-TEST_CASE("LSS answers are data frames of eight bytes on 7E4h") {
+TEST_CASE("LSS answers are data frames on 7E4h, of eight bytes where they are right") {
   const auto answer = decode_lss(can::data_frame(CanId(0x7E4), {0x5B, 1, 3, 0, 0x80, 0, 0, 0}));
   REQUIRE(answer);
   CHECK(answer->specifier == 0x5B);
   CHECK(answer->number == 0x80000301);
   CHECK(answer->reserved_zero);
   CHECK_FALSE(decode_lss(can::data_frame(CanId(0x7E4), {0x11, 0, 0, 1, 0, 0, 0, 0}))->reserved_zero);
-  CHECK_FALSE(decode_lss(can::data_frame(CanId(0x7E4), {0x44})));
+  CHECK(answer->eight_bytes);
+  CHECK_FALSE(decode_lss(can::data_frame(CanId(0x7E4), {0x44}))->eight_bytes);
+  CHECK_FALSE(decode_lss(can::data_frame(CanId(0x7E4), Bytes{})));
   CHECK_FALSE(decode_lss(can::data_frame(CanId(0x7E5), {0x44, 0, 0, 0, 0, 0, 0, 0})));
 }
 
