@@ -149,7 +149,7 @@ DefectTable frame_rows() {
        misreads([](Parts&, Frame& frame) { frame.remote = false; })},
       {"extended-frame-accepted-as-standard",
        "Frames with a 29-bit identifier are taken for 11-bit ones",
-       {"SDO-GEN-11", "NMT-FSA-19", "SYNC-CON-02", "PDO-RX-13"},
+       {"SDO-GEN-11", "NMT-FSA-19", "SYNC-CON-02", "PDO-RX-13", "LSS-GEN-03"},
        misreads([](Parts&, Frame& frame) { frame.extended = false; })},
       {"listens-on-own-tx-id",
        "Requests on the response CAN-ID are served",
