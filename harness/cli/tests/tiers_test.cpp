@@ -213,8 +213,8 @@ TEST_CASE("the reading of the table tells frames apart") {
   for (const std::uint32_t id : {0x80U, 0x100U, 0x205U, 0x6C0U, 0x77EU}) CHECK(tier(id, {}) == motion);
   CHECK(tier(0x7E5, {0x5E, 0, 0, 0, 0, 0, 0, 0}) == config);
   CHECK(tier(0x7E5, {0x17, 0, 0, 0, 0, 0, 0, 0}) == nvm);
-  for (const std::uint8_t command : {0x15, 0x44, 0x4F, 0x51, 0xFF})
-    CHECK(tier(0x7E5, {command, 0, 0, 0, 0, 0, 0, 0}) == motion);
+  for (const int command : {0x15, 0x44, 0x4F, 0x51, 0xFF})
+    CHECK(tier(0x7E5, {static_cast<std::uint8_t>(command), 0, 0, 0, 0, 0, 0, 0}) == motion);
   CHECK(tier(0x7E5, {0x04, 1}) == motion);
   CHECK(tier(0x7E5, {0x04, 1, 0, 0, 0, 0, 0, 0}) == motion);
   CHECK(tier(0x605, {0x2B, 0x00, 0x20, 0x01, 1, 0, 0, 0}) == config);
