@@ -121,7 +121,7 @@ class Lss final : public Action {
                                             {"store", Word::store},
                                             {"fastscan", Word::fastscan}});
       if (!word) return nullptr;
-      out->word_ = *word;
+      out->word_ = word;
       if (*word == Word::address || *word == Word::fastscan) out->know_parts(context);
       return out;
     }

@@ -147,17 +147,17 @@ class Produce final : public Action {
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<Produce>();
     auto fields = value.fields("produce");
-    if (const auto guard = fields.optional("guard")) {
+    const auto what = fields.exactly_one_of({"heartbeat", "guard"});
+    if (!what) return nullptr;
+    if (fields.has("guard")) {
       out->guards_ = true;
-      auto inner = guard.fields("guard");
+      auto inner = what.fields("guard");
       const auto every = inner.required("every");
       if (!every) return nullptr;
       if (auto time = parse_time_at(every)) out->every_ = *time;
       return out;
     }
-    const auto heartbeat = fields.required("heartbeat");
-    if (!heartbeat) return nullptr;
-    auto inner = heartbeat.fields("heartbeat");
+    auto inner = what.fields("heartbeat");
     out->node_ = inner.required("node").number(1, 127).value_or(0);
     out->state_ = inner.optional("state")
                       .one_of<canopen::NmtState>({{"operational", canopen::NmtState::operational},

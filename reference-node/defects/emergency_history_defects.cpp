@@ -27,7 +27,7 @@ std::vector<std::uint32_t> newest_first(const ErrorHistory& history) {
 }
 
 /// What 1003h shows in place of what it holds.
-Change shows_of_history(std::function<std::vector<std::uint32_t>(const ErrorHistory&)> shown) {
+Change shows_of_history(const std::function<std::vector<std::uint32_t>(const ErrorHistory&)>& shown) {
   return together(reading(0x1003, 0,
                           [shown](Parts& parts, const Read&) -> Upload {
                             return Bytes{static_cast<std::uint8_t>(shown(parts.emergency.history).size())};

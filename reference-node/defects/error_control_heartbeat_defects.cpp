@@ -83,7 +83,9 @@ std::optional<std::uint8_t> node_at(Parts& parts, std::uint8_t sub) {
   const std::uint64_t entry = parts.device.dictionary.number(0x1016, sub);
   return parts.consumer.rules.used(entry) ? std::optional(monitored_node(entry)) : std::nullopt;
 }
-std::uint64_t consumer_entries(const Parts& parts) { return parts.device.dictionary.number(0x1016, 0); }
+std::uint8_t consumer_entries(const Parts& parts) {
+  return static_cast<std::uint8_t>(parts.device.dictionary.number(0x1016, 0));
+}
 
 /// The decision on another value in place of the one that is written.
 Change checks_instead(std::uint64_t (*other)(std::uint64_t entry)) {
