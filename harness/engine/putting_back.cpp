@@ -32,6 +32,29 @@ Result<bool> PuttingBack::stores_by_itself() {
 }
 
 Result<void> PuttingBack::after_case(const result::CaseResult& result) {
+  if (auto done = put_back(result); !done) return done;
+  return end_life_guarding();
+}
+
+/// With the life time that the device has by itself, the first guard request of a case has begun a watch that
+/// nobody feeds any more: its event would come into a later case, or after the run. Only a reset takes back
+/// that there was a request (7.2.8.3.2.2: life guarding begins with the first one).
+Result<void> PuttingBack::end_life_guarding() {
+  if (!run_.session.was_guarded() || !run_.may(scenario::Risk::config)) return {};
+  for (const auto index : {Index(0x100C), Index(0x100D)}) {
+    const auto held = run_.session.peek({index, SubIndex(0)});
+    if (!held) return std::unexpected(held.error());
+    if (!confirmed(*held) || load_le(held->data) == 0) return {};
+  }
+  const StopHeld still(run_.recorder);
+  auto booted = reset(run_, canopen::NmtCommand::reset_communication);
+  if (!booted) return std::unexpected(booted.error());
+  if (auto ready = enter_pre_operational(run_); !ready) return ready;
+  note_left(what_returned());
+  return {};
+}
+
+Result<void> PuttingBack::put_back(const result::CaseResult& result) {
   auto changes = take_changes();
   if (changes.empty()) return {};
   // A stop request waits until everything is back: half a restore is the worst of all.
@@ -91,6 +114,8 @@ void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up) {
   }
   note_left(report->left);
   note_left(what_returned());
+  if (auto ended = end_life_guarding(); !ended)
+    run_.note("life guarding may still watch: " + ended.error().text());
 }
 
 void PuttingBack::finish() {

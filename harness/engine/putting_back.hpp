@@ -33,6 +33,8 @@ class PuttingBack {
   void finish();
 
  private:
+  [[nodiscard]] Result<void> put_back(const result::CaseResult& result);
+  [[nodiscard]] Result<void> end_life_guarding();
   [[nodiscard]] Result<bool> stores_by_itself();
   [[nodiscard]] std::vector<Change> take_changes();
   [[nodiscard]] std::vector<std::string> what_returned();

@@ -234,6 +234,7 @@ Result<void> RunSession::await_state() {
 Result<void> RunSession::produce(steps::Production production) {
   if (auto allowed = guard_.judge(production.frame); !allowed) return allowed;
   if (auto reached = await_state(); !reached) return reached;
+  guarded_ = guarded_ || is_guard_request(production.frame);
   recorder_.produce(std::move(production));
   return {};
 }
@@ -262,9 +263,14 @@ Result<void> RunSession::send_unguarded(const can::Frame& frame) {
   note_sent(*sent);
   if (commands) note_command(*sent);
   if (!frame.remote && !frame.extended) channel_.note_sent(CanId(frame.id));
+  guarded_ = guarded_ || is_guard_request(frame);
   if (requests && frame.size() > 0 && frame.data[0] == 0x80)
     channel_.note_abort(recorder_.capture().frames()[*sent].time);
   return {};
+}
+
+bool RunSession::is_guard_request(const can::Frame& frame) const {
+  return frame.remote && !frame.extended && frame.id == canopen::connection_set(node()).error_control.value();
 }
 
 Result<steps::Window> RunSession::window_after(std::string_view label) const {
@@ -299,6 +305,7 @@ void RunSession::label(const steps::Step& step, const steps::Actual& actual) {
 
 void RunSession::device_was_reset(bool) {
   channel_.forget_silences();
+  guarded_ = false;
   ++resets_;
   emcy_can_id_ = home_emcy_can_id_;
   before_write_.clear();

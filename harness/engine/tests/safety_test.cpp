@@ -408,6 +408,27 @@ TEST_CASE("a stop request ends the run, puts values back and passes nothing unfi
   CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
 }
 
+TEST_CASE("a guard request leaves no watch behind on a device that has a life time by itself") {
+  const std::string guarded = R"(
+  - id: guarded
+    title: t
+    risk: config
+    steps:
+      - guard: once
+        checks: T-MUST
+)";
+  const auto resets_with = [&](std::uint8_t guard_time, std::uint8_t factor) {
+    ScriptedDevice device;
+    device.entries[0x100C00] = {guard_time, 0};
+    device.entries[0x100D00] = {factor};
+    (void)play(device, guarded + three_reads);
+    return std::ranges::count(device.nmt, std::uint8_t{0x82});
+  };
+  CHECK(resets_with(100, 2) == 1);
+  CHECK(resets_with(0, 2) == 0);
+  CHECK(resets_with(100, 0) == 0);
+}
+
 TEST_CASE("the same seed gives the same frames at the same times") {
   const auto frames_of = [](std::uint64_t seed) {
     can::SimulatedBus bus(can::SimulatedBus::Options{.seed = seed});
