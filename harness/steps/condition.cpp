@@ -204,13 +204,17 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     node->kind = phrase.kind;
     return node;
   }
-  // "error trigger is known", "2 error triggers are known"
+  // "error trigger is known", "2 error triggers are known", "$number error triggers are known"
   {
     const auto at = in.position();
     std::uint64_t count = 1;
     if (const auto number = parse_number(in.peek()); number && in.peek(1) == "error") {
       count = *number;
       in.take();
+    } else if (in.peek().starts_with('$') && in.peek(1) == "error") {
+      auto given = parse_expression_prefix(in, "");
+      if (!given) return std::unexpected(given.error());
+      node->left = *given;
     } else if (in.peek() == "an") {
       in.take();
     }
@@ -317,7 +321,9 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
   if (node.kind == Kind::triggers) {
     const auto known = facts.error_triggers();
     if (!known) return std::unexpected(known.error());
-    return known->size() >= node.count;
+    if (node.left.empty()) return known->size() >= node.count;
+    const auto wanted = node.left.number(facts);
+    return wanted ? Result<bool>(known->size() >= *wanted) : std::unexpected(wanted.error());
   }
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
   if (node.kind == Kind::described) return facts.is_described();
