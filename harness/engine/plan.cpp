@@ -88,6 +88,16 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
       }
     }
   }
+  if (!options.order.empty()) {
+    const auto place = [&order = options.order](const PlannedCase& planned) {
+      return std::ranges::find(order, planned.scenario->id) - order.begin();
+    };
+    std::erase_if(out, [&](const PlannedCase& planned) {
+      return place(planned) == static_cast<std::ptrdiff_t>(options.order.size());
+    });
+    std::ranges::stable_sort(out, {}, place);
+    return out;
+  }
   std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
     // What others rest on is judged before them, as early as its risk allows.
     const auto& establishes = planned.scenario->establishes;

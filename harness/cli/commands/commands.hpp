@@ -29,6 +29,7 @@ struct RunCommand {
   std::uint64_t seed = 1;
   bool strict = false;
   bool all_objects = false;
+  bool cct = false;  ///< the cases of CiA's tool, in its order
   bool slow = false;
   bool dry_run = false;
   bool quiet = false;
