@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the COB-ID parameters 1005h, 1012h, 1014h, 1400h:01 and 1800h:01.
+#include <algorithm>
 #include <memory>
 
 #include "defects/cob_ids.hpp"
@@ -112,6 +113,20 @@ DefectTable cob_id_defects() {
        "1012h accepts restricted CAN-IDs",
        {"CAN-RID-02", "OD-CID-03"},
        decided(of_time, &CobIdRules::restricted, false)},
+      {"time-short-taken",
+       "A TIME message of five bytes is taken over",
+       {"TIME-CON-03"},
+       misreads([](Parts&, Frame& frame) {
+         if (!frame.extended && !frame.remote && frame.id == 0x100 && frame.dlc == 5) frame.dlc = 6;
+       })},
+      {"time-of-eight-bytes-taken-wrongly",
+       "Of a TIME message of eight bytes the last six are taken over",
+       {"TIME-CON-03"},
+       misreads([](Parts&, Frame& frame) {
+         if (frame.extended || frame.remote || frame.id != 0x100 || frame.dlc != 8) return;
+         std::copy(frame.data.begin() + 2, frame.data.begin() + 8, frame.data.begin());
+         frame.dlc = 6;
+       })},
       {"time-reserved-bits-not-masked",
        "The reserved bits of a TIME message are taken for milliseconds",
        {"TIME-CON-02"},

@@ -90,7 +90,7 @@ Change takes_longer_than_the_window() {
     parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
       if (context.service != Service::tpdo || parts.device.dictionary.number(0x1007, 0) == 0) return;
       if (!is_synchronous_pdo(parts)) return;
-      for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(35);
+      for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(40);
     });
   };
 }
@@ -168,6 +168,22 @@ DefectTable sync_consumer_defects() {
        "After a reset SYNC is taken on the CAN-ID that 1005h had before",
        {"SYNC-CON-01", "OD-1005-07"},
        keeps_can_id},
+      {"sync-long-stops-the-node",
+       "A SYNC of more than one byte puts the node into Stopped",
+       {"SYNC-CON-07"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         if (is_sync(parts, frame) && frame.size() > 1) parts.nmt.enter(NmtState::stopped);
+         return false;
+       })},
+      {"sync-tpdo-slow",
+       "Synchronous TPDOs follow their SYNC after 15 ms",
+       {"SYNC-CON-09"},
+       [](Parts& parts) {
+         parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+           if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
+           for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(15);
+         });
+       }},
       {"sync-off-by-bit-31",
        "With bit 31 of 1005h set no SYNC is taken",
        {"OD-1005-11"},
