@@ -58,7 +58,10 @@ Result<void> Recorder::produce_due() {
     const Duration late = current - running.due;
     if (running.sent > 0 && late > running.production.every / 2)
       lateness_.producing = std::max(lateness_.producing, late);
-    auto sent = transport_.send(running.production.frame);
+    auto& frame = running.production.frame;
+    if (const auto last = running.production.counts_to)
+      frame.data[0] = static_cast<std::uint8_t>(running.sent % *last + 1);
+    auto sent = transport_.send(frame);
     if (!sent) return broken(sent.error());
     ++running.sent;
     running.due += running.production.every;

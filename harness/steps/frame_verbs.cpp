@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/nmt.hpp"
+#include "steps/contents.hpp"
 #include "steps/timing.hpp"
 #include "steps/verb_tables.hpp"
 
@@ -423,11 +424,17 @@ class Collect final : public Action {
       }
       out->answers_ = true;
     }
+    if (const auto overflow = fields.optional("counter")) {
+      if (auto expression = parse_expression_at(overflow, context.names)) out->overflow_ = *expression;
+    }
+    out->times_of_day_ = fields.optional("time_of_day").boolean().value_or(false);
     parse_after(fields, context, out->after_);
     return from && end ? std::move(out) : nullptr;
   }
   Measures measures() const override {
-    Measures out{"count", "first", "state", "period", "shortest", "longest"};
+    Measures out{"count", "first", "state", "period", "shortest", "longest", "length"};
+    if (!overflow_.empty()) out.insert(out.end(), {"start", "out_of_order"});
+    if (times_of_day_) out.insert(out.end(), {"malformed", "drift"});
     if (answers_) out.insert(out.end(), {"missed", "skipped", "extra", "closest", "farthest", "latency"});
     return out;
   }
@@ -450,9 +457,14 @@ class Collect final : public Action {
     if (answers_) {
       const auto id = stimulus_id(session);
       if (!id) return std::unexpected(id.error());
-      sent = [id = *id](const can::CapturedFrame& c) {
-        return c.direction == can::Direction::transmitted && c.frame.is_data(id);
-      };
+      // Also what the device sends there itself: a producer of SYNC answers its own.
+      sent = [id = *id](const can::CapturedFrame& c) { return c.frame.is_data(id); };
+    }
+    std::uint64_t overflow = 0;
+    if (!overflow_.empty()) {
+      const auto number = overflow_.number(session);
+      if (!number) return std::unexpected(number.error());
+      overflow = *number;
     }
     const auto time = end_.time.resolve(session.profile());
     const auto end = end_.after(window->anchor, session);
@@ -472,10 +484,13 @@ class Collect final : public Action {
         continue;
       }
       stimuli.push_back(frames[**found].time);
-      until = std::max(until, stimuli.back() + time);
+      if (frames[**found].direction == can::Direction::transmitted)
+        until = std::max(until, stimuli.back() + time);
     }
     if (sent && stimuli.empty()) return fail_scenario("nothing was sent that could have been answered");
-    return measure(session, *window, hits, stimuli, until);
+    auto out = measure(session, *window, hits, stimuli, until);
+    if (!hits.empty()) measure_contents(out, session, hits, overflow);
+    return out;
   }
 
  private:
@@ -534,6 +549,28 @@ class Collect final : public Action {
     return out;
   }
 
+  void measure_contents(Actual& out, const Session& session, const std::vector<std::size_t>& hits,
+                        std::uint64_t overflow) const {
+    std::vector<const can::CapturedFrame*> frames;
+    for (const auto hit : hits) frames.push_back(&session.capture().frames()[hit]);
+    if (const auto length = common_length(frames)) out.measured["length"] = *length;
+    if (!overflow_.empty()) {
+      const auto& first = frames.front()->frame;
+      const auto wrong = out_of_order(frames, overflow);
+      if (first.size() > 0) out.measured["start"] = first.data[0];
+      out.measured["out_of_order"] = wrong;
+      out.detail += ", the first counts " + (first.size() > 0 ? std::to_string(first.data[0]) : "nothing") +
+                    ", " + std::to_string(wrong) + " out of order";
+    }
+    if (times_of_day_) {
+      const auto times = times_of_day(frames);
+      out.measured["malformed"] = times.malformed;
+      out.measured["drift"] = static_cast<std::uint64_t>(times.drift.count());
+      out.detail += ", " + std::to_string(times.malformed) + " with no time of day, which drifts by " +
+                    to_string(std::chrono::round<std::chrono::microseconds>(times.drift));
+    }
+  }
+
   static void measure_answers(Actual& out, const Answers& answers, std::size_t stimuli) {
     out.measured["missed"] = answers.missed;
     out.measured["skipped"] = answers.skipped;
@@ -557,6 +594,8 @@ class Collect final : public Action {
   std::string after_;
   bool answers_ = false;
   Expression stimulus_;  ///< CAN-ID; empty: that of SYNC
+  Expression overflow_;  ///< of the counters in the frames; empty: they have none
+  bool times_of_day_ = false;
 };
 
 constexpr Verb table[] = {
@@ -573,8 +612,10 @@ constexpr Verb table[] = {
     {"collect", "Count and time frames.",
      "from: CAN-ID or service\nfor: how long; with per: how long after the last frame that was sent\n"
      "until: instead of for, a label that was reached, or now: whatever the steps before took\nper: sync or a CAN-ID: frames are "
-     "answers to what was sent there\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind the last "
-     "frame included), first, state; with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
+     "answers to what was sent there, by the device itself as well\ncounter: overflow value: the frames count 1 to this and 1 again\n"
+     "time_of_day: true: the frames tell the time\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind "
+     "the last frame included), first, state, length (bytes of every frame); with counter: start (of the first frame), out_of_order; with "
+     "time_of_day: malformed, drift; with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
      "two answers in frames sent), latency (the longest)",
      "- collect: {from: heartbeat, for: 1 s}\n  checks: OD-1017-05\n  expect: {count: 9..11, period: 90 ms..110 ms, state: pre-operational}\n"
      "- collect: {from: 180h + N, per: sync, for: 50 ms}\n  checks: PDO-TX-06\n  expect: {extra: 0, closest: 3.., farthest: ..3}",

@@ -84,12 +84,13 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> read_bounds(const yaml::F
 }
 
 constexpr std::string_view measures[] = {
-    "count",         "period",        "shortest",   "longest",   "first",       "register",      "latency",
-    "segments",      "wrong_toggles", "difference", "unmarked",  "empty_last",  "bits",          "absent",
-    "longer",        "shorter",       "announced",  "size_open", "sub_blocks",  "retransmitted", "acks",
-    "first_ackseq",  "blksize",       "crc_agreed", "crc_ok",    "crc",         "unused",        "switched",
-    "wrong_numbers", "timeouts",      "surplus",    "answers",   "missed",      "skipped",       "extra",
-    "closest",       "farthest",      "replies",    "toggle",    "wrong_length"};
+    "count",         "period",        "shortest",   "longest",   "first",        "register",      "latency",
+    "segments",      "wrong_toggles", "difference", "unmarked",  "empty_last",   "bits",          "absent",
+    "longer",        "shorter",       "announced",  "size_open", "sub_blocks",   "retransmitted", "acks",
+    "first_ackseq",  "blksize",       "crc_agreed", "crc_ok",    "crc",          "unused",        "switched",
+    "wrong_numbers", "timeouts",      "surplus",    "answers",   "missed",       "skipped",       "extra",
+    "closest",       "farthest",      "replies",    "toggle",    "wrong_length", "length",        "start",
+    "out_of_order",  "malformed",     "drift"};
 
 /// A misspelt key is a misspelt outcome: the author knows no other word for it.
 void check_keys(const yaml::Field& field) {

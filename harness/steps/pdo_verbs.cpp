@@ -335,7 +335,7 @@ class PdoMapping final : public Action {
 
 class SendSync final : public Action {
  public:
-  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<SendSync>();
     if (!value.node()->is_mapping()) return value.one_of({"once"}) ? std::move(out) : nullptr;
     auto fields = value.fields("send_sync");
@@ -343,6 +343,9 @@ class SendSync final : public Action {
     const auto every = fields.required("every");
     if (every) {
       if (auto time = parse_time_at(every)) out->every_ = *time;
+    }
+    if (const auto counter = fields.optional("counter")) {
+      if (auto overflow = parse_expression_at(counter, context.names)) out->overflow_ = *overflow;
     }
     return every ? std::move(out) : nullptr;
   }
@@ -355,12 +358,20 @@ class SendSync final : public Action {
     auto id = canopen::sync_can_id;
     auto known = session.read({Index(0x1005), SubIndex(0)});
     if (known && known->number) id = canopen::can_id_of(CobId(static_cast<std::uint32_t>(*known->number)));
-    const auto frame = can::data_frame(id, Bytes());
+    std::optional<std::uint8_t> overflow;
+    if (!overflow_.empty()) {
+      const auto number = overflow_.number(session);
+      if (!number) return std::unexpected(number.error());
+      // A value that can be read from 1019h: without a counter a SYNC has no data.
+      if (*number > 0xFF) return fail_scenario("a SYNC counts in one byte");
+      if (*number > 1) overflow = static_cast<std::uint8_t>(*number);
+    }
+    const auto frame = can::data_frame(id, overflow ? Bytes{1} : Bytes());
     session.set("sync_can_id", Value::of_number(id.value()));
     if (count_) {
       if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
       session.consume(session.capture().size());
-      auto begun = session.produce({"sync", frame, every_.resolve(session.profile()), count_});
+      auto begun = session.produce({"sync", frame, every_.resolve(session.profile()), count_, overflow});
       if (!begun) return std::unexpected(begun.error());
       return Actual{};
     }
@@ -375,6 +386,7 @@ class SendSync final : public Action {
  private:
   TimeReference every_;
   std::optional<std::uint64_t> count_;
+  Expression overflow_;  ///< empty: without counter
 };
 
 constexpr Verb table[] = {
@@ -392,8 +404,10 @@ constexpr Verb table[] = {
      "pdo: its communication or mapping object\nsave: name that the data get",
      "- mapped_data: {pdo: $pdo, save: held}", &PdoMapping::parse_data},
     {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.",
-     "(word): once\nevery: time between two\ncount: how many",
-     "- send_sync: once\n- send_sync: {every: 50 ms, count: 10}", &SendSync::parse},
+     "(word): once\nevery: time between two\ncount: how many\ncounter: overflow value: each has one byte that counts 1 to this and 1 again; 0: "
+     "no data",
+     "- send_sync: once\n- send_sync: {every: 50 ms, count: 10}\n- send_sync: {every: 50 ms, count: 10, counter: 4}",
+     &SendSync::parse},
 };
 
 }  // namespace

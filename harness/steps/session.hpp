@@ -70,6 +70,8 @@ struct Production {
   can::Frame frame;
   Duration every{};
   std::optional<std::uint64_t> count;  ///< absent: until stopped or the scenario ends
+  /// The first data byte counts from 1 to this, and again; absent: every frame is the same.
+  std::optional<std::uint8_t> counts_to{};
 };
 
 class Session : public Facts {

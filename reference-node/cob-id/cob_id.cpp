@@ -49,14 +49,13 @@ bool restricted_can_id(std::uint32_t id) {
 CobIdRules::CobIdRules(CobIdUse of)
     : use(of),
       frame_bit_allowed([](std::uint32_t value) { return (value & bit29) == 0; }),
-      bit30_allowed([of](std::uint32_t value) {
-        return (value & bit30) == 0 || !(is_sync_or_time(of) || is_emergency(of));
-      }),
+      bit30_allowed([of](std::uint32_t value) { return (value & bit30) == 0 || !is_emergency(of); }),
       upper_bits_allowed(
           [](std::uint32_t value) { return (value & bit29) != 0 || (value & upper_id_bits) == 0; }),
       locked([of](std::uint32_t value) { return exists(of, value); }),
       valid([of](std::uint32_t value) { return is_valid(of, value); }),
       remote_allowed([](std::uint32_t value) { return (value & bit30) == 0; }),
+      produced([](std::uint32_t value) { return (value & bit30) != 0; }),
       can_id([](std::uint32_t value, std::uint32_t) { return value & can_id_mask; }) {}
 
 CobId::CobId(Device& device, const CobIdRules& rules, std::uint16_t index, std::uint8_t sub,
@@ -82,6 +81,8 @@ Accepted CobId::check(ByteView bytes) const {
   if (wanted == present) return {};
   if (!rules_->frame_bit_allowed(wanted)) return refuse(choice.frame_bit);
   if (!rules_->bit30_allowed(wanted)) return refuse(choice.fixed_bit);
+  if (is_sync_or_time(rules_->use) && !choice.produced && (wanted & bit30) != 0)
+    return refuse(choice.fixed_bit);
   if (rules_->use == CobIdUse::tpdo && !choice.remote_frames && (wanted & bit30) == 0)
     return refuse(choice.fixed_bit);
   if (!rules_->upper_bits_allowed(wanted)) return refuse(choice.upper_bits);
@@ -102,6 +103,13 @@ bool CobId::valid() const {
   // What a description may say and this node cannot do: another kind of identifier, or that of NMT commands.
   if (device_->described && ((value() & bit29) != 0 || can_id() == 0)) return false;
   return rules_->valid(value());
+}
+
+// What cannot be produced is not, whatever a description begins with.
+bool CobId::produced() const {
+  if (device_->dictionary.entry(index_, sub_) == nullptr || !rules_->choices.produced) return false;
+  if (device_->described && ((value() & bit29) != 0 || can_id() == 0)) return false;
+  return rules_->produced(value());
 }
 
 std::uint32_t CobId::can_id() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What may be written to a COB-ID parameter, and what it then means on the bus (CiA 301, 7.3.5 and 7.5.2).
-// The node knows base frames only, generates neither SYNC nor TIME, and refuses with 0609 0030h.
+// The node knows base frames only, can produce SYNC and TIME, and refuses with 0609 0030h.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +36,7 @@ struct CobIdChoices {
   bool restricted_always = false;                    ///< refused while the object is not valid, too
   bool locked_by_former_value = false;               ///< switching off and moving in one write is refused
   bool remote_frames = true;                         ///< TPDO: without them bit 30 cannot be 0
+  bool produced = true;                              ///< SYNC and TIME: otherwise bit 30 cannot be 1
 };
 
 /// The bits of the COB-ID parameters of one use. Each rule is given the whole value.
@@ -48,7 +49,7 @@ struct CobIdRules {
   using Predicate = Rule<bool(std::uint32_t value)>;
   /// Bit 29: this device knows identifiers of 11 bits only.
   Predicate frame_bit_allowed;
-  /// Bit 30 of SYNC and TIME: generates, which this device does not; of EMCY: reserved.
+  /// Bit 30 of EMCY is reserved.
   Predicate bit30_allowed;
   /// Bits 28-11 are 0 with an identifier of 11 bits.
   Predicate upper_bits_allowed;
@@ -58,6 +59,7 @@ struct CobIdRules {
   /// The communication object exists (TIME: it is consumed). SYNC has no such bit.
   Predicate valid;
   Predicate remote_allowed;  ///< TPDO: bit 30 = 0
+  Predicate produced;        ///< SYNC, TIME: bit 30 = 1
   /// The CAN-ID in use, of the value and that after power-on.
   Rule<std::uint32_t(std::uint32_t value, std::uint32_t at_power_on)> can_id;
 };
@@ -76,6 +78,7 @@ class CobId {
   [[nodiscard]] bool valid() const;
   [[nodiscard]] std::uint32_t can_id() const;
   [[nodiscard]] bool remote_allowed() const { return rules_->remote_allowed(value()); }
+  [[nodiscard]] bool produced() const;
 
  private:
   [[nodiscard]] std::uint32_t value() const;

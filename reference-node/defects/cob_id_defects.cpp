@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the COB-ID parameters 1005h, 1012h, 1014h, 1400h:01 and 1800h:01.
+#include <algorithm>
 #include <memory>
 
 #include "defects/cob_ids.hpp"
@@ -42,7 +43,8 @@ DefectTable cob_id_defects() {
       {"1005-gen-bit-accepted",
        "1005h accepts bit 30 although the node generates no SYNC",
        {"OD-1005-03", "SYNC-COB-03", "OD-CID-05"},
-       decided(of_sync, &CobIdRules::bit30_allowed, true)},
+       decided(of_sync, &CobIdRules::produced, false),
+       {"sync producer"}},
       {"1005-frame-bit-accepted",
        "1005h accepts bit 29 although the node knows base frames only",
        {"OD-1005-04", "SYNC-COB-04", "OD-CID-05"},
@@ -81,7 +83,8 @@ DefectTable cob_id_defects() {
       {"1012-produce-bit-accepted",
        "1012h accepts bit 30 although the node produces no TIME",
        {"OD-1012-03", "TIME-COB-02", "OD-CID-05"},
-       decided(of_time, &CobIdRules::bit30_allowed, true)},
+       decided(of_time, &CobIdRules::produced, false),
+       {"time producer"}},
       {"1012-frame-bit-accepted",
        "1012h accepts bit 29 although the node knows base frames only",
        {"OD-1012-04", "TIME-COB-03", "OD-CID-05"},
@@ -110,6 +113,20 @@ DefectTable cob_id_defects() {
        "1012h accepts restricted CAN-IDs",
        {"CAN-RID-02", "OD-CID-03"},
        decided(of_time, &CobIdRules::restricted, false)},
+      {"time-short-taken",
+       "A TIME message of five bytes is taken over",
+       {"TIME-CON-03"},
+       misreads([](Parts&, Frame& frame) {
+         if (!frame.extended && !frame.remote && frame.id == 0x100 && frame.dlc == 5) frame.dlc = 6;
+       })},
+      {"time-of-eight-bytes-taken-wrongly",
+       "Of a TIME message of eight bytes the last six are taken over",
+       {"TIME-CON-03"},
+       misreads([](Parts&, Frame& frame) {
+         if (frame.extended || frame.remote || frame.id != 0x100 || frame.dlc != 8) return;
+         std::copy(frame.data.begin() + 2, frame.data.begin() + 8, frame.data.begin());
+         frame.dlc = 6;
+       })},
       {"time-reserved-bits-not-masked",
        "The reserved bits of a TIME message are taken for milliseconds",
        {"TIME-CON-02"},

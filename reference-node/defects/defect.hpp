@@ -54,6 +54,8 @@ struct Defect {
   std::string_view summary;
   std::vector<std::string_view> violates;  ///< requirement ids, the one that it proves best first
   Change how;
+  /// Features of the device profile that go with it: the fault is one of a device without them.
+  std::vector<std::string_view> lacks = {};
 };
 
 /// All rows, in the order of the tables; ids are unique and never reused.
@@ -90,6 +92,8 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable error_control_guarding_defects();
 [[nodiscard]] DefectTable time_defects();
 [[nodiscard]] DefectTable sync_defects();
+[[nodiscard]] DefectTable sync_consumer_defects();
+[[nodiscard]] DefectTable sync_producer_defects();
 [[nodiscard]] DefectTable storage_stamp_defects();
 [[nodiscard]] DefectTable objects_description_defects();
 [[nodiscard]] DefectTable objects_operating_system_defects();

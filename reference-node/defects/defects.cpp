@@ -47,6 +47,8 @@ std::span<const Defect> defects() {
                                        error_control_guarding_defects,
                                        time_defects,
                                        sync_defects,
+                                       sync_consumer_defects,
+                                       sync_producer_defects,
                                        storage_stamp_defects,
                                        objects_description_defects,
                                        objects_operating_system_defects,

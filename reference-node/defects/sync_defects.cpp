@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of the SYNC counter (1019h) and of what is made of a SYNC; those of 1005h are with the other
-// COB-IDs.
+// Defects of the SYNC counter (1019h) and of the length of a SYNC; those of 1005h are with the other
+// COB-IDs, those of consumer and producer in tables of their own.
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 

@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of the high resolution time stamp (1013h); those of 1012h are with the other COB-IDs.
+// Defects of the high resolution time stamp (1013h) and of the TIME producer; those of 1012h are with the
+// other COB-IDs.
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <memory>
+
+#include "defects/cob_ids.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -26,9 +33,102 @@ Change clock_starts_at(std::uint32_t start) {
                   }));
 }
 
-}  // namespace
+TimeProducerRules& of_producer(Parts& parts) { return parts.time_producer.rules; }
 
-DefectTable time_defects() {
+/// TIME tells another time than it is.
+Change tells(TimeOfDay (*as)(TimeOfDay right)) {
+  return decides(
+      of_producer, &TimeProducerRules::time_of_day,
+      [as](const auto& former, std::chrono::milliseconds since_epoch) { return as(former(since_epoch)); });
+}
+
+/// Once it has begun it does not end.
+void stays_on(Parts& parts) {
+  const auto begun = std::make_shared<bool>(false);
+  parts.time.cob_id_rules.produced.replace([begun](const auto& former, std::uint32_t value) {
+    *begun = *begun || former(value);
+    return *begun;
+  });
+}
+
+/// The first time is told again and again.
+void stands_still(Parts& parts) {
+  const auto first = std::make_shared<Bytes>();
+  parts.device.outbox.add_filter([first](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::time) return;
+    for (Outgoing& each : frames) {
+      if (first->empty()) first->assign(each.frame.data.begin(), each.frame.data.begin() + 6);
+      std::ranges::copy(*first, each.frame.data.begin());
+    }
+  });
+}
+
+DefectTable producer_rows() {
+  constexpr std::uint32_t day = 86'400'000;
+  return {
+      {"time-without-producer-bit",
+       "TIME is sent whatever bit 30 of 1012h says",
+       {"TIME-PRO-01"},
+       decided(of_time, &CobIdRules::produced, true)},
+      {"time-not-stopped-by-bit-30",
+       "Clearing bit 30 of 1012h does not stop the TIME producer",
+       {"TIME-PRO-01"},
+       stays_on},
+      {"time-on-default-can-id",
+       "TIME is produced on 100h, whatever 1012h says",
+       {"TIME-PRO-01"},
+       reshape(Service::time, [](const FilterContext&, Frame& frame) { frame.id = 0x100; })},
+      {"time-of-eight-bytes",
+       "TIME has eight bytes",
+       {"TIME-PRO-01"},
+       reshape(Service::time, [](const FilterContext&, Frame& frame) { frame.dlc = 8; })},
+      {"time-without-days",
+       "TIME has four bytes",
+       {"TIME-PRO-01"},
+       reshape(Service::time, [](const FilterContext&, Frame& frame) { frame.dlc = 4; })},
+      {"time-reserved-bits-set",
+       "The reserved bits of TIME are 1",
+       {"TIME-PRO-01"},
+       reshape(Service::time, [](const FilterContext&, Frame& frame) { frame.data[3] |= 0xF0U; })},
+      {"time-most-significant-first",
+       "TIME is sent with the most significant byte first",
+       {"TIME-PRO-01"},
+       reshape(Service::time,
+               [](const FilterContext&, Frame& frame) {
+                 std::reverse(frame.data.begin(), frame.data.begin() + 4);
+                 std::swap(frame.data[4], frame.data[5]);
+               })},
+      {"time-stands-still", "TIME always tells the same time", {"TIME-PRO-01"}, stands_still},
+      {"time-in-seconds",
+       "TIME counts seconds after midnight",
+       {"TIME-PRO-01"},
+       tells([](TimeOfDay right) -> TimeOfDay { return {right.milliseconds / 1000, right.days}; })},
+      {"time-beyond-midnight",
+       "The milliseconds of TIME run on over midnight",
+       {"TIME-PRO-01"},
+       tells([](TimeOfDay right) -> TimeOfDay {
+         const bool past = right.milliseconds < day / 2;
+         return {right.milliseconds + (past ? day : 0),
+                 static_cast<std::uint16_t>(right.days - (past ? 1 : 0))};
+       })},
+      {"time-same-day-after-midnight",
+       "The days of TIME do not count over midnight",
+       {"TIME-PRO-01"},
+       tells([](TimeOfDay right) -> TimeOfDay { return {right.milliseconds, 10'000}; })},
+      {"time-days-since-1970",
+       "The days of TIME are counted from 1970",
+       {"TIME-PRO-01"},
+       tells([](TimeOfDay right) -> TimeOfDay {
+         return {right.milliseconds, static_cast<std::uint16_t>(right.days + 5113)};
+       })},
+      {"time-produced-in-stopped",
+       "TIME is produced in Stopped, too",
+       {"TIME-PRO-02"},
+       works_also(Service::time, NmtState::stopped)},
+  };
+}
+
+DefectTable clock_rows() {
   return {
       {"1013-is-u16", "1013h has two bytes", {"OD-1013-01", "OD-LEN-04", "OD-GEN-17"}, type(0x1013, 0, u16)},
       {"1013-not-writable",
@@ -49,6 +149,15 @@ DefectTable time_defects() {
        decides(of_clock, &ClockRules::ticks,
                [](const auto& former, Duration elapsed) { return former(elapsed) / 1000; })},
   };
+}
+
+}  // namespace
+
+DefectTable time_defects() {
+  DefectTable rows = clock_rows();
+  DefectTable more = producer_rows();
+  rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  return rows;
 }
 
 }  // namespace refnode

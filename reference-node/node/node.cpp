@@ -31,6 +31,8 @@ struct Node::Impl : Parts {
   void boot_up();
   void change_state(NmtState from);
   void run_timers();
+  /// A SYNC has come, or the node has sent one.
+  void begin_cycle(std::optional<std::uint8_t> counter);
   void dispatch(const Frame& frame);
 
   TwinRemarks remarks;
@@ -51,7 +53,15 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(optio
   error_behaviour.enter = [this](NmtState state) { nmt.enter(state); };
   consumer.on_loss = [this] { error_behaviour.on_communication_error(); };
   guarding.on_loss = [this] { error_behaviour.on_communication_error(); };
-  sync.on_sync = [this](std::optional<std::uint8_t> counter) { pdos.on_sync(counter); };
+  sync.on_sync = [this](std::optional<std::uint8_t> counter) {
+    sync_supervision.on_sync();
+    begin_cycle(counter);
+  };
+  sync_producer.on_sync = [this](std::optional<std::uint8_t> counter) { begin_cycle(counter); };
+  pdos.rpdo.in_window = [this] { return sync_window.takes_rpdo(); };
+  time.on_time_of_day = [this](std::uint32_t milliseconds, std::uint16_t days) {
+    time_producer.set_clock({milliseconds, days});
+  };
   if (twin) {
     take_over(std::move(*twin));
   } else {
@@ -62,7 +72,9 @@ Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(optio
   producer.bind();
   consumer.bind();
   sync.bind();
+  sync_producer.bind();
   time.bind();
+  time_producer.bind();
   emergencies.bind();
   clock.bind();
   guarding.bind();
@@ -108,6 +120,12 @@ void Node::Impl::take_over(Twin twin) {
         history->second.entries, [](const auto& entry) { return entry.first != 0 && entry.first != 0xFF; });
     emergency.history.choices.depth = static_cast<std::uint8_t>(fields);
   }
+  // A description does not say whether SYNC and TIME can be produced, unless they are from power-on.
+  const auto produced = [this](std::uint16_t index) {
+    return (device.dictionary.number(index, 0) & 0x40000000U) != 0;
+  };
+  sync.cob_id_rules.choices.produced = produced(0x1005);
+  time.cob_id_rules.choices.produced = produced(0x1012);
   // Without SYNC there are no transmission types that need it.
   if (!objects.contains(0x1005)) {
     for (PdoTerms* terms : {&pdos.rpdo.parameters, &pdos.tpdo.parameters})
@@ -123,6 +141,10 @@ void Node::Impl::reset(Reset kind) {
   device.outbox.clear();
   sdo.on_state_change();
   producer.on_reset();
+  sync_producer.on_reset();
+  sync_window.on_reset();
+  sync_supervision.on_reset();
+  time_producer.on_reset();
   consumer.on_reset();
   guarding.on_reset();
   clock.on_reset();
@@ -135,12 +157,22 @@ void Node::Impl::reset(Reset kind) {
 
 void Node::Impl::boot_up() {
   producer.on_boot_up();
+  sync_producer.on_boot_up();
+  time_producer.update();
   pdos.on_boot_up();
 }
 
-void Node::Impl::change_state(NmtState) {
+void Node::Impl::begin_cycle(std::optional<std::uint8_t> counter) {
+  pdos.on_sync(counter);
+  sync_window.on_sync();
+}
+
+void Node::Impl::change_state(NmtState from) {
   sdo.on_state_change();
   producer.on_state_change();
+  sync_producer.on_state_change(from);
+  sync_supervision.on_state_change();
+  time_producer.update();
   pdos.on_state_change();
   emergency.on_state_change();
 }
@@ -151,6 +183,9 @@ void Node::Impl::run_timers() {
   guarding.on_time();
   emergency.on_time();
   producer.on_time();
+  sync_producer.on_time();
+  sync_supervision.on_time();
+  time_producer.on_time();
   pdos.on_time();
   store.on_time();
   sdo.on_time();
@@ -234,8 +269,10 @@ void Node::on_time(conform::BusTime now) {
 std::optional<conform::BusTime> Node::next_wakeup() const {
   const Impl& impl = *impl_;
   return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.guarding.next_wakeup(),
-                   impl.emergency.next_wakeup(), impl.producer.next_wakeup(), impl.pdos.next_wakeup(),
-                   impl.store.next_wakeup(), impl.sdo.next_wakeup(), impl.device.inbox.next_wakeup(),
+                   impl.emergency.next_wakeup(), impl.producer.next_wakeup(),
+                   impl.sync_producer.next_wakeup(), impl.sync_supervision.next_wakeup(),
+                   impl.time_producer.next_wakeup(), impl.pdos.next_wakeup(), impl.store.next_wakeup(),
+                   impl.sdo.next_wakeup(), impl.device.inbox.next_wakeup(),
                    impl.device.outbox.next_wakeup()});
 }
 

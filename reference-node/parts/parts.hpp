@@ -20,8 +20,12 @@
 #include "storage/memory.hpp"
 #include "storage/parameter_store.hpp"
 #include "sync/consumer.hpp"
+#include "sync/producer.hpp"
+#include "sync/supervision.hpp"
+#include "sync/window.hpp"
 #include "time/consumer.hpp"
 #include "time/high_resolution_clock.hpp"
+#include "time/producer.hpp"
 
 namespace refnode {
 
@@ -32,7 +36,11 @@ struct Parts {
         producer(device),
         consumer(device),
         sync(device),
+        sync_producer(device, sync.cob_id_rules),
+        sync_window(device),
+        sync_supervision(device),
         time(device),
+        time_producer(device, time.cob_id_rules),
         emergencies(device),
         clock(device),
         guarding(device),
@@ -49,7 +57,11 @@ struct Parts {
   HeartbeatProducer producer;
   HeartbeatConsumer consumer;
   SyncConsumer sync;
+  SyncProducer sync_producer;
+  SyncWindow sync_window;
+  SyncSupervision sync_supervision;
   TimeConsumer time;
+  TimeProducer time_producer;
   EmergencyConsumer emergencies;
   HighResolutionClock clock;
   NodeGuarding guarding;

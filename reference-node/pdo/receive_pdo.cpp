@@ -44,7 +44,7 @@ bool ReceivePdo::on_frame(const Frame& frame) {
 
   Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
   if (terms_->rules.waits_for_sync(parameters_.transmission_type())) {
-    buffered_ = std::move(data);
+    if (terms_->in_window()) buffered_ = std::move(data);
   } else {
     apply(data);
   }

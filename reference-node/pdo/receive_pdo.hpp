@@ -32,6 +32,8 @@ struct ReceivePdoTerms {
   PdoTerms parameters;
   ReceivePdoChoices choices;
   ReceivePdoRules rules;
+  /// Whether a synchronous RPDO that comes now is in the synchronous window (1007h).
+  std::function<bool()> in_window{[] { return true; }};
 };
 
 class ReceivePdo {

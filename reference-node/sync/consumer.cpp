@@ -9,7 +9,6 @@ SyncConsumer::SyncConsumer(Device& device)
 void SyncConsumer::add_objects() {
   ObjectDictionary& od = device_->dictionary;
   od.add_variable(0x1005, integer_entry("COB-ID SYNC message", DataType::unsigned32, Access::rw, 0x80));
-  // Neither supervises the SYNC here: the period and the window are kept for the application to read.
   od.add_variable(0x1006, integer_entry("Communication cycle period", DataType::unsigned32, Access::rw, 0));
   od.add_variable(0x1007, integer_entry("Synchronous window length", DataType::unsigned32, Access::rw, 0));
   od.add_variable(0x1019,
@@ -38,7 +37,7 @@ bool SyncConsumer::on_frame(const Frame& frame) {
   if (!cob_id_.valid() || frame.id != cob_id_.can_id()) return false;
   // Only with a counter (1019h) does a SYNC have data; one of another length is reported and used all the
   // same.
-  const std::size_t size = overflow() > 1 ? 1 : 0;
+  const std::size_t size = rules.length(overflow());
   const ErrorCause wrong_length{0x8240, ErrorSource::sync, 0};
   if (frame.size() != size) {
     if (choices.wrong_length_reported) device_->errors.raise(wrong_length, frame.size());
@@ -47,6 +46,7 @@ bool SyncConsumer::on_frame(const Frame& frame) {
     device_->errors.clear(wrong_length);
   }
   const bool counted = size != 0 && frame.size() == size;
+  if (counted && !rules.obeyed(frame.data[0], overflow())) return true;
   if (on_sync) on_sync(counted ? std::optional(frame.data[0]) : std::nullopt);
   return true;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Consumer of SYNC (1005h to 1007h, 1019h; CiA 301, 7.2.5); the node produces none.
+// Consumer of SYNC (1005h, 1019h; CiA 301, 7.2.5).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -18,6 +19,15 @@ struct SyncChoices {
   AbortCode counter_locked = abort_code::device_state;     ///< a change of 1019h while 1006h is not 0
 };
 
+struct SyncConsumerRules {
+  /// With an overflow value above 1 a SYNC has one byte, otherwise none.
+  Rule<std::size_t(std::uint64_t overflow)> length{
+      [](std::uint64_t overflow) -> std::size_t { return overflow > 1 ? 1 : 0; }};
+  /// What the counter says does not matter: it is for the TPDOs that wait for their SYNC start value.
+  Rule<bool(std::uint8_t counter, std::uint64_t overflow)> obeyed{
+      [](std::uint8_t, std::uint64_t) { return true; }};
+};
+
 class SyncConsumer {
  public:
   explicit SyncConsumer(Device& device);
@@ -25,6 +35,7 @@ class SyncConsumer {
   SyncConsumer& operator=(const SyncConsumer&) = delete;
 
   SyncChoices choices;
+  SyncConsumerRules rules;
   CobIdRules cob_id_rules{CobIdUse::sync};
 
   /// 1005h, 1006h, 1007h, 1019h.

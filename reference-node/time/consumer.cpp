@@ -21,6 +21,10 @@ bool TimeConsumer::on_frame(const Frame& frame) {
     time->value.assign(frame.data.begin(), frame.data.begin() + 6);
     time->value[3] &= 0x0FU;
   }
+  if (on_time_of_day) {
+    const std::uint64_t value = conform::load_le(frame.bytes());
+    on_time_of_day(static_cast<std::uint32_t>(value & 0x0FFFFFFFU), static_cast<std::uint16_t>(value >> 32U));
+  }
   return true;
 }
 

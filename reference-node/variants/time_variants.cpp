@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // TIME and the high resolution time stamp.
+#include <chrono>
+
 #include "variants/tools.hpp"
 
 namespace refnode {
@@ -20,12 +22,34 @@ VariantTable time_variants() {
        .legal = "7.5.2.15: for devices that support TIME",
        .how = absent({0x1012, 0x2F10}),
        .group = "time",
-       .lacks = {"time consumer"}},
+       .lacks = {"time consumer", "time producer"}},
       {.id = "1012-const",
        .summary = "TIME is never consumed, 1012h is constant",
        .legal = "OD-1012-03: a const entry",
        .how = access(0x1012, 0, Access::constant),
-       .lacks = {"time consumer"}},
+       .lacks = {"time consumer", "time producer"}},
+      {.id = "time-not-produced",
+       .summary = "TIME is consumed only",
+       .legal = "OD-1012-03: bit 30 of 1012h is refused",
+       .how = [](Parts& node) { node.time.cob_id_rules.choices.produced = false; },
+       .group = "time-producer",
+       .lacks = {"time producer"}},
+      {.id = "time-producer-unnamed",
+       .summary = "TIME can be produced, and the profile does not say so",
+       .legal = "7.5.2.15: bit 30 of 1012h shows it",
+       .how = [](Parts&) {},
+       .group = "time-producer",
+       .lacks = {"time producer"}},
+      {"time-at-once", "the first TIME when bit 30 of 1012h is set", "7.5.2.15: no period is said",
+       [](Parts& node) { node.time_producer.choices.first_at_once = true; }},
+      {"time-every-20-s", "TIME is sent every 20 s", "7.5.2.15: no period is said",
+       [](Parts& node) { node.time_producer.choices.period = std::chrono::seconds(20); }, "time-period"},
+      {"time-every-100-ms", "TIME is sent every 100 ms", "7.5.2.15: no period is said",
+       [](Parts& node) { node.time_producer.choices.period = std::chrono::milliseconds(100); },
+       "time-period"},
+      {"time-of-an-own-clock", "a time that was received does not set the clock of the producer",
+       "7.2.6: what the time is taken from is the device's to say",
+       [](Parts& node) { node.time_producer.choices.goes_on_from_received = false; }},
       {"1012-consuming", "TIME is consumed by default", "OD-1012-02: bits 31 and 30 are not judged",
        preset(0x1012, 0, 0x80000100)},
       {"1013-absent", "no high resolution time", "7.5.2.16: optional", absent({0x1013}), "1013"},

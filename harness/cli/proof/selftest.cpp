@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "can/simulated_bus.hpp"
 #include "cli/proof/blame.hpp"
@@ -29,8 +30,14 @@ Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profil
   can::SimulatedBus bus(bus_options);
   bus.attach(**node, "reference node");
   options.plan.seed = seed;
+  device::Profile claimed = profile;
+  for (const auto& id : switches.defects) {
+    const refnode::Defect* defect = refnode::find_defect(id);
+    if (defect == nullptr) continue;
+    for (const auto feature : defect->lacks) claimed.claims.erase(std::string(feature));
+  }
   SimulatedRun out;
-  out.result = engine::run(bus.transport(), profile, suite, catalogue, options, out.capture);
+  out.result = engine::run(bus.transport(), claimed, suite, catalogue, options, out.capture);
   out.result.host = "simulation";
   return out;
 }

@@ -18,13 +18,19 @@ FOUND = [
     ("1005-frame-bit-accepted", "cia301/cob-id/static-bits", "OD-1005-04"),
     ("1014-frame-bit-accepted", "cia301/cob-id/static-bits", "OD-1014-05"),
     ("1800-frame-bit-accepted", "cia301/cob-id/static-bits", "OD-1800-13"),
+    ("1005-gen-bit-accepted", "cia301/cob-id/static-bits", "OD-1005-03"),
+    ("sync-period-too-long", "cia301/sync/producer", "SYNC-PRO-01"),
+    ("sync-first-too-late", "cia301/sync/producer", "SYNC-PRO-02"),
+    ("sync-count-of-8-bits", "cia301/sync/producer-counter", "SYNC-PRO-04"),
+    ("time-of-eight-bytes", "cia301/time/producer", "TIME-PRO-01"),
 ]
 # What shows in no frame that a bystander sees: not applicable, and never a pass.
 OPEN = [("1012-frame-bit-accepted", "cia301/cob-id/static-bits/time-frame"),
         ("1400-frame-bit-accepted", "cia301/cob-id/static-bits/rpdo-frame")]
 # Legal, and nothing to judge or nothing to complain of.
 LEGAL = [("pdo-mapping-const", "cia301/pdo/*-mapping-refused"), ("1600-empty", "cia301/pdo/*-mapping-refused"),
-         ("rpdo-absent", "cia301/pdo")]
+         ("rpdo-absent", "cia301/pdo"), ("sync-not-produced", "cia301/sync"), ("time-not-produced", "cia301/time"),
+         ("1006-from-1-s", "cia301/cob-id/static-bits")]
 
 
 class Unclaimed(unittest.TestCase):

@@ -654,3 +654,15 @@ TEST_CASE("a cyclic frame that the host sends late is told, the first one is not
   CHECK(lateness.producing == Duration(40ms));
   CHECK(lateness.waking == Duration(40ms));
 }
+
+TEST_CASE("A produced SYNC may count in its data") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  recorder.produce({"sync", can::data_frame(CanId(0x80), {1}), 10ms, 5, 3});
+  REQUIRE(recorder.wait_until(recorder.now() + 100ms).has_value());
+  std::vector<int> counts;
+  for (const auto& captured : recorder.capture().frames()) counts.push_back(captured.frame.data[0]);
+  CHECK(counts == std::vector<int>{1, 2, 3, 1, 2});
+}

@@ -112,6 +112,45 @@ TEST_CASE("a collection per SYNC goes on behind the last SYNC and measures the a
   CHECK(actual.measured.at("latency") == 3'000'000);
 }
 
+TEST_CASE("a SYNC that the device sends itself is one to be answered, and does not prolong the collection") {
+  FakeSession session;
+  session.set("sync_can_id", Value::of_number(0x88));
+  record(session, 0, 0x88);
+  record(session, 1, 0x185);
+  record(session, 40, 0x88);
+  record(session, 41, 0x185);
+  record(session, 80, 0x88);
+  const auto actual = collected(session, "- collect: {from: 185h, per: sync, for: 60 ms}\n");
+  CHECK(actual.measured.at("count") == 2);
+  CHECK(actual.measured.at("missed") == 0);
+  CHECK(actual.measured.at("length") == 1);
+}
+
+TEST_CASE("counters and times of day are read from the frames that are collected") {
+  const auto add = [](FakeSession& session, int milliseconds, Bytes data) {
+    session.trace.add(can::CapturedFrame{can::data_frame(CanId(0x88), data),
+                                         BusTime(std::chrono::milliseconds(milliseconds)),
+                                         can::Direction::received,
+                                         {}});
+  };
+  FakeSession counting;
+  add(counting, 10, {2});
+  add(counting, 20, {3});
+  add(counting, 30, {1});
+  add(counting, 40, {3});
+  const auto counted = collected(counting, "- collect: {from: 88h, for: 1 s, counter: 3}\n");
+  CHECK(counted.measured.at("start") == 2);
+  CHECK(counted.measured.at("out_of_order") == 1);
+  CHECK_FALSE(counted.measured.contains("malformed"));
+
+  FakeSession telling;
+  add(telling, 0, {0, 0, 0, 0, 1, 0});
+  add(telling, 1000, {0, 0, 0, 0, 1, 0});
+  const auto told = collected(telling, "- collect: {from: 88h, for: 2 s, time_of_day: true}\n");
+  CHECK(told.measured.at("malformed") == 0);
+  CHECK(told.measured.at("drift") == 1'000'000'000);
+}
+
 TEST_CASE("a collection for answers needs something that was sent") {
   FakeSession session;
   record(session, 3, 0x185);

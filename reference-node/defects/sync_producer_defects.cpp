@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of the SYNC producer: when it sends, how often, and what it counts.
+#include <iterator>
+#include <memory>
+
+#include "defects/cob_ids.hpp"
+#include "defects/hooks.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+SyncProducerRules& of_producer(Parts& parts) { return parts.sync_producer.rules; }
+
+bool has_bit31(std::uint32_t cob_id) { return (cob_id & 0x80000000U) != 0; }
+
+/// Bit 30 of 1005h, and what else it takes.
+Change produces_when(bool (*when)(Parts&, bool right, std::uint32_t cob_id)) {
+  return [when](Parts& parts) {
+    parts.sync.cob_id_rules.produced.replace([&parts, when](const auto& former, std::uint32_t value) {
+      return when(parts, former(value), value);
+    });
+  };
+}
+
+Change counts_as(Rule<std::uint8_t(std::uint8_t, std::uint8_t)>::Decision next) {
+  return decides(
+      of_producer, &SyncProducerRules::next_count,
+      [next](const auto&, std::uint8_t last, std::uint8_t overflow) { return next(last, overflow); });
+}
+
+Change goes_on_counting_after(SyncStart start) {
+  return decides(
+      of_producer, &SyncProducerRules::counts_anew,
+      [start](const auto& former, SyncStart occasion) { return occasion != start && former(occasion); });
+}
+
+Change has_period(Duration (*as)(Duration right)) {
+  return decides(of_producer, &SyncProducerRules::period,
+                 [as](const auto& former, std::int64_t value) { return as(former(value)); });
+}
+
+/// What is written to 1006h counts as long as it is not 0.
+void keeps_period(Parts& parts) {
+  const auto last = std::make_shared<std::int64_t>(0);
+  parts.sync_producer.rules.period.replace([last](const auto& former, std::int64_t value) {
+    if (value != 0) *last = value;
+    return former(*last);
+  });
+}
+
+/// Once it has begun it does not end.
+void stays_on(Parts& parts) {
+  const auto begun = std::make_shared<bool>(false);
+  parts.sync.cob_id_rules.produced.replace([begun](const auto& former, std::uint32_t value) {
+    *begun = *begun || former(value);
+    return *begun;
+  });
+}
+
+/// What was stored is not begun with, only what is written.
+void idle_until_written(Parts& parts) {
+  const auto written = std::make_shared<bool>(false);
+  parts.device.outbox.add_filter([written](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.service == Service::boot_up) *written = false;
+  });
+  for (const std::uint16_t index : {std::uint16_t{0x1005}, std::uint16_t{0x1006}}) {
+    after_writing(index, 0, [written](Parts&, const std::function<void()>& former) {
+      *written = true;
+      former();
+    })(parts);
+  }
+  parts.sync.cob_id_rules.produced.replace(
+      [written](const auto& former, std::uint32_t value) { return *written && former(value); });
+}
+
+/// A node that was in Stopped produces no SYNC until it is reset.
+void silent_after_stopped(Parts& parts) {
+  const auto stopped = std::make_shared<bool>(false);
+  parts.device.works.replace([stopped](const auto& former, Service service, NmtState state) {
+    if (state == NmtState::initialising) *stopped = false;
+    if (state == NmtState::stopped) *stopped = true;
+    return former(service, state) && !(service == Service::sync && *stopped);
+  });
+}
+
+void sends_before_boot_up(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    const bool on = (parts.device.dictionary.number(0x1005, 0) & 0x40000000U) != 0;
+    if (context.service == Service::boot_up && on)
+      frames.insert(frames.begin(), Outgoing{conform::can::data_frame(conform::CanId(0x80), {1}), {}});
+  });
+}
+
+void ends_after_20(Parts& parts) {
+  const auto sent = std::make_shared<int>(0);
+  parts.device.outbox.add_filter([sent](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) *sent = 0;
+    if (context.service == Service::sync && ++*sent > 20) frames.clear();
+  });
+}
+
+void serves_every_second_own_sync(Parts& parts) {
+  const auto odd = std::make_shared<bool>(false);
+  parts.sync_producer.on_sync = [odd, former = parts.sync_producer.on_sync](auto counter) {
+    *odd = !*odd;
+    if (*odd) former(counter);
+  };
+}
+
+Change never_works_in(NmtState state) {
+  return [state](Parts& parts) {
+    parts.device.works.replace([state](const auto& former, Service service, NmtState present) {
+      return former(service, present) && !(service == Service::sync && present == state);
+    });
+  };
+}
+
+DefectTable switch_rows() {
+  return {
+      {"sync-without-producer-bit",
+       "SYNC is sent as soon as 1006h is not 0, whatever bit 30 of 1005h says",
+       {"OD-1005-09", "SYNC-PRO-03"},
+       decided(of_sync, &CobIdRules::produced, true)},
+      {"sync-by-bit-31",
+       "Bit 31 of 1005h switches the SYNC producer on",
+       {"OD-1005-11"},
+       produces_when([](Parts&, bool right, std::uint32_t cob_id) { return right || has_bit31(cob_id); })},
+      {"sync-not-with-bit-31",
+       "With bit 31 of 1005h set no SYNC is produced",
+       {"OD-1005-11"},
+       produces_when([](Parts&, bool right, std::uint32_t cob_id) { return right && !has_bit31(cob_id); })},
+      {"sync-not-stopped-by-bit-30",
+       "Clearing bit 30 of 1005h does not stop the SYNC producer",
+       {"SYNC-PRO-03", "OD-1005-09"},
+       stays_on},
+      {"sync-not-stopped-by-period-0",
+       "Writing 0 to 1006h does not stop the SYNC producer",
+       {"SYNC-PRO-03"},
+       keeps_period},
+      {"sync-on-default-can-id",
+       "SYNC is produced on 080h, whatever 1005h says",
+       {"OD-1005-09"},
+       reshape(Service::sync, [](const FilterContext&, Frame& frame) { frame.id = 0x80; })},
+      {"1005-lock-missing",
+       "The CAN-ID of 1005h can be changed while SYNC is produced",
+       {"OD-1005-05"},
+       decided(of_sync, &CobIdRules::locked, false)},
+      {"1005-bit-30-stays",
+       "Clearing bit 30 of 1005h is refused",
+       {"OD-1005-05", "SYNC-PRO-03"},
+       refuses(0x1005, 0, abort_code::device_state,
+               [](std::uint64_t present, std::uint64_t wanted) {
+                 return (present & ~wanted & 0x40000000U) != 0;
+               })},
+      {"sync-produced-in-stopped",
+       "SYNC is produced in Stopped, too",
+       {"SYNC-PRO-06"},
+       works_also(Service::sync, NmtState::stopped)},
+      {"sync-silent-after-stopped",
+       "After Stopped the SYNC producer stays silent",
+       {"SYNC-PRO-06"},
+       silent_after_stopped},
+      {"sync-in-operational-only",
+       "SYNC is not produced in Pre-operational",
+       {"SYNC-PRO-01", "SYNC-PRO-06"},
+       never_works_in(NmtState::pre_operational)},
+      {"sync-not-in-operational",
+       "SYNC is not produced in Operational",
+       {"SYNC-PRO-08"},
+       never_works_in(NmtState::operational)},
+      {"sync-idle-until-written",
+       "A SYNC producer that was stored does not run after a reset",
+       {"SYNC-PRO-07"},
+       idle_until_written},
+      {"sync-before-boot-up",
+       "A SYNC producer that was stored begins before the boot-up message",
+       {"SYNC-PRO-07"},
+       sends_before_boot_up},
+      {"sync-own-not-obeyed",
+       "Synchronous TPDOs do not follow the SYNC that the node produces",
+       {"SYNC-PRO-08"},
+       [](Parts& parts) { parts.sync_producer.on_sync = nullptr; }},
+      {"sync-own-obeyed-by-turns",
+       "Synchronous TPDOs follow every second SYNC that the node produces",
+       {"SYNC-PRO-08"},
+       serves_every_second_own_sync},
+  };
+}
+
+DefectTable period_rows() {
+  return {
+      {"sync-period-in-ms",
+       "1006h counts milliseconds",
+       {"SYNC-PRO-01", "OD-1006-05", "OD-1005-09"},
+       has_period([](Duration right) { return right * 1000; })},
+      {"sync-period-of-16-bits",
+       "The period of 1006h is computed in 16 bits",
+       {"SYNC-PRO-01", "OD-1006-05"},
+       decides(of_producer, &SyncProducerRules::period,
+               [](const auto& former, std::int64_t value) { return former(value & 0xFFFF); })},
+      {"sync-period-too-long",
+       "SYNC comes with a period that is a tenth too long",
+       {"SYNC-PRO-01"},
+       has_period([](Duration right) { return right * 11 / 10; })},
+      {"sync-period-inexact",
+       "SYNC comes with a period that is three percent too short",
+       {"SYNC-PRO-01"},
+       has_period([](Duration right) { return right * 97 / 100; })},
+      {"sync-twice", "Every SYNC is produced twice", {"SYNC-PRO-01"}, repeat(Service::sync)},
+      {"sync-ends-after-20", "The SYNC producer falls silent after 20 SYNCs", {"SYNC-PRO-01"}, ends_after_20},
+      {"sync-first-too-late",
+       "The first SYNC comes after two periods",
+       {"SYNC-PRO-02", "OD-1005-09"},
+       decides(of_producer, &SyncProducerRules::first_after,
+               [](const auto& former, Duration period) { return 2 * former(period); })},
+      {"sync-new-period-ignored",
+       "A change of 1006h has no effect while SYNC is produced",
+       {"OD-1006-05"},
+       decides(of_producer, &SyncProducerRules::new_period,
+               [](const auto&, Duration present, Duration) { return present; })},
+      {"sync-new-period-too-late",
+       "A change of 1006h has no effect before the next SYNC of the former period",
+       {"OD-1006-05"},
+       decides(of_producer, &SyncProducerRules::due_after_change,
+               [](const auto&, BusTime due, BusTime) { return due; })},
+      {"1006-cut-to-16-bits",
+       "1006h keeps the lower 16 bits of what is written",
+       {"OD-1006-03"},
+       after_writing(0x1006, 0,
+                     [](Parts& parts, const std::function<void()>& former) {
+                       Entry& period = *parts.device.dictionary.entry(0x1006, 0);
+                       std::fill(period.value.begin() + 2, period.value.end(), std::uint8_t{0});
+                       former();
+                     })},
+      {"1006-above-24-bits-refused",
+       "1006h refuses periods of 16.8 s and more with 0607 0010h",
+       {"OD-1006-03"},
+       refuses(0x1006, 0, abort_code::length_mismatch,
+               [](std::uint64_t, std::uint64_t wanted) { return wanted > 0xFFFFFF; })},
+  };
+}
+
+DefectTable counter_rows() {
+  return {
+      {"sync-counts-from-0",
+       "The SYNC counter begins with 0",
+       {"SYNC-PRO-04", "SYNC-PRO-05", "SYNC-PRO-07"},
+       reshape(Service::sync, [](const FilterContext&, Frame& frame) { --frame.data[0]; })},
+      {"sync-count-wraps-to-0",
+       "Behind the overflow value the SYNC counter is 0",
+       {"SYNC-PRO-04"},
+       counts_as([](std::uint8_t last, std::uint8_t overflow) -> std::uint8_t {
+         return last >= overflow ? 0 : static_cast<std::uint8_t>(last + 1);
+       })},
+      {"sync-count-one-too-far",
+       "The SYNC counter runs to one more than the overflow value",
+       {"SYNC-PRO-04"},
+       counts_as([](std::uint8_t last, std::uint8_t overflow) -> std::uint8_t {
+         return last > overflow ? 1 : static_cast<std::uint8_t>(last + 1);
+       })},
+      {"sync-count-one-too-short",
+       "The SYNC counter runs to one less than the overflow value",
+       {"SYNC-PRO-04"},
+       counts_as([](std::uint8_t last, std::uint8_t overflow) -> std::uint8_t {
+         return last + 1 >= overflow ? 1 : static_cast<std::uint8_t>(last + 1);
+       })},
+      {"sync-count-of-8-bits",
+       "The SYNC counter runs to 255, whatever the overflow value is",
+       {"SYNC-PRO-04"},
+       counts_as([](std::uint8_t last, std::uint8_t) -> std::uint8_t {
+         return static_cast<std::uint8_t>(last + 1);
+       })},
+      {"sync-count-of-7-bits",
+       "The SYNC counter begins anew behind 127",
+       {"SYNC-PRO-04"},
+       counts_as([](std::uint8_t last, std::uint8_t overflow) -> std::uint8_t {
+         return last >= overflow || last >= 127 ? 1 : static_cast<std::uint8_t>(last + 1);
+       })},
+      {"sync-count-stands",
+       "The SYNC counter is always 1",
+       {"SYNC-PRO-04"},
+       counts_as([](std::uint8_t, std::uint8_t) -> std::uint8_t { return 1; })},
+      {"sync-without-counter",
+       "SYNC has no data although 1019h has an overflow value",
+       {"SYNC-PRO-04"},
+       reshape(Service::sync, [](const FilterContext&, Frame& frame) { frame.dlc = 0; })},
+      {"sync-always-counted",
+       "SYNC has a byte although 1019h is 0",
+       {"SYNC-PRO-01"},
+       reshape(Service::sync, [](const FilterContext&, Frame& frame) { frame.dlc = 1; })},
+      {"sync-of-eight-bytes",
+       "SYNC has eight bytes",
+       {"SYNC-PRO-01", "SYNC-PRO-04"},
+       reshape(Service::sync, [](const FilterContext&, Frame& frame) { frame.dlc = 8; })},
+      {"sync-count-survives-bit-30",
+       "The SYNC counter goes on where it was when bit 30 of 1005h had been 0",
+       {"SYNC-PRO-05"},
+       goes_on_counting_after(SyncStart::bit_set)},
+      {"sync-count-survives-period-0",
+       "The SYNC counter goes on where it was when 1006h had been 0",
+       {"SYNC-PRO-05"},
+       goes_on_counting_after(SyncStart::period_set)},
+      {"sync-count-survives-stopped",
+       "The SYNC counter goes on where it was when the node leaves Stopped",
+       {"SYNC-PRO-05"},
+       goes_on_counting_after(SyncStart::left_stopped)},
+  };
+}
+
+}  // namespace
+
+DefectTable sync_producer_defects() {
+  DefectTable rows = switch_rows();
+  for (DefectTable table : {period_rows(), counter_rows()})
+    rows.insert(rows.end(), std::make_move_iterator(table.begin()), std::make_move_iterator(table.end()));
+  return rows;
+}
+
+}  // namespace refnode

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Consumer and producer of TIME (CiA 301, 7.2.6, 7.5.2.15).
+#include "node/tests/bench.hpp"
+
+using namespace refnode;
+using namespace refnode::testing;
+
+namespace {
+
+const std::string produce = "23 12 10 00 00 01 00 40";
+const std::string consume = "23 12 10 00 00 01 00 80";
+const std::string both = "23 12 10 00 00 01 00 C0";
+
+}  // namespace
+
+TEST_CASE("A producer sends the time of day once in a second, not in Stopped") {
+  Bench bench;
+  bench.wait(100ms);
+  CHECK(bench.wait(5s).empty());
+  bench.sdo(produce);
+  // 08:00:06.100 and a second more on day 15000.
+  CHECK(bench.wait(2s, true) == Frames{"@6100 100: D4 8F B7 01 98 3A", "@7100 100: BC 93 B7 01 98 3A"});
+  bench.send("000: 02 05");
+  CHECK(bench.wait(5s).empty());
+  bench.send("000: 80 05");
+  CHECK(bench.wait(1s).size() == 1);
+  bench.sdo("23 12 10 00 00 01 00 00");
+  CHECK(bench.wait(5s).empty());
+}
+
+TEST_CASE("The time goes on from one that was received, over midnight") {
+  Bench bench;
+  bench.wait(100ms);
+  bench.sdo(consume);
+  bench.send("100: FF 5B 26 F5 10 27");  // one millisecond to midnight of day 10001, reserved bits set
+  bench.sdo(both);
+  CHECK(bench.wait(1s) == Frames{"100: E7 03 00 00 11 27"});
+}
+
+TEST_CASE("The time runs on while none is sent") {
+  Bench bench;
+  bench.wait(100ms);
+  bench.sdo(consume);
+  bench.send("100: 00 00 00 00 01 00");
+  bench.wait(4s);
+  bench.sdo(both);
+  CHECK(bench.wait(1s) == Frames{"100: 88 13 00 00 01 00"});
+}
