@@ -109,7 +109,9 @@ DefectTable pdo_receive_traffic_defects() {
       {"rpdo-processed-when-stopped",
        "RPDOs are processed in Stopped",
        {"PDO-RX-02"},
-       works_also(Service::rpdo, NmtState::stopped)},
+       together(works_also(Service::rpdo, NmtState::stopped), misreads([](Parts& parts, Frame& frame) {
+                  if (parts.device.state == NmtState::stopped) parts.pdos.on_frame(frame);
+                }))},
       {"rpdo-dead-after-stop",
        "Once the device was stopped RPDOs are not processed any more",
        {"PDO-RX-02"},
@@ -125,12 +127,12 @@ DefectTable pdo_receive_traffic_defects() {
        {"OD-1400-09"},
        decides_for(last_pdo, rpdo_traffic, &ReceivePdoRules::valid,
                    [](const auto&, const PdoParameters&) { return true; })},
-      {"rpdo-second-stays-on-its-can-id",
-       "The second RPDO is received on its default CAN-ID, wherever it was moved",
+      {"rpdo-last-stays-on-its-can-id",
+       "The last RPDO is received on its default CAN-ID, wherever it was moved",
        {"OD-1400-11"},
        misreads([](Parts& parts, Frame& frame) {
-         if (frame.id == 0x300U + parts.device.node_id)
-           frame.id = static_cast<std::uint32_t>(parts.device.dictionary.number(0x1401, 1) & 0x7FFU);
+         if (frame.id == 0x500U + parts.device.node_id)
+           frame.id = static_cast<std::uint32_t>(parts.device.dictionary.number(0x1403, 1) & 0x7FFU);
        })},
       {"rpdo-back-to-back-lost",
        "Of two RPDOs in frames without a pause the second one is lost",
