@@ -45,6 +45,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::string access_of(Multiplexer object) const override;
   [[nodiscard]] bool may_change(Multiplexer object) const override;
   [[nodiscard]] bool is_integer(Multiplexer object) const override;
+  [[nodiscard]] std::optional<bool> is_placeholder(Index type) const override;
   [[nodiscard]] bool claims(std::string_view feature) const override;
   [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }

@@ -80,6 +80,15 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
     TreePtr out = node;
     return negative != (word == "absent") ? negate(out) : out;
   }
+  // "is an allowed placeholder", "is a forbidden placeholder"
+  if ((word == "a" || word == "an") && in.peek(2) == "placeholder" &&
+      (in.peek(1) == "allowed" || in.peek(1) == "forbidden")) {
+    in.take();
+    node->kind = in.take() == "allowed" ? Kind::placeholder : Kind::no_placeholder;
+    in.take();
+    TreePtr out = node;
+    return negative ? negate(out) : out;
+  }
   if (word == "an" && in.peek(1) == "integer") {
     in.take();
     in.take();
@@ -351,6 +360,8 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
                                  [&](Declared what) { return facts.declared(*object, what).has_value(); });
     case Kind::integer: return facts.is_integer(*object);
     case Kind::access: return facts.access_of(*object) == node.word;
+    case Kind::placeholder: return facts.is_placeholder(object->index) == std::optional(true);
+    case Kind::no_placeholder: return facts.is_placeholder(object->index) == std::optional(false);
     case Kind::remaps: return facts.has_variable_mapping(*object);
     default: return facts.may_change(*object);
   }
@@ -426,6 +437,8 @@ std::vector<std::string_view> condition_forms() {
           "1017h:00 is readable",
           "1017h:00 is const",
           "$object may change by itself",
+          "$type is an allowed placeholder",
+          "$type is a forbidden placeholder",
           "1017h:00 is an integer",
           "1018h:03 has a default",
           "$object has a low limit",
