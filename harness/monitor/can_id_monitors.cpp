@@ -38,8 +38,7 @@ class CanIds final : public Monitor {
       case Subject::data:
       case Subject::foreign_request: break;
       case Subject::remote:
-        // The node guarding master asks the device, and does so with its CAN-ID.
-        if (follower.may_be_own(seen.key())) return;
+        if (may_ask(seen.key(), follower)) return;
         break;
       default: return;
     }
@@ -56,7 +55,8 @@ class CanIds final : public Monitor {
  protected:
   void on_end(const Follower& follower) override {
     for (const auto& [key, strange] : strange_) {
-      if (!follower.may_be_own(key.first)) judge(key.first, strange, follower);
+      const bool explained = key.second ? may_ask(key.first, follower) : follower.may_be_own(key.first);
+      if (!explained) judge(key.first, strange, follower);
     }
   }
 
@@ -65,6 +65,15 @@ class CanIds final : public Monitor {
     std::size_t count = 0, index = 0;
     can::Frame frame;
   };
+
+  /// For an RPDO of the device. Who asks the device itself is somebody else.
+  static bool may_ask(Entries::Key key, const Follower& follower) {
+    bool out = key == 0x700U + follower.facts().node.value();
+    follower.entries().for_holders(key, [&](std::uint16_t index) {
+      out = out || (index >= 0x1400 && index <= 0x15FF) || is_tpdo(index);
+    });
+    return out;
+  }
 
   void judge(Entries::Key key, const Strange& strange, const Follower& follower) {
     const auto& frame = strange.frame;

@@ -25,7 +25,10 @@ void Entries::asked(Multiplexer object, BusTime time) {
   if (!concerns(object)) return;
   const auto index = object.index.value();
   // Restored defaults may be in force at once, and a program that starts has its own.
-  if (index == 0x1011 || (index >= 0x1F50 && index <= 0x1F5F)) return forget();
+  if (index == 0x1011 || (index >= 0x1F50 && index <= 0x1F5F)) {
+    restored_ = true;
+    return forget();
+  }
   auto& entry = entries_[key_of(object)];
   if (entry.doubts < 0xFF) ++entry.doubts;
   touched_[index] = time;
@@ -75,14 +78,28 @@ void Entries::absent(Multiplexer object) {
 }
 
 void Entries::forget() {
+  for (const auto& [place, entry] : entries_) {
+    if (entry.doubts > 0) open_.insert(place);
+  }
   entries_.clear();
+}
+
+bool Entries::never_had(std::uint16_t index, std::uint8_t sub, std::uint32_t bits) const {
+  const auto place = key_of(index, sub);
+  const auto found = seen_bits_.find(place);
+  if (found == seen_bits_.end() || (found->second & bits) != 0 || restored_ || open_.contains(place)) return false;
+  const auto entry = entries_.find(place);
+  return entry == entries_.end() || entry->second.doubts == 0;
 }
 
 void Entries::note(Multiplexer object, std::uint32_t value) {
   auto& most = most_[key_of(object)];
   most = std::max(most, value);
+  seen_bits_[key_of(object)] |= value;
   if (!canopen::cob_id_kind(object)) return;
   const auto key = canopen::is_extended(CobId{value}) ? value & id_and_format : value & canopen::cob_id::base_id_mask;
+  // What is not used holds anything, 000h most of all.
+  if (canopen::is_restricted(CanId{key}) && !is_active(object, value)) return;
   held_.insert(key);
   held_by_.emplace(key, object.index.value());
 }

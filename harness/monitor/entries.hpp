@@ -43,6 +43,8 @@ class Entries {
   [[nodiscard]] bool is_zero(std::uint16_t index, std::uint8_t sub) const;
   /// The largest value that was ever seen, 0 where there is none.
   [[nodiscard]] std::uint32_t most(std::uint16_t index, std::uint8_t sub) const;
+  /// The entry was seen, and no value that it may have had before or after a reset has one of these bits set.
+  [[nodiscard]] bool never_had(std::uint16_t index, std::uint8_t sub, std::uint32_t bits) const;
   /// Whether a COB-ID entry of the device ever held this CAN-ID.
   [[nodiscard]] bool ever_held(Key can_id) const { return held_.contains(can_id); }
   /// ... this one.
@@ -67,6 +69,9 @@ class Entries {
 
   std::map<Place, Entry> entries_;
   std::map<Place, std::uint32_t> most_;
+  std::map<Place, std::uint32_t> seen_bits_;  ///< of all values
+  std::set<Place> open_;                      ///< downloads of which nobody knows what became of them
+  bool restored_ = false;                     ///< defaults may have come back that nobody has seen
   std::map<std::uint16_t, BusTime> touched_;  ///< by index
   std::set<Place> absent_;
   std::set<Key> held_;

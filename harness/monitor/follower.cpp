@@ -90,12 +90,12 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   return now_;
 }
 
-/// A node that is not the device shows itself by what only another one sends.
+/// A node that is not the device shows itself by what only another one sends: also by asking the device.
 void Follower::look_at_sender() {
   const auto& frame = now_.frame();
   if (frame.extended) return;
   if (frame.remote) {
-    others_ = others_ || frame.id == 0x700U + facts_.node.value();
+    others_ = others_ || (frame.id > 0x180 && may_be_own(frame.id));
     return;
   }
   const auto id = frame.id;

@@ -57,7 +57,11 @@ Holder holder(const Follower& follower, std::uint16_t index, Entries::Key can_id
   const bool likely =
       !entries.is_absent(index, sub) &&
       (predefined(index, follower.facts().node) == can_id || entries.ever_held(index, can_id));
-  return {index, likely ? Held::maybe : Held::no, nullptr};
+  if (!likely) return {index, Held::no, nullptr};
+  // What has never been a producer is none after a reset.
+  const bool producer = index == 0x1005 || index == 0x1012;
+  const bool off = producer && entries.never_had(index, sub, cob_id::bit30);
+  return {index, off ? Held::off : Held::maybe, nullptr};
 }
 
 std::vector<Holder> holders(const Follower& follower, Entries::Key can_id) {

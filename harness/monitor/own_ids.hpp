@@ -21,7 +21,7 @@ enum class Held : std::uint8_t {
 struct Holder {
   std::uint16_t index = 0;
   Held held = Held::no;
-  const Entries::Entry* entry = nullptr;  ///< nullptr with `maybe`
+  const Entries::Entry* entry = nullptr;  ///< nullptr where it is not known, but at most guessed
 };
 
 /// The entry with the COB-ID that the object sends with.

@@ -84,7 +84,9 @@ class Tpdos final : public Monitor {
       return;
     }
     BusTime since{};
-    for (const auto& each : found) since = std::max(since, each.entry->since);
+    for (const auto& each : found) {
+      if (each.entry != nullptr) since = std::max(since, each.entry->since);
+    }
     if (!follower.nmt().is_newer(seen.time(), since)) return;
     accuse(valid, own, seen, "a TPDO", "silence",
            fmt::format("bit 31 of {:X}h:01 is 1: the PDO does not exist", found.front().index));
@@ -133,6 +135,7 @@ class TpdoTriggers final : public Monitor {
     } else if (seen.subject == Subject::data) {
       if (is_sync(seen, follower)) {
         ++syncs_;
+        burst_ = seen.time() > sync_at_ + forgotten ? 1 : burst_ + 1;
         sync_at_ = seen.time();
       }
       if (!seen.received()) return;
@@ -190,7 +193,7 @@ class TpdoTriggers final : public Monitor {
     // Some send all their PDOs once when they become Operational.
     if (!by_sync && nmt.ordered_at() && seen.time() <= *nmt.ordered_at() + initial) return;
     const auto asked = last.requests - before.requests;
-    std::uint64_t credit = before.known ? before.credit : 1;
+    std::uint64_t credit = before.known ? before.credit : std::max<std::uint64_t>(1, by_sync ? burst_ : 0);
     if (by_sync && syncs_ > 0 && nmt.made_since(seen.time()) > sync_at_ + forgotten) credit = 0;
     if (before.known) credit += asked + (by_sync ? syncs_ - before.syncs : 0);
     const std::size_t requirement = type == 0     ? sync_and_event
@@ -229,7 +232,7 @@ class TpdoTriggers final : public Monitor {
 
   static constexpr Duration initial = std::chrono::seconds(1);
   static constexpr Duration forgotten = std::chrono::seconds(1);
-  std::uint64_t syncs_ = 0;
+  std::uint64_t syncs_ = 0, burst_ = 0;  ///< all, and those without a long pause
   BusTime sync_at_{};
   std::map<Entries::Key, std::uint64_t> requests_;
   std::map<std::uint16_t, Tpdo> tpdos_;

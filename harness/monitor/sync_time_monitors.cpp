@@ -36,7 +36,7 @@ class SyncProducer final : public Monitor {
     const auto found = from(seen, follower, 0x1005);
     if (!found) return;
     if (found->held == Held::off) {
-      if (follower.nmt().is_newer(seen.time(), found->entry->since))
+      if (found->entry == nullptr || follower.nmt().is_newer(seen.time(), found->entry->since))
         accuse(off, seen, "a SYNC", "silence", "bit 30 of 1005h is 0: the device does not generate SYNC");
       return;
     }
@@ -125,7 +125,7 @@ class TimeProducer final : public Monitor {
     const auto found = from(seen, follower, 0x1012);
     if (!found) return;
     if (found->held == Held::off) {
-      if (follower.nmt().is_newer(seen.time(), found->entry->since))
+      if (found->entry == nullptr || follower.nmt().is_newer(seen.time(), found->entry->since))
         accuse(off, seen, "a TIME message", "silence", "bit 30 of 1012h is 0: the device does not produce TIME");
       return;
     }

@@ -112,7 +112,7 @@ DefectTable emergency_defects() {
                })},
       {"emcy-register-empty-for-sync-and-rpdo",
        "EMCY 82xxh shows 00h as error register",
-       {"EMCY-FMT-03", "EMCY-FMT-04"},
+       {"EMCY-FMT-04", "EMCY-FMT-03"},
        reshape(Service::emergency,
                [](const FilterContext&, Frame& frame) {
                  if (frame.data[1] == 0x82) frame.data[2] = 0x00;
