@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Monitors of what a device has no business to send: CAN-IDs that are not its own, commands, requests, and LSS
-// answers that nobody asked for.
+// Monitors of what a device has no business to send: CAN-IDs that are not its own, commands, requests, and
+// LSS answers that nobody asked for.
 #include <fmt/format.h>
 
 #include <map>
@@ -20,8 +20,8 @@ using result::Verdict;
 
 constexpr std::uint32_t lss_request = 0x7E5;
 
-/// A frame is judged when the whole trace is known: a COB-ID that comes to light later, or a node that is heard
-/// later, explains it.
+/// A frame is judged when the whole trace is known: a COB-ID that comes to light later, or a node that is
+/// heard later, explains it.
 class CanIds final : public Monitor {
  public:
   using Monitor::Monitor;
@@ -83,9 +83,10 @@ class CanIds final : public Monitor {
     const bool guards = frame.remote && !frame.extended && frame.id > 0x700 && frame.id < 0x780;
     if (key == canopen::nmt_can_id.value() || key == lss_request || guards) {
       if (master) return;
-      return put(commands, strange, guards            ? "a guard request"
-                                    : key == lss_request ? "an LSS command"
-                                                         : "an NMT command",
+      return put(commands, strange,
+                 guards               ? "a guard request"
+                 : key == lss_request ? "an LSS command"
+                                      : "an NMT command",
                  "silence: a slave commands nobody");
     }
     if (frame.remote) return put(remote_frames, strange, "a remote frame", "only for RPDOs of the device");
@@ -166,7 +167,7 @@ class LssAnswers final : public Monitor {
 
   static constexpr Duration idle = std::chrono::seconds(2);
   static constexpr Duration patience = std::chrono::seconds(30);  // to store takes its time
-  std::size_t open_ = 1;  // asked before the trace began
+  std::size_t open_ = 1;                                          // asked before the trace began
   bool lost_ = true;
   BusTime asked_at_{};
 };

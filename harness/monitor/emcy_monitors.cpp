@@ -22,9 +22,8 @@ constexpr std::uint16_t emcy_index = 0x1014;
 /// The object is the one that may have sent the frame.
 bool is_emcy(const std::vector<Holder>& found, Held held) {
   return !other_holder(found, emcy_index, emcy_index) &&
-         std::ranges::any_of(found, [held](const Holder& each) {
-           return each.index == emcy_index && each.held == held;
-         });
+         std::ranges::any_of(
+             found, [held](const Holder& each) { return each.index == emcy_index && each.held == held; });
 }
 bool is_emcy(const Observation& seen, const Follower& follower) {
   if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return false;
@@ -80,8 +79,9 @@ class Emergencies final : public Monitor {
     }
     if (frame.size() < 3) return;
     const auto code = code_of(seen);
-    constexpr std::array<unsigned, 21> classes{0x00, 0x10, 0x20, 0x21, 0x22, 0x23, 0x30, 0x31, 0x32, 0x33, 0x40,
-                                               0x41, 0x42, 0x50, 0x60, 0x61, 0x62, 0x63, 0x70, 0x80, 0x81};
+    constexpr std::array<unsigned, 21> classes{0x00, 0x10, 0x20, 0x21, 0x22, 0x23, 0x30,
+                                               0x31, 0x32, 0x33, 0x40, 0x41, 0x42, 0x50,
+                                               0x60, 0x61, 0x62, 0x63, 0x70, 0x80, 0x81};
     const auto high = code >> 8U;
     if (std::ranges::find(classes, high) != classes.end() || high == 0x82 || high == 0x90 || high == 0xF0 ||
         high == 0xFF) {
@@ -113,8 +113,8 @@ class Emergencies final : public Monitor {
     const Duration least = time->value * std::chrono::microseconds(100);
     const auto distance = seen.time() - *before;
     if (distance >= least - least / 4 - std::chrono::milliseconds(5)) return good(inhibit);
-    accuse(inhibit, seen, to_string(Duration(distance)) + " after the last one", "at least " + to_string(least),
-           fmt::format("1015h holds {}", time->value));
+    accuse(inhibit, seen, to_string(Duration(distance)) + " after the last one",
+           "at least " + to_string(least), fmt::format("1015h holds {}", time->value));
   }
 
   /// On a CAN-ID that the node-ID does not give it may be somebody else's.
@@ -182,9 +182,10 @@ class ErrorObjects final : public Monitor {
     const auto sub = seen.read->object.sub.value();
     const auto& entries = follower.entries();
     // Without EMCY, or in its inhibit time, errors come and go and nobody tells.
-    if (entries.touched(emcy_index, 0x1015) > last_->time || entries.touched(0x1003, 0x1003) > last_->time) return;
-    const Duration inhibit = std::min<std::uint32_t>(entries.most(0x1015, 0), 0xFFFF) *
-                             std::chrono::microseconds(100);
+    if (entries.touched(emcy_index, 0x1015) > last_->time || entries.touched(0x1003, 0x1003) > last_->time)
+      return;
+    const Duration inhibit =
+        std::min<std::uint32_t>(entries.most(0x1015, 0), 0xFFFF) * std::chrono::microseconds(100);
     const auto after = asked_at_ - last_->time - inhibit;
     if (after < follower.facts().nmt_time) return;
     const auto value = seen.read->value;

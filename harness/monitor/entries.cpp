@@ -8,6 +8,7 @@
 namespace conform::monitor {
 namespace {
 
+constexpr Index restore{0x1011};
 constexpr std::uint32_t id_and_format = canopen::cob_id::extended_frame | canopen::cob_id::can_id_mask;
 
 bool is_active(Multiplexer object, std::uint32_t value) {
@@ -25,8 +26,8 @@ void Entries::asked(Multiplexer object, BusTime time) {
   if (!concerns(object)) return;
   const auto index = object.index.value();
   // Restored defaults may be in force at once, and a program that starts has its own.
-  if (index == 0x1011 || (index >= 0x1F50 && index <= 0x1F5F)) {
-    restored_ = true;
+  if (object.index == restore || (index >= 0x1F50 && index <= 0x1F5F)) {
+    restoring_ = true;
     return forget();
   }
   auto& entry = entries_[key_of(object)];
@@ -42,6 +43,7 @@ void Entries::asked(Multiplexer object, BusTime time) {
 
 void Entries::written(Multiplexer object, std::uint32_t value, BusTime time) {
   if (!concerns(object)) return;
+  restored_ = restored_ || object.index == restore;
   const auto found = entries_.find(key_of(object));
   if (found == entries_.end()) return;  // forgotten since the request
   auto& entry = found->second;
@@ -49,14 +51,14 @@ void Entries::written(Multiplexer object, std::uint32_t value, BusTime time) {
   if (is_active(object, value)) {
     // Bits 0 to 29 are locked while the service is active, and the change may be confirmed without effect.
     const bool was_known = entry.known && entry.doubts <= 1;
-    certain =
-        was_known && (!is_active(object, entry.value) || ((entry.value ^ value) & id_and_format) == 0);
+    certain = was_known && (!is_active(object, entry.value) || ((entry.value ^ value) & id_and_format) == 0);
   }
   entry = {.value = value, .since = time, .by_write = true, .known = certain, .doubts = 0};
   note(object, value);
 }
 
 void Entries::refused(Multiplexer object, BusTime time) {
+  if (object.index == restore) restoring_ = false;
   const auto found = entries_.find(key_of(object));
   if (found == entries_.end()) return;
   auto& entry = found->second;
@@ -87,7 +89,9 @@ void Entries::forget() {
 bool Entries::never_had(std::uint16_t index, std::uint8_t sub, std::uint32_t bits) const {
   const auto place = key_of(index, sub);
   const auto found = seen_bits_.find(place);
-  if (found == seen_bits_.end() || (found->second & bits) != 0 || restored_ || open_.contains(place)) return false;
+  if (found == seen_bits_.end() || (found->second & bits) != 0 || restored_ || restoring_ ||
+      open_.contains(place))
+    return false;
   const auto entry = entries_.find(place);
   return entry == entries_.end() || entry->second.doubts == 0;
 }
@@ -97,7 +101,8 @@ void Entries::note(Multiplexer object, std::uint32_t value) {
   most = std::max(most, value);
   seen_bits_[key_of(object)] |= value;
   if (!canopen::cob_id_kind(object)) return;
-  const auto key = canopen::is_extended(CobId{value}) ? value & id_and_format : value & canopen::cob_id::base_id_mask;
+  const auto key =
+      canopen::is_extended(CobId{value}) ? value & id_and_format : value & canopen::cob_id::base_id_mask;
   // What is not used holds anything, 000h most of all.
   if (canopen::is_restricted(CanId{key}) && !is_active(object, value)) return;
   held_.insert(key);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the trace shows of the communication parameters: values that were uploaded, or downloaded and confirmed.
-// A reset brings back values that nobody has seen, so that they are unknown again.
+// What the trace shows of the communication parameters: values that were uploaded, or downloaded and
+// confirmed. A reset brings back values that nobody has seen, so that they are unknown again.
 #pragma once
 
 #include <cstdint>
@@ -54,10 +54,12 @@ class Entries {
   /// Calls `use` with the index of every object that ever held this CAN-ID.
   template <typename Use>
   void for_holders(Key can_id, Use use) const {
-    for (auto each = held_by_.lower_bound({can_id, 0}); each != held_by_.end() && each->first == can_id; ++each)
+    for (auto each = held_by_.lower_bound({can_id, 0}); each != held_by_.end() && each->first == can_id;
+         ++each)
       use(each->second);
   }
-  /// When a parameter of the service was last asked to change; these are the first and last index of its objects.
+  /// When a parameter of the service was last asked to change; these are the first and last index of its
+  /// objects.
   [[nodiscard]] BusTime touched(std::uint16_t first, std::uint16_t last) const;
 
  private:
@@ -71,7 +73,9 @@ class Entries {
   std::map<Place, std::uint32_t> most_;
   std::map<Place, std::uint32_t> seen_bits_;  ///< of all values
   std::set<Place> open_;                      ///< downloads of which nobody knows what became of them
-  bool restored_ = false;                     ///< defaults may have come back that nobody has seen
+  /// Defaults may have come back that nobody has seen: by a confirmed command, by one that is not answered
+  /// yet.
+  bool restored_ = false, restoring_ = false;
   std::map<std::uint16_t, BusTime> touched_;  ///< by index
   std::set<Place> absent_;
   std::set<Key> held_;

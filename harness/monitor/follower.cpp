@@ -104,8 +104,8 @@ void Follower::look_at_sender() {
     heard_ids_.set(id);
   } else if (id == canopen::sync_can_id.value() || id == canopen::time_can_id.value()) {
     // Who goes on while the device boots is somebody else.
-    others_ = others_ || (nmt_.booting() && !nmt_.overdue(now_.time()) &&
-                          nmt_.is_newer(now_.time(), nmt_.reset_at()));
+    others_ = others_ ||
+              (nmt_.booting() && !nmt_.overdue(now_.time()) && nmt_.is_newer(now_.time(), nmt_.reset_at()));
   }
 }
 
@@ -215,7 +215,8 @@ void Follower::note_download(const can::Frame& frame, BusTime time) {
 /// What a refusal says of an entry.
 void Follower::learn(const SdoAnswer& answer) {
   const auto& frame = now_.frame();
-  if (answer.to != SdoAnswer::To::request || !answer.mux || !answer.mux->right || frame.data[0] != 0x80) return;
+  if (answer.to != SdoAnswer::To::request || !answer.mux || !answer.mux->right || frame.data[0] != 0x80)
+    return;
   const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4))));
   if (answer.asked == Asked::download) entries_.refused(answer.mux->got, now_.time());
   if (answer.asked == Asked::upload &&

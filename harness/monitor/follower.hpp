@@ -84,8 +84,8 @@ class Follower {
   [[nodiscard]] const Facts& facts() const { return facts_; }
   /// So far. Where the trace does not tell the senders, everybody may be there.
   [[nodiscard]] bool others_heard() const;
-  /// The device may send with this CAN-ID: by the pre-defined connection set, for whatever node-ID it was given,
-  /// or by a COB-ID that it ever held.
+  /// The device may send with this CAN-ID: by the pre-defined connection set, for whatever node-ID it was
+  /// given, or by a COB-ID that it ever held.
   [[nodiscard]] bool may_be_own(Entries::Key can_id) const;
 
  private:

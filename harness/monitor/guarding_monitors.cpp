@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The monitor of node guarding. Boot-up message, heartbeat and guard reply have one CAN-ID: only where 1017h is
-// known to be 0 everything else than the boot-up message is a reply.
+// The monitor of node guarding. Boot-up message, heartbeat and guard reply have one CAN-ID: only where 1017h
+// is known to be 0 everything else than the boot-up message is a reply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,15 +97,17 @@ class Guarding final : public Monitor {
     if (!wanted) return;
     if (got == *wanted) return good(requirement);
     if (!bad(requirement)) return;
-    tell(requirement, seen, fmt::format("toggle bit {}", int{got}), fmt::format("toggle bit {}", int{*wanted}),
-         requirement == toggle ? "it alternates with every reply" : "it begins with 0 after the boot-up message");
+    tell(requirement, seen, fmt::format("toggle bit {}", int{got}),
+         fmt::format("toggle bit {}", int{*wanted}),
+         requirement == toggle ? "it alternates with every reply"
+                               : "it begins with 0 after the boot-up message");
   }
 
   static constexpr int most_open = 64;
   static constexpr Duration guarded_for = std::chrono::seconds(5);
-  int requests_ = most_open;     ///< that may still be answered; those before the trace, too
-  std::optional<bool> wanted_;   ///< the next toggle bit
-  bool fresh_ = false;           ///< no reply since the boot-up message
+  int requests_ = most_open;    ///< that may still be answered; those before the trace, too
+  std::optional<bool> wanted_;  ///< the next toggle bit
+  bool fresh_ = false;          ///< no reply since the boot-up message
   BusTime replied_at_{};
   std::optional<BusTime> requested_at_;
 };

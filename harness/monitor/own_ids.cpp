@@ -16,8 +16,8 @@ bool sends(std::uint16_t index) {
          (index >= 0x1200 && index <= 0x12FF);
 }
 
-/// Whether the service sends with this value: SYNC and TIME are produced with bit 30, all others are not valid
-/// with bit 31.
+/// Whether the service sends with this value: SYNC and TIME are produced with bit 30, all others are not
+/// valid with bit 31.
 bool is_on(std::uint16_t index, std::uint32_t value) {
   if (index == 0x1005 || index == 0x1012) return (value & cob_id::bit30) != 0;
   return (value & cob_id::bit31) == 0;
@@ -54,9 +54,8 @@ Holder holder(const Follower& follower, std::uint16_t index, Entries::Key can_id
                                                         : Held::off;
     return {index, held, entry};
   }
-  const bool likely =
-      !entries.is_absent(index, sub) &&
-      (predefined(index, follower.facts().node) == can_id || entries.ever_held(index, can_id));
+  const bool likely = !entries.is_absent(index, sub) && (predefined(index, follower.facts().node) == can_id ||
+                                                         entries.ever_held(index, can_id));
   if (!likely) return {index, Held::no, nullptr};
   // What has never been a producer is none after a reset.
   const bool producer = index == 0x1005 || index == 0x1012;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the device's services may have sent a frame: by the COB-IDs that the trace shows, and where it shows
-// none by the pre-defined connection set (CiA 301, 7.3.3).
+// Which of the device's services may have sent a frame: by the COB-IDs that the trace shows, and where it
+// shows none by the pre-defined connection set (CiA 301, 7.3.3).
 #pragma once
 
 #include <cstdint>

@@ -123,7 +123,8 @@ class Tpdos final : public Monitor {
   }
 };
 
-/// What a TPDO is sent for. SYNCs and remote frames are counted; who is late may use those that came meanwhile.
+/// What a TPDO is sent for. SYNCs and remote frames are counted; who is late may use those that came
+/// meanwhile.
 class TpdoTriggers final : public Monitor {
  public:
   using Monitor::Monitor;
@@ -193,9 +194,11 @@ class TpdoTriggers final : public Monitor {
     // Some send all their PDOs once when they become Operational.
     if (!by_sync && nmt.ordered_at() && seen.time() <= *nmt.ordered_at() + initial) return;
     const auto asked = last.requests - before.requests;
-    std::uint64_t credit = before.known ? before.credit : std::max<std::uint64_t>(1, by_sync ? burst_ : 0);
-    if (by_sync && syncs_ > 0 && nmt.made_since(seen.time()) > sync_at_ + forgotten) credit = 0;
-    if (before.known) credit += asked + (by_sync ? syncs_ - before.syncs : 0);
+    std::uint64_t credit = std::max<std::uint64_t>(1, by_sync ? burst_ : 0);
+    if (before.known) {
+      const bool idle = by_sync && syncs_ > 0 && nmt.made_since(seen.time()) > sync_at_ + forgotten;
+      credit = (idle ? 0 : before.credit) + asked + (by_sync ? syncs_ - before.syncs : 0);
+    }
     const std::size_t requirement = type == 0     ? sync_and_event
                                     : type == 1   ? every_sync
                                     : type == 252 ? sampled
@@ -206,7 +209,8 @@ class TpdoTriggers final : public Monitor {
     if (credit > 0) return good(requirement);
     last.credit = 0;
     if (!bad_if_alone(requirement)) return;
-    tell_if_alone(requirement, seen, "a TPDO", by_sync ? "silence until the next SYNC" : "silence until it is asked",
+    tell_if_alone(requirement, seen, "a TPDO",
+                  by_sync ? "silence until the next SYNC" : "silence until it is asked",
                   fmt::format("the transmission type is {}, and no {} came since the last one", hex(type, 2),
                               by_sync ? "SYNC" : "remote frame"));
   }
@@ -226,8 +230,7 @@ class TpdoTriggers final : public Monitor {
     if (distance >= least - least / 4 - std::chrono::milliseconds(5)) return good(inhibit);
     if (!bad_if_alone(inhibit)) return;
     tell_if_alone(inhibit, seen, to_string(Duration(seen.time() - before.sent)) + " after the last one",
-                  "at least " + to_string(least),
-                  fmt::format("{:X}h:03 holds {}", tpdo.index, time->value));
+                  "at least " + to_string(least), fmt::format("{:X}h:03 holds {}", tpdo.index, time->value));
   }
 
   static constexpr Duration initial = std::chrono::seconds(1);

@@ -301,8 +301,8 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
   if (wanted && code != canopen::abort::command_specifier) {
     out.mux = compare(*wanted, frame);
   } else if (transfer_.kind != Kind::unclear && (pending.has_multiplexer() || pending.data[0] >> 5U == 7)) {
-    // An unknown command specifier belongs to no object: the one in its place, or that of the transfer it ends. A
-    // segment without a transfer has none in that place.
+    // An unknown command specifier belongs to no object: the one in its place, or that of the transfer it
+    // ends. A segment without a transfer has none in that place.
     const auto named = object_of(pending.data), got = multiplexer_of(frame);
     const bool open = transfer_.kind != Kind::none;
     const bool right = got == named || got == Multiplexer{} || (open && got == transfer_.object);

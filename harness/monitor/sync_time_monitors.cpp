@@ -22,7 +22,8 @@ bool is_stopped(const Observation& seen, const Follower& follower) {
 std::optional<Holder> from(const Observation& seen, const Follower& follower, std::uint16_t index) {
   if (seen.subject != Subject::data || !seen.received()) return std::nullopt;
   const auto found = holder(follower, index, seen.key());
-  if (found.held == Held::no || other_holder(holders(follower, seen.key()), index, index)) return std::nullopt;
+  if (found.held == Held::no || other_holder(holders(follower, seen.key()), index, index))
+    return std::nullopt;
   return found;
 }
 
@@ -45,7 +46,8 @@ class SyncProducer final : public Monitor {
     if (cycle != nullptr && cycle->value == 0 && follower.nmt().is_newer(seen.time(), cycle->since))
       return accuse(off, seen, "a SYNC", "silence", "1006h holds 0: no SYNC is generated");
     if (cycle != nullptr && cycle->value > 0) good(off);
-    if (is_stopped(seen, follower)) return accuse(stopped, seen, "a SYNC", "silence", "the device was stopped");
+    if (is_stopped(seen, follower))
+      return accuse(stopped, seen, "a SYNC", "silence", "the device was stopped");
     if (cycle != nullptr) judge_period(seen, follower, *cycle, *found->entry);
     judge_counter(seen, follower, *found->entry);
   }
@@ -126,7 +128,8 @@ class TimeProducer final : public Monitor {
     if (!found) return;
     if (found->held == Held::off) {
       if (found->entry == nullptr || follower.nmt().is_newer(seen.time(), found->entry->since))
-        accuse(off, seen, "a TIME message", "silence", "bit 30 of 1012h is 0: the device does not produce TIME");
+        accuse(off, seen, "a TIME message", "silence",
+               "bit 30 of 1012h is 0: the device does not produce TIME");
       return;
     }
     if (found->held != Held::yes) return;

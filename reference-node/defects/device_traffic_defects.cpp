@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of what a node has no business to send: frames of services that it does not have, or that are switched
-// off, and frames that were left in from the days of development.
+// Defects of what a node has no business to send: frames of services that it does not have, or that are
+// switched off, and frames that were left in from the days of development.
 #include <initializer_list>
 
 #include "defects/hooks.hpp"
@@ -73,11 +73,13 @@ DefectTable device_traffic_defects() {
       {"remote-frame-behind-boot-up",
        "The boot-up message is followed by a remote frame with CAN-ID 080h",
        {"CAN-TRF-04"},
-       sends_behind_boot_up([](std::uint8_t) { return conform::can::remote_frame(conform::CanId(0x080), 0); })},
+       sends_behind_boot_up(
+           [](std::uint8_t) { return conform::can::remote_frame(conform::CanId(0x080), 0); })},
       {"slave-guards-another-node",
        "The boot-up message is followed by a guard request to node 126",
        {"NMT-SVC-05"},
-       sends_behind_boot_up([](std::uint8_t) { return conform::can::remote_frame(conform::CanId(0x77E), 1); })},
+       sends_behind_boot_up(
+           [](std::uint8_t) { return conform::can::remote_frame(conform::CanId(0x77E), 1); })},
       {"slave-sends-lss-commands",
        "Becoming Operational brings all LSS slaves into the waiting state",
        {"NMT-SVC-05"},

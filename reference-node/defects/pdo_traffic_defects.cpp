@@ -22,13 +22,12 @@ Change event_timer_sends_on_000h() {
                 return timed || former(pdo);
               }),
       [](Parts& parts) {
-        parts.device.outbox.add_filter(
-            [&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
-              if (context.service != Service::tpdo) return;
-              const auto cob_id = parts.device.dictionary.number(0x1800, 1);
-              if ((cob_id & 0x8000'0000U) == 0) return;
-              for (Outgoing& outgoing : frames) outgoing.frame.id = 0;
-            });
+        parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service != Service::tpdo) return;
+          const auto cob_id = parts.device.dictionary.number(0x1800, 1);
+          if ((cob_id & 0x8000'0000U) == 0) return;
+          for (Outgoing& outgoing : frames) outgoing.frame.id = 0;
+        });
       });
 }
 

@@ -45,11 +45,17 @@ TEST_CASE("29-bit frames and remote frames need an entry that says so") {
 }
 
 TEST_CASE("An LSS slave answers once") {
-  const std::string later = "wait 3 s", inquire = "> 7E5: 5E 00 00 00 00 00 00 00", answer = "< 7E4: 5E 01 00 00 00 00 00 00";
+  const std::string later = "wait 3 s", inquire = "> 7E5: 5E 00 00 00 00 00 00 00",
+                    answer = "< 7E4: 5E 01 00 00 00 00 00 00";
   CHECK(Story().line(later).line(inquire).line(answer).line(inquire).line(answer).told().empty());
   CHECK(Story().line(later).line(inquire).line(answer).line(answer).told() == Told{"fail LSS-GEN-08"});
-  CHECK(Story().line(later).line(inquire).line(answer).line("> 7E5: 04 00 00 00 00 00 00 00").line(answer).told() ==
-        Told{"fail LSS-GEN-08"});
+  CHECK(Story()
+            .line(later)
+            .line(inquire)
+            .line(answer)
+            .line("> 7E5: 04 00 00 00 00 00 00 00")
+            .line(answer)
+            .told() == Told{"fail LSS-GEN-08"});
   CHECK(Story().line(answer).told().empty());
   CHECK(Story().line(inquire).line("< 7E4: 5E 01").told() == Told{"fail LSS-GEN-01"});
   CHECK(Story().line(later).line(inquire).line(answer).line(answer).line(other_node).told().empty());

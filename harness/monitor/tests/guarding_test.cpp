@@ -11,9 +11,20 @@ const std::string ask = "> 701: remote", reset = "> 000: 82 01", boot_up = "< 70
 }
 
 TEST_CASE("Guard replies alternate, beginning with 0") {
-  const auto off = [] { return Story().line(reset).line("wait 20 ms").line(boot_up).read(0x1017, 0, 0).line("wait 200 ms"); };
-  CHECK(off().line(ask).line("< 701: 7F").line(ask).line("< 701: FF").line(ask).line("< 701: 7F").told().empty());
-  CHECK(off().line(ask).line("< 701: 7F").line(ask).line("< 701: FF").verdict("monitor/guarding") == Verdict::pass);
+  const auto off = [] {
+    return Story().line(reset).line("wait 20 ms").line(boot_up).read(0x1017, 0, 0).line("wait 200 ms");
+  };
+  CHECK(off()
+            .line(ask)
+            .line("< 701: 7F")
+            .line(ask)
+            .line("< 701: FF")
+            .line(ask)
+            .line("< 701: 7F")
+            .told()
+            .empty());
+  CHECK(off().line(ask).line("< 701: 7F").line(ask).line("< 701: FF").verdict("monitor/guarding") ==
+        Verdict::pass);
   CHECK(off().line(ask).line("< 701: 7F").line(ask).line("< 701: 7F").told() == Told{"fail EC-NG-02"});
   CHECK(off().line(ask).line("< 701: FF").told() == Told{"fail EC-NG-01"});
   CHECK(off().line(ask).line("< 701: 7F 00").told() == Told{"fail EC-NG-05"});
@@ -24,7 +35,13 @@ TEST_CASE("Guard replies alternate, beginning with 0") {
 
 TEST_CASE("A guard reply is asked for") {
   const auto off = [] { return Story().read(0x1017, 0, 0).line("wait 200 ms"); };
-  CHECK(Story().read(0x1000, 0, 0x191).absent(0x1017, 0).line("< 701: 7F").line("< 701: FF").told().empty());  // asked before the trace
+  CHECK(Story()
+            .read(0x1000, 0, 0x191)
+            .absent(0x1017, 0)
+            .line("< 701: 7F")
+            .line("< 701: FF")
+            .told()
+            .empty());  // asked before the trace
   auto many = off();
   for (int i = 0; i < 64; ++i) many.line(i % 2 == 0 ? "< 701: 7F" : "< 701: FF");
   CHECK(many.told().empty());
@@ -34,6 +51,7 @@ TEST_CASE("A guard reply is asked for") {
 
 TEST_CASE("No guard reply comes beside the heartbeat") {
   CHECK(Story().read(0x1017, 0, 1000).line("wait 200 ms").line(ask).line("< 701: 7F").told().empty());
-  CHECK(Story().read(0x1017, 0, 1000).line("wait 200 ms").line(ask).line("< 701: FF").told() == Told{"fail EC-HBP-12"});
+  CHECK(Story().read(0x1017, 0, 1000).line("wait 200 ms").line(ask).line("< 701: FF").told() ==
+        Told{"fail EC-HBP-12"});
   CHECK(Story().write(0x1017, 0, 1000).line(ask).line("< 701: FF").told().empty());
 }

@@ -10,7 +10,11 @@ namespace {
 const std::string sync_frame = "< 080:", time_frame = "< 100: 00 00 00 00 00 00", stop = "> 000: 02 01";
 
 Story producing(std::uint32_t period) {
-  return Story().write(0x1005, 0, 0x80).write(0x1006, 0, period).write(0x1005, 0, 0x4000'0080).read(0x1019, 0, 0);
+  return Story()
+      .write(0x1005, 0, 0x80)
+      .write(0x1006, 0, period)
+      .write(0x1005, 0, 0x4000'0080)
+      .read(0x1019, 0, 0);
 }
 Story& sends(Story& story, int count, const std::string& pause) {
   for (int i = 0; i < count; ++i) story.line(pause).line(sync_frame);
@@ -25,7 +29,14 @@ TEST_CASE("Who does not produce SYNC sends none, as far as nobody else is there"
   CHECK(Story().later(sync_frame).told().empty());
   CHECK(Story().write(0x1005, 0, 0x80).line(sync_frame).told().empty());
   // Somebody who goes on while the device starts.
-  CHECK(Story().read(0x1005, 0, 0x80).later(sync_frame).line("> 000: 81 01").later(sync_frame).line("< 701: 00").told().empty());
+  CHECK(Story()
+            .read(0x1005, 0, 0x80)
+            .later(sync_frame)
+            .line("> 000: 81 01")
+            .later(sync_frame)
+            .line("< 701: 00")
+            .told()
+            .empty());
   monitor::Facts facts;
   facts.senders_are_known = false;
   CHECK(Story().read(0x1005, 0, 0x80).later(sync_frame).told(facts).empty());
@@ -52,6 +63,7 @@ TEST_CASE("Who does not produce TIME sends none") {
   CHECK(Story().read(0x1012, 0, 0x8000'0100).later(time_frame).told() == Told{"fail TIME-PRO-03"});
   CHECK(Story().read(0x1012, 0, 0x4000'0100).later(time_frame).told().empty());
   CHECK(Story().read(0x1012, 0, 0x4000'0100).line(stop).later(time_frame).told() == Told{"fail TIME-PRO-02"});
-  CHECK(Story().read(0x1012, 0, 0x4000'0100).later("< 100: 00 00 00 F0 00 00").told() == Told{"fail TIME-PRO-01"});
+  CHECK(Story().read(0x1012, 0, 0x4000'0100).later("< 100: 00 00 00 F0 00 00").told() ==
+        Told{"fail TIME-PRO-01"});
   CHECK(Story().later(time_frame).told().empty());
 }

@@ -87,7 +87,8 @@ TEST_CASE("An answer about another object is found, in responses and aborts") {
         Told{"fail SDO-ERR-04 in frame 6"});
 }
 
-TEST_CASE("The abort of an unknown command may name nothing, and that of a segment without transfer anything") {
+TEST_CASE(
+    "The abort of an unknown command may name nothing, and that of a segment without transfer anything") {
   CHECK(told(after_exchanges({"> E0 00 10 00 00 00 00 00", "< 80 00 00 00 01 00 04 05",
                               "> 60 00 00 00 00 00 00 00", "< 80 34 12 00 00 00 00 08",
                               "> A4 00 10 00 7F 00 00 00", "< 80 00 00 00 01 00 04 05"}))
