@@ -57,7 +57,9 @@ std::span<const Defect> defects() {
                                        storage_stamp_defects,
                                        objects_description_defects,
                                        objects_operating_system_defects,
-                                       lss_defects});
+                                       lss_defects,
+                                       pdo_traffic_defects,
+                                       device_traffic_defects});
   return all;
 }
 
