@@ -2,6 +2,9 @@
 #include "cli/proof/mutants.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <ctime>
 #include <random>
 #include <utility>
 
@@ -77,7 +80,23 @@ std::vector<const Mutant*> chosen(std::span<const Mutant> mutants, const MutantO
 
 namespace {
 
-/// A run of the suite, or of the scenarios that take long alone.
+/// Ends a run that has shown enough: a failure, and after it a case that passed, so that the device lived and
+/// the failure is not taken back.
+class Enough : public engine::Observer {
+ public:
+  void case_ended(const result::RunResult& run, std::size_t index) override {
+    const auto verdict = run.cases[index].verdict;
+    if (failed_ && verdict == Verdict::pass) stop_ = SIGTERM;
+    failed_ = failed_ || verdict == Verdict::fail;
+  }
+  [[nodiscard]] const std::atomic<int>& stop() const { return stop_; }
+
+ private:
+  bool failed_ = false;
+  std::atomic<int> stop_ = 0;
+};
+
+/// Runs of the suite, or of the scenarios that take long alone.
 class Trial {
  public:
   Trial(const device::Profile& profile, const scenario::Suite& suite, const scenario::Catalogue& catalogue,
@@ -92,21 +111,48 @@ class Trial {
     }
   }
 
-  [[nodiscard]] Result<Verdicts> run() const {
-    auto run = simulate({}, profile_, suite_, catalogue_, options_, seed_);
+  /// The verdicts of a run to its end.
+  [[nodiscard]] Result<Verdicts> run() const { return run(options_); }
+
+  /// What differs from the verdicts of the node as it should be.
+  [[nodiscard]] std::string difference_from(const Verdicts& good) const {
+    Enough enough;
+    auto options = options_;
+    options.observer = &enough;
+    options.stop = &enough.stop();
+    auto verdicts = run(options);
+    if (!verdicts) return verdicts.error().what;
+    auto out = difference(good, *verdicts);
+    if (enough.stop() == 0 || out.starts_with('!')) return out;
+    verdicts = run(options_);
+    return verdicts ? difference(good, *verdicts) : verdicts.error().what;
+  }
+
+ private:
+  [[nodiscard]] Result<Verdicts> run(const engine::RunOptions& options) const {
+    auto run = simulate({}, profile_, suite_, catalogue_, options, seed_);
     if (!run) return std::unexpected(run.error());
     auto out = verdicts_of(run->result);
     if (run->result.aborted) out[{"the run", "ended: " + *run->result.aborted}] = Verdict::error;
     return out;
   }
 
- private:
   const device::Profile& profile_;
   const scenario::Suite& suite_;
   const scenario::Catalogue& catalogue_;
   std::uint64_t seed_;
   engine::RunOptions options_;
 };
+
+/// Seconds of processor time this process has used.
+double used_seconds() { return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC); }
+
+/// A mutant that takes ten times as long as the node itself hangs.
+ProcessLimits limits_after(double seconds) {
+  ProcessLimits out;
+  out.seconds = 3 + static_cast<unsigned>(10 * seconds);
+  return out;
+}
 
 }  // namespace
 
@@ -121,6 +167,7 @@ Result<std::vector<MutantFate>> run_mutants(const MutantBuild& build, const devi
     if (slow && !options.slow) break;
     const Trial trial(profile, suite, catalogue, options.seed, slow);
     build.turn_on(0);
+    const double before = used_seconds();
     const auto good = trial.run();
     if (!good) return std::unexpected(good.error());
     // What this run does not come to, no run with a mutant comes to: until its place it does what this one
@@ -134,13 +181,13 @@ Result<std::vector<MutantFate>> run_mutants(const MutantBuild& build, const devi
           each.fate = Fate::not_reached;
       }
     }
+    const auto limits = limits_after(used_seconds() - before);
     done = 0;
     const auto endings = in_processes(
-        to_run.size(), options.jobs, options.limits,
+        to_run.size(), options.jobs, limits,
         [&](std::size_t i) {
           build.turn_on(to_run[i]->mutant->number);
-          const auto verdicts = trial.run();
-          return verdicts ? difference(*good, *verdicts) : verdicts.error().what;
+          return trial.difference_from(*good);
         },
         [&](std::size_t) {
           if (options.progress) options.progress(++done, to_run.size());

@@ -46,7 +46,6 @@ struct MutantOptions {
   std::size_t sample = 0;           ///< so many of them, drawn by the seed; 0: all
   unsigned jobs = 0;                ///< processes at a time, 0: as many as the machine has cores
   bool slow = true;  ///< also the scenarios that take long, against those that survive the others
-  ProcessLimits limits{};
   std::function<void(std::size_t done, std::size_t of)> progress{};
 };
 
