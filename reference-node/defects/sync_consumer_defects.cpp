@@ -179,10 +179,11 @@ DefectTable sync_consumer_defects() {
        "Synchronous TPDOs follow their SYNC after 15 ms",
        {"SYNC-CON-09"},
        [](Parts& parts) {
-         parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
-           if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
-           for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(15);
-         });
+         parts.device.outbox.add_filter(
+             [&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+               if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
+               for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(15);
+             });
        }},
       {"sync-off-by-bit-31",
        "With bit 31 of 1005h set no SYNC is taken",
