@@ -162,7 +162,7 @@ DefectTable sync_consumer_defects() {
        })},
       {"sync-dead-after-reset",
        "After a reset no SYNC is taken until 1005h is written",
-       {"SYNC-CON-01"},
+       {"SYNC-CON-01", "PDO-TX-05"},
        deaf_after_reset},
       {"sync-can-id-survives-reset",
        "After a reset SYNC is taken on the CAN-ID that 1005h had before",
