@@ -223,6 +223,14 @@ DefectTable period_rows() {
        {"SYNC-PRO-02", "OD-1005-09"},
        decides(of_producer, &SyncProducerRules::first_after,
                [](const auto& former, Duration period) { return 2 * former(period); })},
+      {"sync-not-begun-by-period",
+       "Writing 1006h does not begin production when bit 30 of 1005h has been set before",
+       {"SYNC-PRO-02"},
+       after_writing(0x1006, 0,
+                     [](Parts& parts, const std::function<void()>& former) {
+                       const bool begun = parts.sync_producer.next_wakeup().has_value();
+                       if (begun || parts.device.dictionary.number(0x1006, 0) == 0) former();
+                     })},
       {"sync-new-period-ignored",
        "A change of 1006h has no effect while SYNC is produced",
        {"OD-1006-05"},
