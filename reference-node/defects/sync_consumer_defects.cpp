@@ -261,7 +261,7 @@ DefectTable sync_consumer_defects() {
        takes_longer_than_the_window()},
       {"1007-zero-closes",
        "With 1007h = 0 synchronous RPDOs are discarded",
-       {"OD-1007-02"},
+       {"OD-1007-02", "PDO-RX-03"},
        decides(of_window, &SyncWindowRules::open,
                [](const auto& former, Duration since_sync, Duration window) {
                  return window != Duration::zero() && former(since_sync, window);
