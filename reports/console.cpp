@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -307,6 +308,27 @@ std::string exit_text(const RunResult& run, int code) {
   }
 }
 
+/// A line for each case of the other tool, its numbers before them.
+void write_compared(Page& page, const RunResult& run) {
+  if (run.compared.empty()) return;
+  page.heading("What CiA's tool would say");
+  constexpr std::size_t label = 20;
+  std::map<std::string_view, std::size_t> tally;
+  for (const auto& each : run.compared) {
+    ++tally[each.outcome];
+    std::string text = each.group + ": " + each.title;
+    if (!each.because.empty()) text += " (" + log_safe(each.because) + ")";
+    page.row(fmt::format("{:6} {}", each.number, each.outcome), text, label);
+  }
+  std::vector<std::string> parts;
+  for (const std::string_view outcome :
+       {"passed", "warning", "failed", "not decided", "skipped", "no counterpart"}) {
+    if (tally[outcome] > 0) parts.push_back(fmt::format("{} {}", tally[outcome], outcome));
+  }
+  page.line();
+  page.line(fmt::format("{} cases of CiA's tool: {}", run.compared.size(), join(parts, ", ")));
+}
+
 void write_totals(Page& page, const RunResult& run) {
   constexpr std::size_t label = 12;
   const Style& style = page.style();
@@ -349,6 +371,7 @@ std::string summary(const RunResult& run, const Style& style) {
   write_subject(page, run);
   write_areas(page, run);
   // The worst comes last: it is what a terminal shows when the run is over.
+  write_compared(page, run);
   write_not_applicable(page, run);
   write_unjudged(page, run);
   const auto causes = result::causes_of(run);

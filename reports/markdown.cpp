@@ -231,6 +231,17 @@ std::string not_applicable_text(const RunResult& run) {
   return text + "\n</details>\n";
 }
 
+/// A row for each case of CiA's tool.
+std::string compared_text(const RunResult& run) {
+  if (run.compared.empty()) return {};
+  std::string text = "\n### What CiA's tool would say\n\n| case | | outcome | |\n|---|---|---|---|\n";
+  for (const auto& each : run.compared) {
+    text += fmt::format("| {} | {}: {} | {} | {} |\n", each.number, escaped(each.group), escaped(each.title),
+                        each.outcome, escaped(each.because));
+  }
+  return text;
+}
+
 std::string facts_text(const RunResult& run) {
   if (run.properties.empty()) return {};
   std::string text = "\n<details><summary>device, bus and run</summary>\n\n| | |\n|---|---|\n";
@@ -254,6 +265,7 @@ std::string markdown(const RunResult& run, const MarkdownOptions& options) {
   const auto causes = result::causes_of(run);
   document.add(causes_text(causes));
   document.add(areas_text(run));
+  document.add(compared_text(run));
   document.add(not_applicable_text(run));
   document.add(facts_text(run));
   for (std::size_t i = 0; i < run.notes.size(); ++i) {

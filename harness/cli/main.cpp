@@ -124,6 +124,8 @@ int dispatch(int argc, char** argv) {
       "--strict", run.strict,
       "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
   run_sub->add_flag("--all-objects", run.all_objects, "Try every object where a scenario would try a sample");
+  run_sub->add_flag("--cct", run.cct,
+                    "Only what corresponds to the cases of CiA's tool, in its order, and what it would say");
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
       ->type_name("NUMBER");
@@ -288,6 +290,18 @@ int dispatch(int argc, char** argv) {
   selftest_sub->add_flag(
       "--edits", selftest.edits,
       "Instead of the defects: break every entry of the dictionary in every way (absent, other length ...)");
+  selftest_sub->add_flag("--mutants", selftest.mutants,
+                         "Instead of the defects: small mistakes at every place of the reference node "
+                         "(canopen-conform-mutants only)");
+  selftest_sub->add_option("--mutant", selftest.mutant, "Only this mutant, room or file; repeatable")
+      ->allow_extra_args(false)
+      ->needs("--mutants")
+      ->type_name("NUMBER|ROOM|FILE");
+  selftest_sub->add_option("--sample", selftest.sample, "Only NUMBER of the mutants, drawn by the seed")
+      ->needs("--mutants")
+      ->type_name("NUMBER");
+  selftest_sub->add_flag("--quick", selftest.quick, "With --mutants: leave out the scenarios that take long")
+      ->needs("--mutants");
   selftest_sub->add_option("-j,--jobs", selftest.jobs, "Threads (default: the machine's cores)")
       ->check(CLI::Range(1, 256))
       ->type_name("NUMBER");
@@ -295,7 +309,7 @@ int dispatch(int argc, char** argv) {
       ->type_name("NUMBER");
   selftest_sub
       ->add_option("--markdown", selftest.markdown,
-                   "Write the matrix of requirements and defects as Markdown")
+                   "Write the matrix of requirements and defects, or the score of the mutants, as Markdown")
       ->type_name("FILE");
 
   BenchCommand bench;

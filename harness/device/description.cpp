@@ -215,6 +215,10 @@ class Describer {
       if (index == 0x1012 && (value & consumes) != 0) out_.claims.emplace("time consumer");
       if (index == 0x1012 && (value & generates) != 0) out_.claims.emplace("time producer");
     }
+    for (const auto& [type, field] : file_.dummy_usage.entries) {
+      if (const auto allowed = eds::flag_of(field); allowed && type <= 0x001B)
+        out_.placeholders.emplace(Index(static_cast<std::uint16_t>(type)), *allowed);
+    }
     if (eds::flag_of(file_.device_info.lss_supported).value_or(false)) out_.claims.emplace("lss");
   }
 
@@ -245,6 +249,7 @@ void add_description(Profile& profile, Description description) {
     if (entry.untouchable) profile.untouchable.push_back(entry.mux);
     if (!std::ranges::binary_search(listed, entry.mux)) profile.objects.push_back(std::move(entry));
   }
+  for (const auto& [type, allowed] : description.placeholders) profile.placeholders.emplace(type, allowed);
   profile.described_in = description.file;
   profile.described_places = std::move(description.places);
   for (const auto& feature : description.claims) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,6 +29,7 @@ struct Description {
       entries;  ///< ascending, all with `claimed` and `described`; defaults without the node-ID
   DescribedPlaces places;
   std::set<std::string, std::less<>> claims;  ///< features that follow from what is described
+  std::map<Index, bool> placeholders;         ///< [DummyUsage]
   std::optional<NodeId> node;                 ///< of a DCF
   std::vector<UnusedText> unused;             ///< at most `most_unused`, the others counted
   std::size_t unused_left_out = 0;

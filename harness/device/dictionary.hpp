@@ -61,7 +61,8 @@ struct Entry {
   bool safe = false;              ///< the profile allows tests to write it, and it can be written
   bool untouchable = false;       ///< the profile, or ObjFlags of the EDS, forbids every write to it
   bool not_to_be_read = false;    ///< ObjFlags of the EDS keep scans off it (CiA 306): it is left alone
-  bool described = false;         ///< what is claimed is the EDS's: Profile::described_places says where
+  std::optional<Multiplexer> wired_input = {};  ///< an output: the entry that shows what is written to it
+  bool described = false;  ///< what is claimed is the EDS's: Profile::described_places says where
 
   [[nodiscard]] Presence presence() const {
     if (category == Category::mandatory) return Presence::claimed_mandatory;

@@ -133,6 +133,9 @@ Dictionary dictionary_of(const Profile& profile) {
           entry->writable() && !entry->access_open && !entry->command && !profile.is_untouchable(listed.mux);
     }
   }
+  for (const Wire& wire : profile.wired) {
+    if (Entry* output = dictionary.find(wire.output)) output->wired_input = wire.input;
+  }
   for (const Multiplexer mux : profile.untouchable) {
     if (Entry* entry = dictionary.find(mux)) {
       entry->untouchable = true;

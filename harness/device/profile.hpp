@@ -48,6 +48,12 @@ struct ErrorTrigger {
   std::optional<NodeId> heartbeat_node;  ///< by the heartbeat of this (otherwise unused) node that stays away
 };
 
+/// What is written to the output shows at the input: the bench is wired so, or the device loops it back.
+struct Wire {
+  Multiplexer output;
+  Multiplexer input;
+};
+
 /// How storing (1010h) and restoring (1011h) are made to fail, for devices that can simulate it.
 struct StoreFault {
   TriggerWrite arm;
@@ -95,6 +101,8 @@ struct Profile {
       objects;  ///< claimed entries in file order, all with `claimed` set; defaults without the node-ID
   std::vector<ErrorTrigger> errors;
   std::optional<StoreFault> store_fault;
+  std::vector<Wire> wired;
+  std::map<Index, bool> placeholders;     ///< data types the description allows or forbids in an RPDO
   std::vector<Multiplexer> safe_objects;  ///< entries that tests may write
   std::vector<Multiplexer> untouchable;   ///< entries no test may write
   bool writes_described =

@@ -136,6 +136,8 @@ class Reader {
     read_objects();
     read_errors();
     read_store_fault();
+    read_wires();
+    read_placeholders();
     profile_.safe_objects = read_entries("safe_objects");
     profile_.untouchable = read_entries("untouchable");
     profile_.power_cycle = fields_.optional("power_cycle").text().value_or("");
@@ -326,6 +328,46 @@ class Reader {
     auto disarm = read_write(fields.required("disarm"), "disarm");
     fields.finish();
     if (arm && disarm) profile_.store_fault = StoreFault{*std::move(arm), *std::move(disarm)};
+  }
+
+  /// A change that reaches an input is an event of the TPDO that carries it, unless the profile denies it.
+  void read_wires() {
+    constexpr std::string_view on_change = "tpdo on change";
+    for (const Field& item : fields_.optional("wired").items()) {
+      Fields fields = item.fields("wire");
+      const auto output = fields.required("output").multiplexer();
+      const auto input = fields.required("input").multiplexer();
+      fields.finish();
+      if (!output || !input) continue;
+      const auto known = [&](Multiplexer mux) {
+        const Entry* own = listed(mux);
+        return own != nullptr ? own->size() : std::optional<std::size_t>();
+      };
+      if (*output == *input) {
+        item.error(fmt::format("{} is wired to itself", to_string(*output)));
+      } else if (known(*output) && known(*input) && known(*output) != known(*input)) {
+        item.error(fmt::format("{} and {} have different lengths", to_string(*output), to_string(*input)),
+                   "an input shows byte for byte what is written to its output");
+      } else if (std::ranges::find(profile_.wired, *output, &Wire::output) != profile_.wired.end()) {
+        item.error(fmt::format("{} is wired twice", to_string(*output)));
+      } else {
+        profile_.wired.push_back({*output, *input});
+      }
+    }
+    if (!profile_.wired.empty() && !profile_.not_claimed.contains(on_change))
+      profile_.claims.insert(std::string(on_change));
+  }
+
+  /// What is not listed is forbidden.
+  void read_placeholders() {
+    constexpr std::uint16_t last = 0x0007;  // what a device can do without is listed up to UNSIGNED32
+    const Field given = fields_.optional("placeholders");
+    if (!given.present()) return;
+    for (std::uint16_t type = 1; type <= last; ++type) profile_.placeholders[Index(type)] = false;
+    for (const Field& item : given.items()) {
+      if (const auto type = item.number(0x0001, 0x001B))
+        profile_.placeholders[Index(static_cast<std::uint16_t>(*type))] = true;
+    }
   }
 
   std::optional<TriggerWrite> read_write(const Field& field, const char* what) {

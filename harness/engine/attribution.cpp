@@ -8,9 +8,11 @@
 namespace conform::engine {
 namespace {
 
-std::vector<const monitor::Rule*> all_rules() {
+std::vector<const monitor::Rule*> rules_of_answers() {
   std::vector<const monitor::Rule*> out;
-  for (const auto& rule : monitor::rules()) out.push_back(&rule);
+  for (const auto& rule : monitor::rules()) {
+    if (!rule.unasked) out.push_back(&rule);
+  }
   return out;
 }
 
@@ -19,7 +21,7 @@ constexpr std::string_view undefined_code = "SDO-ERR-05";
 
 }  // namespace
 
-Attribution::Attribution(const monitor::Facts& facts) : watch_(facts, all_rules()) {
+Attribution::Attribution(const monitor::Facts& facts) : watch_(facts, rules_of_answers()) {
   for (const auto& each : watch_.monitors()) violated_.emplace_back(each->tallies().size(), 0);
 }
 

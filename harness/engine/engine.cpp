@@ -263,7 +263,7 @@ class Run {
     if (monitors_.empty() || !alive_) return;
     life_.note_losses();
     judge_trace(run_.recorder.capture().frames(), monitors_, run_.profile, run_.catalogue,
-                run_.options.strict, life_.losses(), out_, true);
+                run_.options.strict, life_.losses(), out_, {.power = true});
     // The preparation is no test of anything, unless only monitors were asked for.
     const auto scenarios = std::span(out_.cases).first(plan_.size());
     const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };

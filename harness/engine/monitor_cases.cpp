@@ -41,7 +41,10 @@ bool names_a_monitor(const scenario::Selection& selection, const scenario::Catal
 }
 
 monitor::Facts facts_of(const device::Profile& profile) {
-  return {.node = profile.node, .boot_time = profile.boot_time, .nmt_time = profile.nmt_time};
+  return {.node = profile.node,
+          .boot_time = profile.boot_time,
+          .nmt_time = profile.nmt_time,
+          .alone = profile.claimed("only node on the bus")};
 }
 
 void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogue, result::RunResult& out) {
@@ -52,12 +55,13 @@ void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogu
 
 void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
                  const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
-                 std::span<const monitor::Loss> losses, result::RunResult& out, bool power_is_known) {
+                 std::span<const monitor::Loss> losses, result::RunResult& out, Known known) {
   const auto all = std::span(out.cases);
   const auto scenarios = all.first(all.size() - monitors.size());
   const auto own = all.last(monitors.size());
   auto facts = facts_of(profile);
-  facts.power_is_known = power_is_known;
+  facts.power_is_known = known.power;
+  facts.senders_are_known = known.senders;
   monitor::judge(frames, facts, monitors, cap_of(catalogue, strict), losses, scenarios, own);
   for (auto& each : own) accept_known_deviations(profile, catalogue, each);
 }

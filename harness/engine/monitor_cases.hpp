@@ -30,11 +30,15 @@ using Monitors = std::vector<const monitor::Rule*>;
 
 /// Appends the planned cases behind those of the scenarios.
 void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogue, result::RunResult& out);
-/// Judges the trace: the last cases of `out` are those of `monitors`. `power_is_known`: the trace is that of
-/// a run, in which nobody switches the power of the device unseen.
+/// What a trace tells beside its frames.
+struct Known {
+  bool power = false;   ///< it is that of a run, in which nobody switches the power of the device unseen
+  bool senders = true;  ///< which frames the host sent
+};
+/// Judges the trace: the last cases of `out` are those of `monitors`.
 void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
                  const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
-                 std::span<const monitor::Loss> losses, result::RunResult& out, bool power_is_known = false);
+                 std::span<const monitor::Loss> losses, result::RunResult& out, Known known = {});
 
 /// What the monitors passed is open, for the given reason; what they found stays.
 void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why);

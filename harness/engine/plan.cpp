@@ -13,12 +13,14 @@
 namespace conform::engine {
 namespace {
 
-/// `count` of the items, chosen by the seed, in their old order.
+/// `count` of the items, in their old order: the first and the last one, where a device is wrong most easily,
+/// and what the seed chooses between them.
 std::vector<Multiplexer> sample(std::vector<Multiplexer> items, std::size_t count, std::uint64_t seed) {
   if (items.size() <= count) return items;
   std::vector<std::size_t> order(items.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  for (std::size_t i = 0; i < count; ++i) {
+  if (count > 1) std::swap(order[1], order.back());
+  for (std::size_t i = count > 1 ? 2 : 0; i < count; ++i) {
     const auto j = i + static_cast<std::size_t>(next_random(seed) % (order.size() - i));
     std::swap(order[i], order[j]);
   }
@@ -87,6 +89,16 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
         out.push_back(std::move(planned));
       }
     }
+  }
+  if (!options.order.empty()) {
+    const auto place = [&order = options.order](const PlannedCase& planned) {
+      return std::ranges::find(order, planned.scenario->id) - order.begin();
+    };
+    std::erase_if(out, [&](const PlannedCase& planned) {
+      return place(planned) == static_cast<std::ptrdiff_t>(options.order.size());
+    });
+    std::ranges::stable_sort(out, {}, place);
+    return out;
   }
   std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
     // What others rest on is judged before them, as early as its risk allows.

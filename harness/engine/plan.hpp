@@ -29,10 +29,12 @@ struct PlanOptions {
   std::uint64_t seed = 1;    ///< of the sample taken from long queries
   bool all_objects = false;  ///< no sampling
   bool slow = true;          ///< scenarios that take long on a real bus
+  /// Ids of the only scenarios to take, in the order in which they are to run; empty: all, in the own order.
+  std::vector<std::string> order;
 };
 
-/// In the order of the suite, basic scenarios first, then read-only ones, then config, nvm and motion: what
-/// can do harm comes last.
+/// In the order that is given, or in that of the suite, basic scenarios first, then read-only ones, then
+/// config, nvm and motion: what can do harm comes last.
 [[nodiscard]] std::vector<PlannedCase> plan(const scenario::Suite& suite,
                                             const scenario::Catalogue& catalogue,
                                             const device::Dictionary& dictionary, const PlanOptions& options);

@@ -234,7 +234,6 @@ Result<void> RunSession::await_state() {
 Result<void> RunSession::produce(steps::Production production) {
   if (auto allowed = guard_.judge(production.frame); !allowed) return allowed;
   if (auto reached = await_state(); !reached) return reached;
-  guarded_ = guarded_ || is_guard_request(production.frame);
   recorder_.produce(std::move(production));
   return {};
 }
@@ -263,14 +262,19 @@ Result<void> RunSession::send_unguarded(const can::Frame& frame) {
   note_sent(*sent);
   if (commands) note_command(*sent);
   if (!frame.remote && !frame.extended) channel_.note_sent(CanId(frame.id));
-  guarded_ = guarded_ || is_guard_request(frame);
   if (requests && frame.size() > 0 && frame.data[0] == 0x80)
     channel_.note_abort(recorder_.capture().frames()[*sent].time);
   return {};
 }
 
-bool RunSession::is_guard_request(const can::Frame& frame) const {
-  return frame.remote && !frame.extended && frame.id == canopen::connection_set(node()).error_control.value();
+bool RunSession::was_guarded() {
+  const auto id = canopen::connection_set(node()).error_control.value();
+  const auto& frames = recorder_.capture().frames();
+  for (; looked_for_guarding_ < frames.size(); ++looked_for_guarding_) {
+    const auto& frame = frames[looked_for_guarding_].frame;
+    guarded_ = guarded_ || (frame.remote && !frame.extended && frame.id == id);
+  }
+  return guarded_;
 }
 
 Result<steps::Window> RunSession::window_after(std::string_view label) const {
@@ -306,6 +310,7 @@ void RunSession::label(const steps::Step& step, const steps::Actual& actual) {
 void RunSession::device_was_reset(bool) {
   channel_.forget_silences();
   guarded_ = false;
+  looked_for_guarding_ = recorder_.capture().size();
   ++resets_;
   emcy_can_id_ = home_emcy_can_id_;
   before_write_.clear();

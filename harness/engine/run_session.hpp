@@ -45,6 +45,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::string access_of(Multiplexer object) const override;
   [[nodiscard]] bool may_change(Multiplexer object) const override;
   [[nodiscard]] bool is_integer(Multiplexer object) const override;
+  [[nodiscard]] std::optional<bool> is_placeholder(Index type) const override;
   [[nodiscard]] bool claims(std::string_view feature) const override;
   [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
@@ -136,7 +137,7 @@ class RunSession final : public steps::Session {
   /// Capture index of the latest reset command to the device since the last call.
   [[nodiscard]] std::optional<std::size_t> take_reset();
   /// A guard request was sent since the device was last reset: life guarding may have begun to watch.
-  [[nodiscard]] bool was_guarded() const { return guarded_; }
+  [[nodiscard]] bool was_guarded();
   [[nodiscard]] bool silence_seen() const { return silence_seen_; }
   void clear_silence_seen() { silence_seen_ = false; }
   /// A value could not be put back.
@@ -154,7 +155,6 @@ class RunSession final : public steps::Session {
     bool alone = true;  ///< no other command was still to be followed when it was sent
   };
   void note_sent(std::size_t index);
-  [[nodiscard]] bool is_guard_request(const can::Frame& frame) const;
   /// The waits of the profile follow what was learnt about the device.
   void adapt();
   /// A frame with the CAN-ID 0 was sent.
@@ -195,6 +195,7 @@ class RunSession final : public steps::Session {
   std::optional<std::size_t> reset_;  ///< capture index of a reset command that was not looked after yet
   bool silence_seen_ = false;
   bool guarded_ = false;
+  std::size_t looked_for_guarding_ = 0;  ///< capture index: no guard request before it was missed
   bool stopped_ = false;
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;

@@ -66,6 +66,10 @@ Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared wh
   const auto* found = entry(object);
   static const device::Entry nothing;
   const auto& known = found != nullptr ? *found : nothing;
+  if (what == steps::Declared::wired_input && known.wired_input)
+    return steps::Value::of_object(*known.wired_input);
+  if (what == steps::Declared::wired_input)
+    return fail_scenario("the profile does not say what " + to_string(object) + " is wired to");
   const auto& bytes = what == steps::Declared::low_limit    ? known.low
                       : what == steps::Declared::high_limit ? known.high
                                                             : known.default_value;
@@ -311,6 +315,12 @@ bool RunSession::may_change(Multiplexer object) const {
 bool RunSession::is_integer(Multiplexer object) const {
   const auto* found = entry(object);
   return found != nullptr && canopen::is_integer(found->type);
+}
+
+std::optional<bool> RunSession::is_placeholder(Index type) const {
+  const auto said = profile_.placeholders.find(type);
+  if (said == profile_.placeholders.end()) return std::nullopt;
+  return said->second;
 }
 
 bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }

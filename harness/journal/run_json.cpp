@@ -97,13 +97,18 @@ void members(Same<Property> auto& it, auto&& see) {
   auto& [name, value] = it;
   see("name", name), see("value", value);
 }
+void members(Same<ComparedCase> auto& it, auto&& see) {
+  auto& [number, group, title, outcome, because, cases] = it;
+  see("number", number), see("group", group), see("title", title), see("outcome", outcome),
+      see("because", because), see("cases", cases);
+}
 void members(Same<RunResult> auto& it, auto&& see) {
   auto& [tool, host, started_utc_ns, elapsed, device, properties, cases, requirements, notes, aborted, signal,
-         unwritten] = it;
+         unwritten, compared] = it;
   see("tool", tool), see("host", host), see("started", started_utc_ns), see("elapsed", elapsed),
       see("device", device), see("properties", properties), see("cases", cases),
       see("requirements", requirements), see("notes", notes), see("aborted", aborted), see("signal", signal),
-      see("unwritten", unwritten);
+      see("unwritten", unwritten), see("compared", compared);
 }
 
 template <typename T>

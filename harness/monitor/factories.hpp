@@ -37,7 +37,25 @@ namespace conform::monitor {
 [[nodiscard]] std::unique_ptr<Monitor> make_nmt_boot_up(const Rule& rule);
 /// NMT-BOOT-10
 [[nodiscard]] std::unique_ptr<Monitor> make_restarts(const Rule& rule);
-/// EC-HBP-08, EC-HBP-07, EC-HBP-06
+/// EC-HBP-06, EC-HBP-07, EC-HBP-08
 [[nodiscard]] std::unique_ptr<Monitor> make_heartbeat(const Rule& rule);
+/// PDO-TX-02, OD-1800-09, PDO-TX-01
+[[nodiscard]] std::unique_ptr<Monitor> make_tpdos(const Rule& rule);
+/// PDO-TX-05, PDO-TX-06, PDO-TX-07, PDO-TX-19, PDO-TX-20, PDO-TX-12
+[[nodiscard]] std::unique_ptr<Monitor> make_tpdo_triggers(const Rule& rule);
+/// EMCY-NMT-01, OD-1014-08, EMCY-FMT-01, EMCY-FMT-02, EMCY-FMT-04, EMCY-INH-01
+[[nodiscard]] std::unique_ptr<Monitor> make_emergencies(const Rule& rule);
+/// EMCY-FMT-03, OD-1003-11
+[[nodiscard]] std::unique_ptr<Monitor> make_error_objects(const Rule& rule);
+/// SYNC-PRO-03, SYNC-PRO-06, SYNC-PRO-01, SYNC-PRO-04
+[[nodiscard]] std::unique_ptr<Monitor> make_sync_producer(const Rule& rule);
+/// TIME-PRO-03, TIME-PRO-02, TIME-PRO-01
+[[nodiscard]] std::unique_ptr<Monitor> make_time_producer(const Rule& rule);
+/// EC-NG-16, EC-HBP-04, EC-NG-01, EC-NG-02, EC-NG-05, EC-NG-04, EC-HBP-12
+[[nodiscard]] std::unique_ptr<Monitor> make_guarding(const Rule& rule);
+/// LSS-GEN-08, LSS-GEN-01
+[[nodiscard]] std::unique_ptr<Monitor> make_lss_answers(const Rule& rule);
+/// CAN-TRF-02, NMT-SVC-05, CAN-TRF-03, CAN-TRF-04
+[[nodiscard]] std::unique_ptr<Monitor> make_can_ids(const Rule& rule);
 
 }  // namespace conform::monitor

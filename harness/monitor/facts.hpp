@@ -16,6 +16,10 @@ struct Facts {
   Duration nmt_time = std::chrono::milliseconds{100};  ///< T_NMT
   /// Nobody switches the power of the device unseen. A recorded trace does not tell.
   bool power_is_known = false;
+  /// The trace tells which frames the host sent itself.
+  bool senders_are_known = true;
+  /// The device profile says that no other node is on the bus.
+  bool alone = false;
 };
 
 }  // namespace conform::monitor

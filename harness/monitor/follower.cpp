@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/lss.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -12,6 +14,7 @@ namespace {
 using Subject = Observation::Subject;
 
 constexpr std::uint32_t not_valid = canopen::cob_id::bit31;
+constexpr auto configure_node_id = static_cast<std::uint8_t>(canopen::LssCommand::configure_node_id);
 constexpr std::size_t most_servers = 8;
 // How long a guarding request explains a set bit 7, and a foreign request an answer.
 constexpr Duration explained_for = std::chrono::seconds{1};
@@ -22,6 +25,7 @@ Follower::Follower(const Facts& facts) : facts_(facts), nmt_(facts) {
   const auto set = canopen::connection_set(facts.node);
   default_.request = set.sdo_request.value();
   default_.response = set.sdo_response.value();
+  names_.set(facts.node.value());
 }
 
 const Observation& Follower::follow(const can::CapturedFrame& captured, std::size_t index) {
@@ -30,6 +34,7 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   now_.subject = Subject::other;
   now_.heard_before = heard_;
   now_.guard_answer = false;
+  now_.read.reset();
   const auto& frame = captured.frame;
   if (frame.error) return now_;
   const bool from_device = captured.direction == can::Direction::received;
@@ -69,11 +74,65 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
     }
   } else if (frame.is_data(canopen::lss_request_can_id)) {
     now_.subject = Subject::lss_request;
+    if (frame.data[0] == configure_node_id && frame.data[1] < names_.size()) names_.set(frame.data[1]);
+  } else if (frame.is_data(canopen::lss_response_can_id) && from_device) {
+    now_.subject = Subject::lss_answer;
   } else if (frame.id == 0x080U + node && from_device && !frame.remote) {
     now_.subject = Subject::emcy;
   }
+  if (now_.subject == Subject::other) {
+    now_.subject = frame.remote ? Subject::remote : Subject::data;
+    // Perhaps a request on a channel that nobody saw being made.
+    if (!from_device && !frame.remote) note_download(frame, captured.time);
+  }
+  if (from_device && !now_.from_device()) look_at_sender();
   if (now_.from_device()) nmt_.spoke(captured.time);
   return now_;
+}
+
+/// A node that is not the device shows itself by what only another one sends: also by asking the device.
+void Follower::look_at_sender() {
+  const auto& frame = now_.frame();
+  if (frame.extended) return;
+  if (frame.remote) {
+    others_ = others_ || (frame.id > 0x180 && may_be_own(frame.id));
+    return;
+  }
+  const auto id = frame.id;
+  if ((id > 0x080 && id < 0x100) || (id > 0x180 && id < 0x580) || (id > 0x580 && id < 0x680) ||
+      (id > 0x700 && id < 0x780)) {
+    heard_ids_.set(id);
+  } else if (id == canopen::sync_can_id.value() || id == canopen::time_can_id.value()) {
+    // Who goes on while the device boots is somebody else.
+    others_ = others_ ||
+              (nmt_.booting() && !nmt_.overdue(now_.time()) && nmt_.is_newer(now_.time(), nmt_.reset_at()));
+  }
+}
+
+bool Follower::may_be_own(Entries::Key can_id) const {
+  if (entries_.ever_held(can_id)) return true;
+  if (can_id > 0x7FF || !names_.test(can_id & 0x7FU)) return false;
+  switch (can_id & ~0x7FU) {
+    case 0x080:
+    case 0x180:
+    case 0x280:
+    case 0x380:
+    case 0x480:
+    case 0x580:
+    case 0x700: return true;
+    default: return false;
+  }
+}
+
+bool Follower::others_heard() const {
+  if (!facts_.senders_are_known) return true;
+  if (facts_.alone) return false;
+  if (others_) return true;
+  if (heard_ids_.none()) return false;
+  for (std::uint32_t id = 0; id < heard_ids_.size(); ++id) {
+    if (heard_ids_.test(id) && !may_be_own(id)) return true;
+  }
+  return false;
 }
 
 void Follower::settle() {
@@ -89,6 +148,7 @@ void Follower::settle() {
       if (nmt_.booting()) {
         guard_open_ = false;
         forget_channels();
+        entries_.forget();
       }
       break;
     }
@@ -100,6 +160,7 @@ void Follower::settle() {
         // A fresh server knows of no transfer, but requests may wait in the receive buffer.
         default_.channel.transfer_unclear();
         forget_channels();
+        entries_.forget();
       }
       heard_ = now_.time();
       break;
@@ -113,12 +174,14 @@ void Follower::lose_track() {
   default_.channel.lose_frames();
   for (auto& server : more_) server.channel.lose_frames();
   nmt_.lose_track();
+  entries_.forget();
   bait_ = {};
 }
 
 void Follower::request(Server& server) {
   now_.subject = Subject::sdo_request;
   server.channel.request(now_.frame(), now_.time());
+  note_download(now_.frame(), now_.time());
   // What comes next may answer the abort, as some servers do, and then nothing else.
   if (&server == &default_ && !now_.frame().remote && now_.frame().data[0] == 0x80) bait_ = {};
 }
@@ -133,12 +196,38 @@ void Follower::response(Server& server, bool default_channel) {
       std::ranges::equal(bait_.multiplexer, std::span(now_.frame().data).subspan(1, 3))) {
     answer.cause = bait_.cause;
   }
-  if (const auto write = server.channel.take_written()) written(*write);
+  learn(answer);
+  if (const auto write = server.channel.take_written()) {
+    entries_.written(write->object, write->value, now_.time());
+    written(*write);
+  }
+  now_.read = server.channel.take_read();
+  if (now_.read) entries_.read(now_.read->object, now_.read->value, now_.time());
+}
+
+/// Every frame of ours that may ask for a download: until it is answered the value is open.
+void Follower::note_download(const can::Frame& frame, BusTime time) {
+  const auto specifier = frame.data[0] >> 5U;
+  const bool download = specifier == 1 || (specifier == 6 && (frame.data[0] & 0x01U) == 0);
+  if (download && !frame.remote && frame.size() >= 4) entries_.asked(multiplexer_of(frame), time);
+}
+
+/// What a refusal says of an entry.
+void Follower::learn(const SdoAnswer& answer) {
+  const auto& frame = now_.frame();
+  if (answer.to != SdoAnswer::To::request || !answer.mux || !answer.mux->right || frame.data[0] != 0x80)
+    return;
+  const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4))));
+  if (answer.asked == Asked::download) entries_.refused(answer.mux->got, now_.time());
+  if (answer.asked == Asked::upload &&
+      (code == canopen::abort::no_object || code == canopen::abort::no_sub_index))
+    entries_.absent(answer.mux->got);
 }
 
 void Follower::lay_bait(SdoAnswer::Cause cause) {
   const auto& frame = now_.frame();
   if (frame.remote) return;
+  note_download(frame, now_.time());
   now_.subject = Subject::foreign_request;
   bait_.cause = cause;
   bait_.time = now_.time();
@@ -153,7 +242,8 @@ bool Follower::is_taken(Key key, bool default_channel) const {
 }
 
 /// 1200h-127Fh:01 and :02 move the channel they are about. 1200h is the default channel.
-void Follower::written(const SdoChannel::Written& write) {
+void Follower::written(const SdoChannel::Value& write) {
+  if (write.size != 0 && write.size != 4) return;
   const auto index = write.object.index.value();
   const auto sub = write.object.sub.value();
   if (index < 0x1200 || index > 0x127F || (sub != 1 && sub != 2)) return;

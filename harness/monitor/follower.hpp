@@ -4,12 +4,15 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "can/capture.hpp"
+#include "canopen/cob_id.hpp"
+#include "monitor/entries.hpp"
 #include "monitor/facts.hpp"
 #include "monitor/nmt_state.hpp"
 #include "monitor/sdo_answer.hpp"
@@ -28,11 +31,16 @@ struct Observation {
     error_control,    ///< data frame on 700h + node-ID from the device
     emcy,             ///< data frame on 080h + node-ID from the device
     lss_request,      ///< data frame on 7E5h
+    lss_answer,       ///< data frame on 7E4h that the host did not send
+    data,             ///< any other data frame, whoever sent it
+    remote,           ///< any other remote frame
   };
   const can::CapturedFrame* captured = nullptr;
   std::size_t index = 0;
   Subject subject = Subject::other;
   SdoAnswer answer;  ///< of an sdo_response
+  /// What an sdo_response has told of an entry.
+  std::optional<SdoChannel::Value> read;
   /// The frame may answer a guarding request, so that bit 7 is a toggle bit.
   bool guarded = false;
   /// It is the answer to a guarding request, whatever it says: its state may be wrong, but it is no boot-up
@@ -51,6 +59,11 @@ struct Observation {
     return subject == Subject::sdo_response || subject == Subject::error_control || subject == Subject::emcy;
   }
   [[nodiscard]] const can::Frame& frame() const { return captured->frame; }
+  /// Nobody knows who sent it, but the host did not.
+  [[nodiscard]] bool received() const { return captured->direction == can::Direction::received; }
+  [[nodiscard]] Entries::Key key() const {
+    return frame().id | (frame().extended ? canopen::cob_id::extended_frame : 0U);
+  }
   [[nodiscard]] BusTime time() const { return captured->time; }
 };
 
@@ -67,7 +80,13 @@ class Follower {
 
   [[nodiscard]] const NmtState& nmt() const { return nmt_; }
   [[nodiscard]] NmtState& nmt() { return nmt_; }
+  [[nodiscard]] const Entries& entries() const { return entries_; }
   [[nodiscard]] const Facts& facts() const { return facts_; }
+  /// So far. Where the trace does not tell the senders, everybody may be there.
+  [[nodiscard]] bool others_heard() const;
+  /// The device may send with this CAN-ID: by the pre-defined connection set, for whatever node-ID it was
+  /// given, or by a COB-ID that it ever held.
+  [[nodiscard]] bool may_be_own(Entries::Key can_id) const;
 
  private:
   /// CAN-ID with the format in bit 29, as COB-ID entries hold it.
@@ -85,12 +104,19 @@ class Follower {
   void response(Server& server, bool default_channel);
   void lay_bait(SdoAnswer::Cause cause);
   [[nodiscard]] bool is_taken(Key key, bool default_channel) const;
-  void written(const SdoChannel::Written& write);
+  void written(const SdoChannel::Value& write);
+  void note_download(const can::Frame& frame, BusTime time);
+  void learn(const SdoAnswer& answer);
+  void look_at_sender();
   void forget_channels();
 
   Facts facts_;
   Observation now_;
   NmtState nmt_;
+  Entries entries_;
+  std::bitset<0x800> heard_ids_;  ///< received on CAN-IDs with which some node sends
+  std::bitset<0x80> names_;       ///< node-IDs of the device: its own, and those that LSS gave it
+  bool others_ = false;           ///< a frame that cannot be the device's
   Server default_;
   std::vector<Server> more_;  ///< configured by downloads seen on the wire, by number from 1201h on
   std::optional<BusTime> guard_request_, heard_;

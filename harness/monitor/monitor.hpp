@@ -24,6 +24,9 @@ struct Rule {
   std::string_view nothing;  ///< why it is not applicable when it saw nothing to judge
   std::vector<std::string_view> requirements;
   std::unique_ptr<Monitor> (*make)(const Rule& rule);
+  /// It judges what comes unasked, often in the light of much that came before: no single frame that it finds
+  /// wrong makes another rule hard to judge.
+  bool unasked = false;
 };
 
 /// All monitors in the order of reports.
@@ -36,6 +39,7 @@ struct Violation {
   std::size_t index = 0;                            ///< of the frame in the trace
   can::Frame frame;
   std::string actual, expected, reason;
+  bool if_alone = false;  ///< it stands only if nobody else was heard on the bus
 };
 
 class Monitor {
@@ -51,6 +55,8 @@ class Monitor {
   virtual void on_frame(const Observation& seen, const Follower& follower) = 0;
   /// Frames were lost before the next one.
   virtual void on_loss() {}
+  /// The trace is over.
+  void end(const Follower& follower);
   /// The device sent a frame: it was there when it was silent before.
   void alive() {
     for (auto& tally : tallies_) {
@@ -62,26 +68,43 @@ class Monitor {
   struct Tally {
     std::size_t judged = 0;
     std::size_t violated = 0;
-    std::size_t quiet = 0;  ///< silences that wait for a sign of life
+    std::size_t quiet = 0;     ///< silences that wait for a sign of life
+    std::size_t if_alone = 0;  ///< of the violated ones, those that somebody else may have committed
   };
   [[nodiscard]] const Rule& rule() const { return rule_; }
   [[nodiscard]] const std::vector<Tally>& tallies() const { return tallies_; }
   [[nodiscard]] const std::vector<Violation>& violations() const { return violations_; }
 
  protected:
+  /// What can only be said when all has been seen.
+  virtual void on_end(const Follower&) {}
   /// Something was judged and is right.
   void good(std::size_t requirement) { ++tallies_[requirement].judged; }
   /// Silence is due, and is right once the device is heard again: who is not there is silent, too.
   void quiet(std::size_t requirement) { ++tallies_[requirement].quiet; }
   /// True: tell() the violation. False: it is counted only.
   [[nodiscard]] bool bad(std::size_t requirement) {
-    ++tallies_[requirement].judged;
-    return ++tallies_[requirement].violated <= most_kept;
+    auto& tally = tallies_[requirement];
+    ++tally.judged;
+    return ++tally.violated - tally.if_alone <= most_kept;
+  }
+  /// The same of a frame that may be another node's, if there is one. True: tell() it with `if_alone`.
+  [[nodiscard]] bool bad_if_alone(std::size_t requirement) {
+    auto& tally = tallies_[requirement];
+    ++tally.judged;
+    ++tally.violated;
+    return ++tally.if_alone <= most_kept;
   }
   void tell(std::size_t requirement, const Observation& seen, std::string actual, std::string expected,
             std::string reason, result::Verdict verdict = result::Verdict::fail) {
     violations_.push_back({requirement, verdict, seen.index, seen.frame(), std::move(actual),
                            std::move(expected), std::move(reason)});
+  }
+  void tell_if_alone(std::size_t requirement, const Observation& seen, std::string actual,
+                     std::string expected, std::string reason,
+                     result::Verdict verdict = result::Verdict::fail) {
+    violations_.push_back({requirement, verdict, seen.index, seen.frame(), std::move(actual),
+                           std::move(expected), std::move(reason), true});
   }
   /// What was told so far has another verdict after all.
   void grade_all(result::Verdict verdict) {

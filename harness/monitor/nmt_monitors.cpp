@@ -195,9 +195,10 @@ class Heartbeat final : public Monitor {
       tell(form, seen, fmt::format("DLC {}", frame.dlc), "DLC 1", "a heartbeat is one byte, the state");
     }
     if (frame.size() == 0) return;
+    // Without a heartbeat time it is a guard reply, or should be.
     if ((frame.data[0] & 0x80U) == 0) {
       good(bit_7);
-    } else if (bad(bit_7)) {
+    } else if (!follower.entries().is_zero(0x1017, 0) && bad(bit_7)) {
       tell(bit_7, seen, hex(frame.data[0], 2), "bit 7 = 0", "bit 7 of a heartbeat is reserved");
     }
     judge_state(seen, follower, frame.data[0] & 0x7FU);

@@ -41,7 +41,11 @@ class NmtState {
   /// Whether what the device sends at `now` was made more than T_NMT after a command: not in the queue since
   /// then, behind the segments of a block.
   [[nodiscard]] bool is_newer(BusTime now, BusTime command) const {
-    return std::min(now, queue_began_) > command + facts_.nmt_time;
+    return made_since(now) > command + facts_.nmt_time;
+  }
+  /// The earliest time at which what the device sends at `now` may have been made.
+  [[nodiscard]] BusTime made_since(BusTime now) const {
+    return now <= spoke_at_ + longest_frame ? std::min(now, queue_began_) : now;
   }
   /// A reset was commanded and the boot-up message has not come.
   [[nodiscard]] bool booting() const { return booting_; }

@@ -50,6 +50,7 @@ struct SdoAnswer {
   struct Mux {
     Multiplexer wanted, got;
     bool right = false;
+    bool free = false;  ///< the standard names none: it should still belong to the request or to its transfer
   };
   struct Toggle {
     bool wanted = false, got = false;

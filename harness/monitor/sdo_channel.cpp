@@ -81,9 +81,9 @@ void SdoChannel::transfer_unclear() {
   if (transfer_.kind != Kind::none) transfer_.kind = Kind::unclear;
 }
 
-std::optional<SdoChannel::Written> SdoChannel::take_written() {
-  return std::exchange(written_, std::nullopt);
-}
+std::optional<SdoChannel::Value> SdoChannel::take_written() { return std::exchange(written_, std::nullopt); }
+
+std::optional<SdoChannel::Value> SdoChannel::take_read() { return std::exchange(read_, std::nullopt); }
 
 void SdoChannel::push(const can::Frame& frame, Asked asked) {
   if (count_ == most_pending) return lose_track();

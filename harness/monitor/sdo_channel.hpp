@@ -32,12 +32,14 @@ class SdoChannel {
   /// A data frame of the server on the response CAN-ID.
   [[nodiscard]] SdoAnswer response(const can::Frame& frame, BusTime time);
 
-  /// An expedited download of four bytes that the server has just confirmed.
-  struct Written {
+  /// An expedited transfer that the server has just confirmed; size 0: not indicated.
+  struct Value {
     Multiplexer object;
     std::uint32_t value = 0;
+    std::uint8_t size = 0;
   };
-  [[nodiscard]] std::optional<Written> take_written();
+  [[nodiscard]] std::optional<Value> take_written();  ///< a download
+  [[nodiscard]] std::optional<Value> take_read();     ///< an upload
 
   /// Nothing is known until `exchanges` plain exchanges were seen: frames were lost, the device was reset.
   void lose_track(int exchanges = exchanges_to_trust);
@@ -122,7 +124,7 @@ class SdoChannel {
   std::array<std::array<std::uint8_t, 7>, 127> block_{};  ///< segments of the sub-block under way
   std::uint8_t complete_ = 0;  ///< segments in `block_` that wait for the acknowledge
   std::uint8_t crossed_ = 0;   ///< ... and that may come again behind the client's last frame
-  std::optional<Written> written_;
+  std::optional<Value> written_, read_;
   std::optional<Multiplexer> confirmed_;  ///< object of the block upload that the client's last frame ended
   bool client_abort_ = false, idle_abort_ = false;  ///< the last frame of the client; nothing was open
   std::optional<Multiplexer> aborted_;  ///< named by the client's latest abort, which nothing has answered

@@ -202,16 +202,13 @@ void SdoChannel::answer_to(const Pending& pending, const can::Frame& frame, SdoA
       out.mux = compare(wanted, frame);
       transfer_ = {};
       const bool expedited = (pending.data[0] & 0x02U) != 0;
-      const bool size_indicated = (pending.data[0] & 0x01U) != 0;
       if (!expedited) {
         transfer_.kind = Kind::download;
         transfer_.object = wanted;
         return;
       }
       transfer_.kind = Kind::none;
-      if (!size_indicated || (pending.data[0] & 0x0CU) == 0) {
-        written_ = Written{wanted, static_cast<std::uint32_t>(load_le(ByteView(pending.data).subspan(4, 4)))};
-      }
+      if (out.mux->right) written_ = expedited_value(wanted, pending.data);
       return;
     }
     case Asked::block_upload: {
@@ -301,12 +298,20 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
     case nothing: break;
   }
   const auto code = code_of(frame);
-  // An unknown command specifier belongs to no object.
-  if (wanted && code != canopen::abort::command_specifier) out.mux = compare(*wanted, frame);
+  if (wanted && code != canopen::abort::command_specifier) {
+    out.mux = compare(*wanted, frame);
+  } else if (transfer_.kind != Kind::unclear && (pending.has_multiplexer() || pending.data[0] >> 5U == 7)) {
+    // An unknown command specifier belongs to no object: the one in its place, or that of the transfer it
+    // ends. A segment without a transfer has none in that place.
+    const auto named = object_of(pending.data), got = multiplexer_of(frame);
+    const bool open = transfer_.kind != Kind::none;
+    const bool right = got == named || got == Multiplexer{} || (open && got == transfer_.object);
+    out.mux = SdoAnswer::Mux{open ? transfer_.object : named, got, right, true};
+  }
   // An initiate request does not time out: the server gave up the transfer before it. Under any other code,
   // too, it may name the transfer that the request ends, as a refusal or because it ended that by itself.
   bool about_another = false;
-  if (pending.has_multiplexer() && out.mux && !out.mux->right) {
+  if (pending.has_multiplexer() && out.mux && !out.mux->free && !out.mux->right) {
     const bool open = transfer_.kind != Kind::none && transfer_.object != Multiplexer{};
     about_another = code == canopen::abort::timed_out || (open && out.mux->got == transfer_.object);
     if (about_another) out.mux.reset();

@@ -73,7 +73,10 @@ void SdoChannel::upload_answer(Multiplexer wanted, const can::Frame& frame, SdoA
   out.mux = compare(wanted, frame);
   transfer_ = {};
   transfer_.kind = Kind::none;
-  if ((frame.data[0] & 0x02U) != 0) return;
+  if ((frame.data[0] & 0x02U) != 0) {
+    if (out.mux->right) read_ = expedited_value(wanted, frame.data);
+    return;
+  }
   transfer_.kind = Kind::upload;
   transfer_.object = wanted;
   if ((frame.data[0] & 0x01U) != 0) transfer_.announced = long_of(frame);

@@ -115,6 +115,11 @@ class SdoMultiplexer final : public Monitor {
     const auto requirement = is_abort(seen) ? abort : initiate;
     if (mux.right) return good(requirement);
     if (!bad(requirement)) return;
+    if (mux.free) {
+      return tell(requirement, seen, fmt::format("{} in bytes 1 to 3", to_string(mux.got)),
+                  fmt::format("{}, or zeros", to_string(mux.wanted)),
+                  "the request names another object, and no transfer about this one is open", Verdict::warn);
+    }
     tell(requirement, seen, fmt::format("{} in bytes 1 to 3", to_string(mux.got)), to_string(mux.wanted),
          seen.answer.to == To::several ? "none of the open requests names that object"
                                        : "the request or its transfer is about another object");

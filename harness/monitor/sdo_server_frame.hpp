@@ -38,4 +38,12 @@ inline Multiplexer object_of(const SdoChannel::Data& initiate) {
   return multiplexer_of(frame);
 }
 
+/// The value of an initiate frame with e = 1: n unused bytes if s says so.
+inline SdoChannel::Value expedited_value(Multiplexer object, const SdoChannel::Data& data) {
+  const unsigned unused = (data[0] & 0x01U) != 0 ? (data[0] >> 2U) & 3U : 0U;
+  const auto bytes = ByteView(data).subspan(4, 4U - unused);
+  return {object, static_cast<std::uint32_t>(load_le(bytes)),
+          static_cast<std::uint8_t>((data[0] & 0x01U) != 0 ? bytes.size() : 0)};
+}
+
 }  // namespace conform::monitor::server

@@ -129,6 +129,10 @@ void Watch::on_loss() {
   for (const auto& monitor : monitors_) monitor->on_loss();
 }
 
+void Watch::end() {
+  for (const auto& monitor : monitors_) monitor->end(follower_);
+}
+
 std::string case_id(const Rule& rule) { return fmt::format("{}/{}", suite_name, rule.name); }
 
 result::CaseResult planned_case(const Rule& rule, const Cap& cap) {
@@ -151,6 +155,7 @@ void judge(std::span<const can::CapturedFrame> frames, const Facts& facts,
     if (std::ranges::any_of(losses, [i](const Loss& loss) { return loss.end == i; })) watch.on_loss();
     watch.on_frame(frames[i], i);
   }
+  watch.end();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     conclude(*watch.monitors()[i], frames, facts.node, cap, losses, others, cases[i]);
   }

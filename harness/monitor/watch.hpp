@@ -34,6 +34,8 @@ class Watch {
 
   void on_frame(const can::CapturedFrame& captured, std::size_t index);
   void on_loss();
+  /// No frame follows.
+  void end();
   [[nodiscard]] const std::vector<std::unique_ptr<Monitor>>& monitors() const { return monitors_; }
 
  private:

@@ -133,6 +133,15 @@ struct Property {
   std::string value;  ///< may hold anything the device sent; every writer sanitises
 };
 
+/// What the scenarios here say for one case of another tool, CiA's.
+struct ComparedCase {
+  std::string number;  ///< "2.10"
+  std::string group, title;
+  std::string outcome;             ///< passed, warning, failed, skipped, not decided, no counterpart
+  std::string because;             ///< one sentence; empty for what passed
+  std::vector<std::string> cases;  ///< names of the cases here that it rests on
+};
+
 struct Counts {
   std::size_t pass = 0, warn = 0, fail = 0, inconclusive = 0, not_applicable = 0, error = 0;
   [[nodiscard]] std::size_t total() const {
@@ -154,6 +163,7 @@ struct RunResult {
   std::optional<std::string> aborted;         ///< why the run stopped early
   int signal = 0;                             ///< SIGINT or SIGTERM that ended it, else 0
   std::vector<std::string> unwritten{};       ///< reports that could not be written, with the reason
+  std::vector<ComparedCase> compared{};       ///< in the order of the other tool; empty: not asked for
 
   [[nodiscard]] Counts counts() const;
   /// Requirements whose failure the profile accepts, sorted, each once: a run with some does not simply

@@ -101,6 +101,7 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
       {"open to writes", [](const Entry& e) { return e.open_to_writes; }},
       {"fixed size", [](const Entry& e) { return e.size().has_value(); }},
       {"changing", [](const Entry& e) { return e.may_change; }},
+      {"wired", [](const Entry& e) { return e.wired_input.has_value(); }},
       {"open access", [](const Entry& e) { return e.access_open; }},
   };
   const auto found = std::ranges::find(table, std::string_view(all), &Word::word);

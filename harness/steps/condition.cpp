@@ -80,6 +80,15 @@ Result<TreePtr> parse_object_phrase(TokenReader& in, ObjectReference object, boo
     TreePtr out = node;
     return negative != (word == "absent") ? negate(out) : out;
   }
+  // "is an allowed placeholder", "is a forbidden placeholder"
+  if ((word == "a" || word == "an") && in.peek(2) == "placeholder" &&
+      (in.peek(1) == "allowed" || in.peek(1) == "forbidden")) {
+    in.take();
+    node->kind = in.take() == "allowed" ? Kind::placeholder : Kind::no_placeholder;
+    in.take();
+    TreePtr out = node;
+    return negative ? negate(out) : out;
+  }
   if (word == "an" && in.peek(1) == "integer") {
     in.take();
     in.take();
@@ -204,13 +213,17 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     node->kind = phrase.kind;
     return node;
   }
-  // "error trigger is known", "2 error triggers are known"
+  // "error trigger is known", "2 error triggers are known", "$number error triggers are known"
   {
     const auto at = in.position();
     std::uint64_t count = 1;
     if (const auto number = parse_number(in.peek()); number && in.peek(1) == "error") {
       count = *number;
       in.take();
+    } else if (in.peek().starts_with('$') && in.peek(1) == "error") {
+      auto given = parse_expression_prefix(in, "");
+      if (!given) return std::unexpected(given.error());
+      node->left = *given;
     } else if (in.peek() == "an") {
       in.take();
     }
@@ -317,7 +330,9 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
   if (node.kind == Kind::triggers) {
     const auto known = facts.error_triggers();
     if (!known) return std::unexpected(known.error());
-    return known->size() >= node.count;
+    if (node.left.empty()) return known->size() >= node.count;
+    const auto wanted = node.left.number(facts);
+    return wanted ? Result<bool>(known->size() >= *wanted) : std::unexpected(wanted.error());
   }
   if (node.kind == Kind::remote) return facts.can_send_remote_frames();
   if (node.kind == Kind::described) return facts.is_described();
@@ -345,6 +360,8 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
                                  [&](Declared what) { return facts.declared(*object, what).has_value(); });
     case Kind::integer: return facts.is_integer(*object);
     case Kind::access: return facts.access_of(*object) == node.word;
+    case Kind::placeholder: return facts.is_placeholder(object->index) == std::optional(true);
+    case Kind::no_placeholder: return facts.is_placeholder(object->index) == std::optional(false);
     case Kind::remaps: return facts.has_variable_mapping(*object);
     default: return facts.may_change(*object);
   }
@@ -420,6 +437,8 @@ std::vector<std::string_view> condition_forms() {
           "1017h:00 is readable",
           "1017h:00 is const",
           "$object may change by itself",
+          "$type is an allowed placeholder",
+          "$type is a forbidden placeholder",
           "1017h:00 is an integer",
           "1018h:03 has a default",
           "$object has a low limit",

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,9 @@ class Facts : public Scope {
   /// Access word of the dictionary ("ro", "const", ...), empty when unknown.
   [[nodiscard]] virtual std::string access_of(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool may_change(Multiplexer object) const = 0;
+  /// Whether the device description says that a data type can be mapped to an RPDO in place of an object;
+  /// nullopt where it says nothing.
+  [[nodiscard]] virtual std::optional<bool> is_placeholder(Index /*type*/) const { return std::nullopt; }
   /// Whether its type is an INTEGERxx or UNSIGNEDxx; false where it is not known.
   [[nodiscard]] virtual bool is_integer(Multiplexer object) const = 0;
   [[nodiscard]] virtual bool claims(std::string_view feature) const = 0;

@@ -20,6 +20,8 @@ struct Condition::Tree {
     integer,
     described_by,
     remaps,
+    placeholder,
+    no_placeholder,
     feature,
     triggers,
     remote,

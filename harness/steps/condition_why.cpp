@@ -45,9 +45,10 @@ std::string expression_words(const std::shared_ptr<const Expression::Tree>& node
     case Node::bit_of:
       return "bit " + std::to_string(node->number) + " of " + object_words(node->object, false, facts);
     case Node::declared: {
-      const char* what = node->declared == Declared::low_limit    ? "the low limit of "
-                         : node->declared == Declared::high_limit ? "the high limit of "
-                                                                  : "the default of ";
+      const char* what = node->declared == Declared::low_limit     ? "the low limit of "
+                         : node->declared == Declared::high_limit  ? "the high limit of "
+                         : node->declared == Declared::wired_input ? "the input of "
+                                                                   : "the default of ";
       return what + object_words(node->object, false, facts);
     }
     case Node::complement: return "~" + expression_words(node->left, facts, false);
@@ -137,6 +138,12 @@ Why about_entry(const Tree& node, Facts& facts, bool held) {
       says(std::string(one) + what, std::string("has no ") + what + " in the description");
       break;
     }
+    case Kind::placeholder:
+      says("is an allowed placeholder", "is no placeholder by the word of profile or description");
+      break;
+    case Kind::no_placeholder:
+      says("is a forbidden placeholder", "is not forbidden as placeholder by profile or description");
+      break;
     case Kind::remaps:
       says("has a variable mapping", "has no mapping that can be changed");
       with_grounds(Asked::mapping);

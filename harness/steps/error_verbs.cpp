@@ -213,7 +213,11 @@ class AwaitEmcy final : public Action {
     auto out = std::make_unique<AwaitEmcy>();
     auto fields = value.fields("emcy");
     if (const auto code = fields.optional("code")) {
-      if (auto expression = parse_expression_at(code, context.names)) out->code_ = *expression;
+      out->errors_only_ = code.node()->is_scalar() && code.text() == "error";
+      if (out->errors_only_) {
+        // Whatever its code, but not the end of an error (0000h).
+      } else if (auto expression = parse_expression_at(code, context.names))
+        out->code_ = *expression;
     }
     if (const auto within = fields.optional("within")) {
       if (auto time = parse_time_at(within)) out->within_ = *time;
@@ -245,7 +249,7 @@ class AwaitEmcy final : public Action {
   bool acts() const override { return false; }
   Channels rests_on() const override { return {channel::emcy}; }
   std::string words(Session& session) const override {
-    std::string out = "EMCY";
+    std::string out = errors_only_ ? "EMCY of an error" : "EMCY";
     if (!code_.empty()) {
       const auto code = code_.number(session);
       out += " " + (code ? canopen::describe_emcy_code(static_cast<std::uint16_t>(*code)) : code_.text());
@@ -269,11 +273,11 @@ class AwaitEmcy final : public Action {
     const auto id = session.emcy_can_id();
     auto found = session.find_frame(
         window->first,
-        [id, wanted](const auto& captured) {
+        [id, any = !errors_only_ && wanted.value_or(0) == 0](const auto& captured) {
           if (captured.direction != can::Direction::received || !captured.frame.is_data(id)) return false;
           // Where an error is waited for, the end of another one (0000h) is none.
           const auto emcy = canopen::decode_emcy(captured.frame.bytes());
-          return !wanted || *wanted == 0 || !emcy || emcy->code != 0;
+          return any || !emcy || emcy->code != 0;
         },
         window->anchor + within);
     if (!found) return std::unexpected(found.error());
@@ -308,6 +312,7 @@ class AwaitEmcy final : public Action {
 
  private:
   Expression code_;
+  bool errors_only_ = false;
   TimeReference within_;
   std::string after_, save_code_, save_register_;
 };
@@ -395,7 +400,7 @@ constexpr Verb table[] = {
      "Make storing and restoring (1010h, 1011h) fail by store_fault of the device profile, or work again.",
      "(word): arm, disarm", "- store_fault: arm", &SwitchStoreFault::parse},
     {"emcy", "Wait for an EMCY.",
-     "code: error code, any when absent\nwithin: time (default 1 s, plus the delay of the trigger)\nafter: label to count from\n"
+     "code: error code, error (any but 0000h), any when absent\nwithin: time (default 1 s, plus the delay of the trigger)\nafter: label to count from\n"
      "save_code, save_register: names that code and error register get\nmeasured: register",
      "- emcy: {code: $code, within: 1 s}\n  checks: EMCY-FMT-01", &AwaitEmcy::parse},
     {"fill_history", "Raise errors in turn until 1003h is full, and one more.",

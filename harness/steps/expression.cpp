@@ -127,11 +127,12 @@ Result<NodePtr> parse_term(TokenReader& in) {
     node->object = *object;
     return node;
   }
-  if (const bool of_default = in.peek() == "default" && in.peek(1) == "of";
+  if (const bool of_default = (in.peek() == "default" || in.peek() == "input") && in.peek(1) == "of";
       of_default ||
       ((in.peek() == "low" || in.peek() == "high") && in.peek(1) == "limit" && in.peek(2) == "of")) {
     node->kind = Node::Kind::declared;
-    node->declared = of_default           ? Declared::default_value
+    node->declared = in.peek() == "input" ? Declared::wired_input
+                     : of_default         ? Declared::default_value
                      : in.peek() == "low" ? Declared::low_limit
                                           : Declared::high_limit;
     for (int i = of_default ? 2 : 3; i > 0; --i) in.take();

@@ -38,7 +38,7 @@ struct Value {
 };
 
 /// What a description says about an entry beside its type and access.
-enum class Declared : std::uint8_t { low_limit, high_limit, default_value };
+enum class Declared : std::uint8_t { low_limit, high_limit, default_value, wired_input };
 
 /// What expressions are evaluated against.
 class Scope {
@@ -51,8 +51,8 @@ class Scope {
   [[nodiscard]] virtual Result<Value> current() = 0;
   /// `value of 1003h:00`: an upload that judges nothing.
   [[nodiscard]] virtual Result<Value> read(Multiplexer object) = 0;
-  /// `low limit of $object`, `default of $object`: what is known of the entry. Error when the description
-  /// leaves it open.
+  /// `low limit of $object`, `default of $object`, `input of $object` (the entry that it is wired to): what
+  /// is known of the entry. Error when the description leaves it open.
   [[nodiscard]] virtual Result<Value> declared(Multiplexer object, Declared what);
 };
 

@@ -252,6 +252,9 @@ class Send final : public Action {
     if (!named_data_.empty()) {
       auto value = named_data_.evaluate(session);
       if (!value) return std::unexpected(value.error());
+      // A number is one byte, as a counter is.
+      if (!value->bytes && value->number && *value->number <= 0xFF)
+        value->bytes = Bytes{static_cast<std::uint8_t>(*value->number)};
       if (!value->bytes || value->bytes->size() > 8)
         return fail_scenario("'" + named_data_.text() + "' is not up to eight bytes");
       data = *value->bytes;
@@ -600,7 +603,7 @@ class Collect final : public Action {
 
 constexpr Verb table[] = {
     {"send", "Send one frame, legal or not.",
-     "id: CAN-ID\ndata: bytes, or $name of saved ones\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
+     "id: CAN-ID\ndata: bytes, or $name of saved ones or of a number of one byte\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
      "- send: {id: 80h, data: \"\"}", &Send::parse},
     {"frame", "Wait for a frame of the device.",
      "id: CAN-ID, or heartbeat, emcy, emcy error (any but 0000h), sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",

@@ -28,16 +28,24 @@ std::span<const Defect> defects() {
                                        sdo_block_upload_defects,
                                        sdo_block_download_defects,
                                        sdo_channel_defects,
+                                       sdo_length_defects,
                                        dictionary_abort_defects,
                                        dictionary_defects,
                                        emergency_history_defects,
                                        emergency_defects,
+                                       emergency_course_defects,
                                        nmt_defects,
                                        error_control_heartbeat_defects,
+                                       error_control_monitoring_defects,
                                        cob_id_defects,
                                        storage_defects,
                                        pdo_receive_defects,
                                        pdo_transmit_defects,
+                                       pdo_receive_traffic_defects,
+                                       pdo_event_defects,
+                                       pdo_sync_defects,
+                                       pdo_mapping_defects,
+                                       pdo_parameter_defects,
                                        dictionary_structure_defects,
                                        error_control_behaviour_defects,
                                        emergency_consumer_defects,
@@ -49,7 +57,9 @@ std::span<const Defect> defects() {
                                        storage_stamp_defects,
                                        objects_description_defects,
                                        objects_operating_system_defects,
-                                       lss_defects});
+                                       lss_defects,
+                                       pdo_traffic_defects,
+                                       device_traffic_defects});
   return all;
 }
 

@@ -110,6 +110,20 @@ DefectTable emergency_defects() {
                [](const FilterContext&, Frame& frame) {
                  if (frame.data[0] != 0 || frame.data[1] != 0) frame.data[2] = 0x01;
                })},
+      {"emcy-register-empty-for-sync-and-rpdo",
+       "EMCY 82xxh shows 00h as error register",
+       {"EMCY-FMT-04", "EMCY-FMT-03"},
+       reshape(Service::emergency,
+               [](const FilterContext&, Frame& frame) {
+                 if (frame.data[1] == 0x82) frame.data[2] = 0x00;
+               })},
+      {"emcy-rpdo-class-undefined",
+       "An RPDO that is too short is reported with the undefined code D210h",
+       {"EMCY-FMT-02"},
+       reshape(Service::emergency,
+               [](const FilterContext&, Frame& frame) {
+                 if (frame.data[0] == 0x10 && frame.data[1] == 0x82) frame.data[1] = 0xD2;
+               })},
       {"error-register-bit-wrong",
        "Communication errors do not set bit 4 of 1001h",
        {"EMCY-FMT-05"},

@@ -203,8 +203,15 @@ DefectTable request_rows() {
        })},
       {"guard-answered-while-heartbeat-on",
        "Guarding goes on while the heartbeat is on",
-       {"EC-NG-11"},
+       {"EC-NG-11", "EC-HBP-12"},
        decides(of_guarding, &GuardingRules::is_used, [](const auto&, std::uint64_t) { return true; })},
+      {"guard-reply-sent-again",
+       "Every third guard reply is sent again 20 ms later",
+       {"EC-NG-16"},
+       Filter([replies = 0](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+         if (context.service != Service::guarding || frames.empty() || ++replies % 3 != 0) return;
+         frames.push_back({frames.front().frame, std::chrono::milliseconds(20)});
+       })},
       {"guarding-dead-after-heartbeat",
        "Guard requests are not answered any more when the heartbeat was on once",
        {"EC-NG-12"},

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "defects/heartbeats.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -14,10 +15,6 @@ using namespace defect;
 
 namespace {
 
-using Written = std::function<void()>;
-
-HeartbeatProducerRules& of_producer(Parts& parts) { return parts.producer.rules; }
-HeartbeatConsumerRules& of_consumer(Parts& parts) { return parts.consumer.rules; }
 ErrorBehaviourRules& of_error_behaviour(Parts& parts) { return parts.error_behaviour.rules; }
 
 /// A time is that many times as long as the rule says.
@@ -71,20 +68,6 @@ Filter toggles_bit7() {
       if (std::exchange(toggle, !toggle)) outgoing.frame.data[0] |= 0x80U;
     }
   };
-}
-
-bool is_heartbeat(const Frame& frame) {
-  return frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1 && !frame.extended && !frame.remote;
-}
-std::uint8_t producer_of(const Frame& frame) { return static_cast<std::uint8_t>(frame.id - 0x700U); }
-
-/// The node that 1016h:`sub` names, if it is monitored.
-std::optional<std::uint8_t> node_at(Parts& parts, std::uint8_t sub) {
-  const std::uint64_t entry = parts.device.dictionary.number(0x1016, sub);
-  return parts.consumer.rules.used(entry) ? std::optional(monitored_node(entry)) : std::nullopt;
-}
-std::uint8_t consumer_entries(const Parts& parts) {
-  return static_cast<std::uint8_t>(parts.device.dictionary.number(0x1016, 0));
 }
 
 /// The decision on another value in place of the one that is written.

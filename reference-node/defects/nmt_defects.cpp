@@ -2,6 +2,7 @@
 // Defects of the NMT slave, of boot-up and of what a reset does.
 #include <algorithm>
 #include <chrono>
+#include <deque>
 #include <iterator>
 #include <utility>
 
@@ -92,6 +93,18 @@ Change reset_loads(bool (*loads)(bool right, Group group, bool whole_node)) {
                  [loads](const auto& former, Group group, bool whole_node) {
                    return loads(former(group, whole_node), group, whole_node);
                  });
+}
+
+/// Commands that come right behind many other frames are lost.
+Reading loses_commands_under_load() {
+  return [load = std::deque<BusTime>()](Parts& parts, std::vector<Frame>& frames) mutable {
+    constexpr std::size_t many = 24;
+    constexpr Duration short_time = std::chrono::milliseconds(50);
+    const bool full = load.size() == many && parts.device.now - load.front() < short_time;
+    std::erase_if(frames, [full](const Frame& frame) { return full && is_command(frame); });
+    load.push_back(parts.device.now);
+    if (load.size() > many) load.pop_front();
+  };
 }
 
 }  // namespace
@@ -238,6 +251,20 @@ DefectTable nmt_defects() {
        {"NMT-FSA-18"},
        misreads_commands([](Parts& parts, Frame& frame) {
          if (frame.size() > 2) frame = command_to(parts, frame.data[0]);
+       })},
+      {"nmt-lost-under-load",
+       "Commands that follow 24 other frames within 50 ms are lost",
+       {"NMT-FSA-28"},
+       loses_commands_under_load()},
+      {"time-consumed-in-stopped",
+       "TIME is taken in Stopped",
+       {"NMT-SVC-03"},
+       works_also(Service::time, NmtState::stopped)},
+      {"time-not-consumed-in-operational",
+       "TIME is not taken in Operational",
+       {"NMT-SVC-03"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return parts.device.state == NmtState::operational && frame.id == 0x100;
        })},
       {"reset-communication-keeps-values",
        "Reset communication keeps the communication parameters",

@@ -16,8 +16,6 @@ namespace {
 constexpr DataType u16 = DataType::unsigned16;
 constexpr DataType u32 = DataType::unsigned32;
 
-ReceivePdoRules& rpdo_traffic(Parts& parts) { return parts.pdos.rpdo.rules; }
-
 }  // namespace
 
 DefectTable pdo_receive_defects() {
@@ -123,7 +121,7 @@ DefectTable pdo_receive_defects() {
        "An RPDO that is too short is processed as far as it goes",
        {"OD-1600-16", "PDO-RX-06"},
        decides(rpdo_traffic, &ReceivePdoRules::processed,
-               [](const auto&, std::size_t, std::size_t) { return true; })},
+               [](const auto&, const PdoParameters&, std::size_t, std::size_t) { return true; })},
       {"1600-no-8210-emcy",
        "An RPDO that is too short causes no EMCY",
        {"OD-1600-16", "PDO-RX-06"},
@@ -132,14 +130,14 @@ DefectTable pdo_receive_defects() {
        "An RPDO that is too long is dropped",
        {"OD-1600-17", "PDO-RX-07"},
        decides(rpdo_traffic, &ReceivePdoRules::processed,
-               [](const auto& former, std::size_t received, std::size_t mapped) {
-                 return received <= mapped && former(received, mapped);
+               [](const auto& former, const PdoParameters& pdo, std::size_t received, std::size_t mapped) {
+                 return received <= mapped && former(pdo, received, mapped);
                })},
       {"1400-sync-rpdo-applied-at-once",
        "A synchronous RPDO takes effect before the SYNC",
        {"OD-1400-22", "PDO-RX-03"},
        decides(rpdo_traffic, &ReceivePdoRules::waits_for_sync,
-               [](const auto&, std::uint8_t) { return false; })},
+               [](const auto&, const PdoParameters&) { return false; })},
       {"rpdo-processed-in-preop",
        "RPDOs are processed in Pre-operational",
        {"PDO-RX-02", "NMT-FSA-21"},

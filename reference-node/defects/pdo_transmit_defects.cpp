@@ -15,17 +15,19 @@ namespace {
 constexpr DataType u16 = DataType::unsigned16;
 constexpr DataType u32 = DataType::unsigned32;
 
-TransmitPdoRules& tpdo_traffic(Parts& parts) { return parts.pdos.tpdo.rules; }
-
 /// A time of the TPDO is another one than it should be.
-Change counts(Rule<Duration(std::int64_t)> PdoRules::* time, Duration (*as)(Duration right)) {
+Change counts(Rule<Duration(const PdoParameters&, std::int64_t)> PdoRules::* time,
+              Duration (*as)(Duration right)) {
   return decides(tpdo_parameters, time,
-                 [as](const auto& former, std::int64_t value) { return as(former(value)); });
+                 [as](const auto& former, const PdoParameters& pdo, std::int64_t value) {
+                   return as(former(pdo, value));
+                 });
 }
 
-using SentAtSync = Rule<bool(std::uint8_t, std::uint32_t, bool)>::Decision;
+using SentAtSync = Rule<bool(const PdoParameters&, std::uint32_t, bool)>::Decision;
 
-Change at_sync(bool (*sent)(const SentAtSync& former, std::uint8_t type, std::uint32_t syncs, bool event)) {
+Change at_sync(bool (*sent)(const SentAtSync& former, const PdoParameters& pdo, std::uint32_t syncs,
+                            bool event)) {
   return decides(tpdo_traffic, &TransmitPdoRules::sent_at_sync, sent);
 }
 
@@ -81,14 +83,14 @@ DefectTable pdo_transmit_defects() {
       {"1800-cyclic-ratio-wrong",
        "Synchronous TPDOs are sent one SYNC too late",
        {"OD-1800-22", "PDO-TX-05", "PDO-TX-06", "SYNC-CON-01"},
-       at_sync([](const SentAtSync& former, std::uint8_t type, std::uint32_t syncs, bool event) {
-         return former(type, syncs - 1, event);
+       at_sync([](const SentAtSync& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+         return former(pdo, syncs - 1, event);
        })},
       {"1800-acyclic-sends-every-sync",
        "Transmission type 00h sends with every SYNC",
        {"OD-1800-23", "PDO-TX-07"},
-       at_sync([](const SentAtSync& former, std::uint8_t type, std::uint32_t syncs, bool event) {
-         return type == 0 || former(type, syncs, event);
+       at_sync([](const SentAtSync& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+         return pdo.transmission_type() == 0 || former(pdo, syncs, event);
        })},
       {"tpdo-change-ignored",
        "A change of a mapped object sends no TPDO",
@@ -106,14 +108,14 @@ DefectTable pdo_transmit_defects() {
       {"1800-rtr-type-sends-unasked",
        "Transmission type FCh sends with the SYNC",
        {"OD-1800-24", "PDO-TX-20"},
-       at_sync([](const SentAtSync& former, std::uint8_t type, std::uint32_t syncs, bool event) {
-         return type == 0xFC || former(type, syncs, event);
+       at_sync([](const SentAtSync& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+         return pdo.transmission_type() == 0xFC || former(pdo, syncs, event);
        })},
       {"event-timer-active-in-sync-mode",
        "The event timer also works with synchronous types",
        {"PDO-TX-11"},
        decides(tpdo_traffic, &TransmitPdoRules::has_event_timer,
-               [](const auto&, std::uint8_t) { return true; })},
+               [](const auto&, const PdoParameters&) { return true; })},
       {"1800-tpdo-in-pre-operational",
        "TPDOs are sent in Pre-operational",
        {"OD-1800-28", "PDO-TX-02", "NMT-FSA-21"},

@@ -10,9 +10,15 @@
 namespace refnode::defect {
 
 Change unlocked(PdoRulesPart of, PdoPart part) {
-  return decides(of, &PdoRules::locked, [part](const auto& former, PdoPart which, bool valid, bool enabled) {
-    return which != part && former(which, valid, enabled);
-  });
+  return decides(of, &PdoRules::locked,
+                 [part](const auto& former, const PdoParameters& pdo, PdoPart which, bool valid,
+                        bool enabled) { return which != part && former(pdo, which, valid, enabled); });
+}
+
+Change unlocked(PdoRulesPart of, PdoPart part, std::uint16_t number) {
+  return decides_for(number, of, &PdoRules::locked,
+                     [part](const auto& former, const PdoParameters& pdo, PdoPart which, bool valid,
+                            bool enabled) { return which != part && former(pdo, which, valid, enabled); });
 }
 
 Change maps_absent_objects(PdoRulesPart of) {
@@ -44,12 +50,11 @@ Change takes_count(std::uint16_t index, CountThat too_large) {
 
 namespace {
 
-/// Changes what a frame of the first PDO of its direction carries, one mapped object after the other.
-void change_values(const ObjectDictionary& od, PdoDirection direction, Frame& frame, ValueChange change) {
+/// Changes what a frame carries, one mapped object after the other; `communication` is of its PDO.
+void change_values(const ObjectDictionary& od, std::uint16_t communication, Frame& frame,
+                   ValueChange change) {
   constexpr std::uint8_t most_mapped = 0x40;
-  const std::uint16_t communication = first_communication_index(direction);
   const auto mapping = static_cast<std::uint16_t>(communication + 0x200);
-  if (frame.id != (od.number(communication, 1) & 0x7FFU)) return;
   const std::span<std::uint8_t> data = std::span(frame.data).first(frame.size());
   std::size_t position = 0;  // in bits
   for (std::uint8_t sub = 1; sub <= od.number(mapping, 0) && sub <= most_mapped; ++sub) {
@@ -69,20 +74,32 @@ void change_values(const ObjectDictionary& od, PdoDirection direction, Frame& fr
 
 }  // namespace
 
+namespace {
+
+/// The PDO that a frame belongs to may be any one of its direction.
+void change_values_of(Parts& parts, PdoDirection direction, Frame& frame, ValueChange change) {
+  const ObjectDictionary& od = parts.device.dictionary;
+  const std::uint16_t first = first_communication_index(direction);
+  for (auto object = od.objects().lower_bound(first);
+       object != od.objects().end() && object->first < first + pdos_of_a_direction; ++object) {
+    if (frame.id == (od.number(object->first, 1) & 0x7FFU)) change_values(od, object->first, frame, change);
+  }
+}
+
+}  // namespace
+
 void reversed(const Entry&, Bytes& value) { std::ranges::reverse(value); }
 
 Change receives_values(ValueChange as) {
-  return misreads([as](Parts& parts, Frame& frame) {
-    change_values(parts.device.dictionary, PdoDirection::receive, frame, as);
-  });
+  return misreads(
+      [as](Parts& parts, Frame& frame) { change_values_of(parts, PdoDirection::receive, frame, as); });
 }
 
 Change sends_values(ValueChange as) {
   return [as](Parts& parts) {
     parts.device.outbox.add_filter([&parts, as](const FilterContext& context, std::vector<Outgoing>& frames) {
       if (context.service != Service::tpdo) return;
-      for (Outgoing& outgoing : frames)
-        change_values(parts.device.dictionary, PdoDirection::transmit, outgoing.frame, as);
+      for (Outgoing& outgoing : frames) change_values_of(parts, PdoDirection::transmit, outgoing.frame, as);
     });
   };
 }

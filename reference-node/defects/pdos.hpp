@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "defects/hooks.hpp"
 
@@ -11,11 +12,42 @@ namespace refnode::defect {
 
 using PdoRulesPart = PdoRules& (*)(Parts&);
 
+// Numbers of PDOs: 0 is 1400h or 1800h.
+inline constexpr std::uint16_t second_pdo = 1;
+inline constexpr std::uint16_t third_pdo = 2;
+inline constexpr std::uint16_t last_pdo = 3;
+
+/// Another decision for one PDO of a direction; for the others the rule stays as it is.
+template <typename Rules, typename Answer, typename... Given, typename Other>
+[[nodiscard]] Change decides_for(std::uint16_t number, Rules& (*part)(Parts&),
+                                 Rule<Answer(const PdoParameters&, Given...)> Rules::* rule, Other other) {
+  return decides(part, rule,
+                 [number, other](const auto& former, const PdoParameters& pdo, Given... given) -> Answer {
+                   if (pdo.number() != number) return former(pdo, given...);
+                   return other(former, pdo, given...);
+                 });
+}
+
+/// A decision that remembers something: `other(memory, former, given...)`, one memory for each node.
+template <typename Memory, typename Rules, typename Answer, typename... Given, typename Other>
+[[nodiscard]] Change decides_by(Rules& (*part)(Parts&), Rule<Answer(Given...)> Rules::* rule, Other other) {
+  return [part, rule, other](Parts& parts) {
+    (part(parts).*rule)
+        .replace([memory = std::make_shared<Memory>(), other](const auto& former, Given... given) -> Answer {
+          return other(*memory, former, given...);
+        });
+  };
+}
+
 inline PdoRules& rpdo_parameters(Parts& parts) { return parts.pdos.rpdo.parameters.rules; }
 inline PdoRules& tpdo_parameters(Parts& parts) { return parts.pdos.tpdo.parameters.rules; }
 
-/// This part of the parameters can be changed at any time.
+inline ReceivePdoRules& rpdo_traffic(Parts& parts) { return parts.pdos.rpdo.rules; }
+inline TransmitPdoRules& tpdo_traffic(Parts& parts) { return parts.pdos.tpdo.rules; }
+
+/// This part of the parameters can be changed at any time, of every PDO or of one.
 [[nodiscard]] Change unlocked(PdoRulesPart of, PdoPart part);
+[[nodiscard]] Change unlocked(PdoRulesPart of, PdoPart part, std::uint16_t number);
 
 [[nodiscard]] Change maps_absent_objects(PdoRulesPart of);
 /// Whatever length a mapping entry gives, it is taken for the right one.
@@ -29,7 +61,7 @@ enum class CountThat : std::uint8_t { exceeds_the_entries, exceeds_64_bits };
 /// Puts another value, of the same length, in place of that of a mapped object.
 using ValueChange = void (*)(const Entry& mapped, Bytes& value);
 
-/// The first RPDO brings other values than were sent, the first TPDO sends others than there are.
+/// RPDOs bring other values than were sent, TPDOs send others than there are.
 [[nodiscard]] Change receives_values(ValueChange as);
 [[nodiscard]] Change sends_values(ValueChange as);
 

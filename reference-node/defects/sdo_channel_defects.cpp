@@ -86,6 +86,15 @@ DictionaryEdit only_valid_bit(std::uint16_t index) {
   };
 }
 
+/// One of the COB-IDs of one channel.
+Change accepts_restricted_at(std::uint16_t index, std::uint8_t sub) {
+  return checking(index, sub, [](Parts& parts, const Check& former, ByteView bytes) {
+    const Accepted allowed = former(bytes);
+    const auto wanted = static_cast<std::uint32_t>(conform::load_le(bytes));
+    return allowed || !of_sdo_server(parts).restricted(wanted & 0x7FFU) ? allowed : Accepted{};
+  });
+}
+
 }  // namespace
 
 DefectTable sdo_channel_defects() {
@@ -115,6 +124,18 @@ DefectTable sdo_channel_defects() {
        "An additional SDO server is in use while bit 31 of its COB-IDs is 1",
        {"OD-1201-04", "SDO-MUL-01", "OD-1201-05"},
        inverted(of_sdo_server, &CobIdRules::valid)},
+      {"1201-restricted-id-accepted",
+       "Additional SDO servers accept restricted CAN-IDs",
+       {"CAN-RID-06"},
+       decided(of_sdo_server, &CobIdRules::restricted, false)},
+      {"1201-restricted-response-id-accepted",
+       "The response COB-ID of an additional SDO server accepts restricted CAN-IDs",
+       {"CAN-RID-06"},
+       accepts_restricted_at(0x1201, 2)},
+      {"1280-restricted-id-accepted",
+       "SDO clients accept restricted CAN-IDs",
+       {"CAN-RID-06"},
+       decided(of_sdo_client, &CobIdRules::restricted, false)},
       {"1201-valid-with-one-cob-id",
        "An additional SDO server is in use as soon as its first COB-ID is valid",
        {"OD-1201-04"},

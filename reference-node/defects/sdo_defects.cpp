@@ -296,6 +296,15 @@ DefectTable command_rows() {
          }
          last = context.sdo->request;
        })},
+      {"unknown-command-abort-names-another-object",
+       "The abort of an unknown command names the object four behind that of the request",
+       {"SDO-ERR-04"},
+       patch([](const SdoExchange& e) { return aborted(e) && (e.request[0] & 0xE0U) == 0xE0U; },
+             [](const SdoExchange& e, Data& data) {
+               data[1] = static_cast<std::uint8_t>(e.request[1] + 4);
+               data[2] = e.request[2];
+               data[3] = e.request[3];
+             })},
       {"segment-abort-mux-zero",
        "Aborts of a running transfer carry the multiplexer 0000h:00",
        {"SDO-ERR-04", "SDO-SUP-05", "SDO-SDN-04"},

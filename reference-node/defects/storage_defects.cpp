@@ -39,6 +39,14 @@ Bytes lower_case(Bytes signature) {
   return signature;
 }
 
+/// One letter of the signature is not looked at.
+Change ignores_letter(std::uint16_t index, std::string_view signature, std::size_t letter) {
+  return takes_for(index, [signature, letter](Bytes given) {
+    if (letter < given.size()) given[letter] = static_cast<std::uint8_t>(signature[letter]);
+    return given;
+  });
+}
+
 /// Acts first and looks at the signature then.
 Change acts_on_any(std::uint16_t index, std::string_view signature) {
   return checking_all(index, [signature](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
@@ -128,6 +136,22 @@ DefectTable storage_defects() {
        "1010h accepts \"SAVE\"",
        {"OD-1010-08"},
        takes_for(0x1010, lower_case)},
+      {"1010-first-letter-ignored",
+       "1010h stores whatever the first letter of the signature is",
+       {"OD-1010-08"},
+       ignores_letter(0x1010, "save", 0)},
+      {"1010-second-letter-ignored",
+       "1010h stores whatever the second letter of the signature is",
+       {"OD-1010-08"},
+       ignores_letter(0x1010, "save", 1)},
+      {"1010-third-letter-ignored",
+       "1010h stores whatever the third letter of the signature is",
+       {"OD-1010-08"},
+       ignores_letter(0x1010, "save", 2)},
+      {"1010-last-letter-ignored",
+       "1010h stores whatever the last letter of the signature is",
+       {"OD-1010-08"},
+       ignores_letter(0x1010, "save", 3)},
       {"1010-wrong-signature-still-saves",
        "A wrong signature in 1010h is refused, but stores",
        {"OD-1010-09", "STO-1010-02"},
@@ -199,6 +223,22 @@ DefectTable storage_defects() {
        "1011h accepts \"LOAD\"",
        {"OD-1011-08"},
        takes_for(0x1011, lower_case)},
+      {"1011-first-letter-ignored",
+       "1011h restores whatever the first letter of the signature is",
+       {"OD-1011-08"},
+       ignores_letter(0x1011, "load", 0)},
+      {"1011-second-letter-ignored",
+       "1011h restores whatever the second letter of the signature is",
+       {"OD-1011-08"},
+       ignores_letter(0x1011, "load", 1)},
+      {"1011-third-letter-ignored",
+       "1011h restores whatever the third letter of the signature is",
+       {"OD-1011-08"},
+       ignores_letter(0x1011, "load", 2)},
+      {"1011-last-letter-ignored",
+       "1011h restores whatever the last letter of the signature is",
+       {"OD-1011-08"},
+       ignores_letter(0x1011, "load", 3)},
       {"1011-wrong-signature-still-restores",
        "A wrong signature in 1011h is refused, but restores",
        {"OD-1011-09", "STO-1011-02"},

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the configuration stamp (1020h).
+#include <functional>
+#include <memory>
+
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -39,6 +42,27 @@ Change stamp_becomes_default() {
   });
 }
 
+/// That date and time were written counts, although a reset has taken back what was written.
+Change renewed_before_a_reset() {
+  return [](Parts& parts) {
+    const auto written = std::make_shared<bool>(false);
+    after_writing_all(0x1020, [written](Parts&, const std::function<void()>& former, std::uint8_t) {
+      *written = true;
+      former();
+    })(parts);
+    checking_all(0x1010, [written](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+      const Accepted stored = former(bytes);
+      if (stored) *written = false;
+      return stored;
+    })(parts);
+    parts.device.outbox.add_filter([&parts, written](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.service != Service::boot_up || !*written) return;
+      const Entry* entry = parts.device.dictionary.entry(0x1020, 1);
+      if (entry != nullptr && entry->written) entry->written();
+    });
+  };
+}
+
 }  // namespace
 
 DefectTable storage_stamp_defects() {
@@ -75,6 +99,10 @@ DefectTable storage_stamp_defects() {
                [](const auto& former, const Images& before, const Images& after) {
                  return !is_restored(before, after) || former(before, after);
                })},
+      {"1020-write-before-a-reset-counts",
+       "1020h stays when it was written, lost by a reset, and another configuration is stored then",
+       {"OD-1020-05"},
+       renewed_before_a_reset()},
       {"1020-survives-restore",
        "Restoring the defaults leaves 1020h",
        {"STO-1020-04"},

@@ -51,8 +51,8 @@ SimpleBootUpSlave=1
 Granularity=8
 DynamicChannelsSupported=0
 GroupMessaging=0
-NrOfRXPDO=1
-NrOfTXPDO=1
+NrOfRXPDO=4
+NrOfTXPDO=4
 LSS_Supported=1
 
 [DummyUsage]

@@ -5,12 +5,14 @@ namespace refnode {
 
 namespace {
 
-constexpr std::uint8_t digital_channels = 4;
+constexpr std::uint8_t digital_channels = 8;
 constexpr std::uint8_t analog_channels = 2;
 constexpr std::uint16_t digital_inputs = 0x6000;
 constexpr std::uint16_t digital_outputs = 0x6200;
 constexpr std::uint16_t analog_inputs = 0x6401;
 constexpr std::uint16_t analog_outputs = 0x6411;
+constexpr std::uint16_t wide_analog_inputs = 0x6402;
+constexpr std::uint16_t wide_analog_outputs = 0x6412;
 
 void copy(ObjectDictionary& od, std::uint16_t from, std::uint16_t to, std::uint8_t sub) {
   const Entry* output = od.entry(from, sub);
@@ -40,6 +42,8 @@ void add_application_objects(Device& device, const std::function<void()>& change
   ObjectDictionary& od = device.dictionary;
   add_channels(device, digital_inputs, digital_outputs, digital_channels, DataType::unsigned8, changed);
   add_channels(device, analog_inputs, analog_outputs, analog_channels, DataType::integer16, changed);
+  add_channels(device, wide_analog_inputs, wide_analog_outputs, analog_channels, DataType::integer32,
+               changed);
 
   od.add_complex(0x6206, "Error mode of digital outputs", ObjectKind::array);
   od.add_complex(0x6207, "Error value of digital outputs", ObjectKind::array);
@@ -63,6 +67,8 @@ void report_changes(Device& device, const std::function<void()>& changed) {
 void mirror_outputs(ObjectDictionary& od) {
   for (std::uint8_t sub = 1; sub <= digital_channels; ++sub) copy(od, digital_outputs, digital_inputs, sub);
   for (std::uint8_t sub = 1; sub <= analog_channels; ++sub) copy(od, analog_outputs, analog_inputs, sub);
+  for (std::uint8_t sub = 1; sub <= analog_channels; ++sub)
+    copy(od, wide_analog_outputs, wide_analog_inputs, sub);
 }
 
 }  // namespace refnode

@@ -20,11 +20,11 @@ constexpr std::uint64_t first_multiplexed = 0xFE;  // FEh and FFh in sub-index 0
 
 }  // namespace
 
-void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t cob_id, std::uint8_t node_id,
-                     const std::vector<std::uint32_t>& mapping) {
+void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint16_t number, std::uint32_t cob_id,
+                     std::uint8_t node_id, const std::vector<std::uint32_t>& mapping) {
   constexpr std::uint8_t entries = 8;
   const bool receive = direction == PdoDirection::receive;
-  const std::uint16_t index = first_communication_index(direction);
+  const auto index = static_cast<std::uint16_t>(first_communication_index(direction) + number);
   od.add_complex(index, receive ? "RPDO communication parameter" : "TPDO communication parameter",
                  ObjectKind::record);
   od.add_sub(index, 1, cob_id_entry("COB-ID", Access::rw, cob_id, node_id));
@@ -32,6 +32,9 @@ void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t
   od.add_sub(index, inhibit_sub, integer_entry("Inhibit time", DataType::unsigned16, Access::rw, 0));
   // Sub-index 04h is reserved and left out.
   od.add_sub(index, event_timer_sub, integer_entry("Event timer", DataType::unsigned16, Access::rw, 0));
+  if (!receive) {
+    od.add_sub(index, sync_start_sub, integer_entry("SYNC start value", DataType::unsigned8, Access::rw, 0));
+  }
 
   const auto mapped = static_cast<std::uint16_t>(index + to_mapping);
   od.add_complex(mapped, receive ? "RPDO mapping parameter" : "TPDO mapping parameter", ObjectKind::record);
@@ -46,6 +49,7 @@ void add_pdo_objects(ObjectDictionary& od, PdoDirection direction, std::uint32_t
 PdoParameters::PdoParameters(Device& device, const PdoTerms& terms, std::uint16_t number)
     : device_(&device),
       terms_(&terms),
+      number_(number),
       communication_(static_cast<std::uint16_t>(first_communication_index(terms.direction) + number)),
       mapping_(static_cast<std::uint16_t>(communication_ + to_mapping)),
       cob_id_(device, terms.cob_id_rules, communication_, cob_id_sub, 0) {
@@ -100,11 +104,11 @@ std::uint8_t PdoParameters::transmission_type() const {
 }
 
 Duration PdoParameters::inhibit_time() const {
-  return terms_->rules.inhibit_time(device_->time_value(communication_, inhibit_sub));
+  return terms_->rules.inhibit_time(*this, device_->time_value(communication_, inhibit_sub));
 }
 
 Duration PdoParameters::event_timer() const {
-  return terms_->rules.event_timer(device_->time_value(communication_, event_timer_sub));
+  return terms_->rules.event_timer(*this, device_->time_value(communication_, event_timer_sub));
 }
 
 std::uint64_t PdoParameters::sync_start() const {
@@ -112,7 +116,7 @@ std::uint64_t PdoParameters::sync_start() const {
 }
 
 bool PdoParameters::locked(PdoPart part) const {
-  return terms_->rules.locked(part, cob_id_.valid(), device_->dictionary.number(mapping_, 0) != 0);
+  return terms_->rules.locked(*this, part, cob_id_.valid(), device_->dictionary.number(mapping_, 0) != 0);
 }
 
 Accepted PdoParameters::check_type(ByteView bytes) const {
@@ -121,7 +125,8 @@ Accepted PdoParameters::check_type(ByteView bytes) const {
   // What a description begins with is supported, by its word.
   if (device_->described && type == transmission_type()) return {};
   const bool transmit = terms_->direction == PdoDirection::transmit;
-  const bool supported = (is_synchronous(type) && choices.synchronous_types) ||
+  const bool some_syncs = type == 0 ? choices.acyclic_type : type <= choices.most_syncs;
+  const bool supported = (is_synchronous(type) && choices.synchronous_types && some_syncs) ||
                          (is_event_driven(type) && choices.event_types) ||
                          (is_on_remote_request(type) && transmit && choices.remote_types);
   if (!supported) return refuse(abort_code::invalid_value);
@@ -174,7 +179,7 @@ std::vector<Mapped> PdoParameters::mapping() const {
   for (std::uint8_t sub = 1; sub <= count && sub <= mapping_entries_; ++sub) {
     all.push_back(Mapped::unpack(device_->dictionary.number(mapping_, sub)));
   }
-  return all;
+  return terms_->rules.mapping(*this, all);
 }
 
 std::size_t PdoParameters::mapped_size() const {

@@ -19,10 +19,10 @@ inline constexpr std::uint16_t pdos_of_a_direction = 512;
   return direction == PdoDirection::receive ? 0x1400 : 0x1800;
 }
 
-/// Adds both parameters of the first PDO of a direction; `mapping` are the default entries, of eight there
-/// can be.
-void add_pdo_objects(ObjectDictionary& dictionary, PdoDirection direction, std::uint32_t cob_id,
-                     std::uint8_t node_id, const std::vector<std::uint32_t>& mapping);
+/// Adds both parameters of a PDO; `number` 0 is the first one of its direction, `mapping` are the default
+/// entries, of eight there can be.
+void add_pdo_objects(ObjectDictionary& dictionary, PdoDirection direction, std::uint16_t number,
+                     std::uint32_t cob_id, std::uint8_t node_id, const std::vector<std::uint32_t>& mapping);
 
 class PdoParameters {
  public:
@@ -34,6 +34,8 @@ class PdoParameters {
 
   std::function<void()> on_changed;  ///< a communication parameter or the number of mapped objects
 
+  /// 0 is the first PDO of its direction.
+  [[nodiscard]] std::uint16_t number() const { return number_; }
   [[nodiscard]] const CobId& cob_id() const { return cob_id_; }
   [[nodiscard]] std::uint8_t transmission_type() const;
   [[nodiscard]] Duration inhibit_time() const;
@@ -58,6 +60,7 @@ class PdoParameters {
 
   Device* device_;
   const PdoTerms* terms_;
+  std::uint16_t number_;
   std::uint16_t communication_;  ///< index of the communication parameter
   std::uint16_t mapping_;        ///< index of the mapping parameter
   CobId cob_id_;

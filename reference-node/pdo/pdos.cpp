@@ -2,16 +2,30 @@
 #include "pdo/pdos.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace refnode {
 
 void Pdos::add_objects() {
-  // Two digital outputs and an analog one, two digital inputs and an analog one. Bit 30 of the TPDO: not on
-  // remote request.
-  add_pdo_objects(device_->dictionary, PdoDirection::receive, 0x200, device_->node_id,
-                  {0x62000108, 0x62000208, 0x64110110});
-  add_pdo_objects(device_->dictionary, PdoDirection::transmit, 0x40000180, device_->node_id,
-                  {0x60000108, 0x60000208, 0x64010110});
+  // Every output is mapped to one RPDO at most, and every input that repeats it to the TPDO of the same
+  // number.
+  const std::vector<std::uint32_t> outputs[] = {{0x62000108, 0x62000208, 0x64110110},
+                                                {0x64110210, 0x62000308},
+                                                {0x62000408, 0x64120120},
+                                                {0x62000508, 0x62000608, 0x62000708, 0x62000808}};
+  const std::vector<std::uint32_t> inputs[] = {{0x60000108, 0x60000208, 0x64010110},
+                                               {0x64010210, 0x60000308},
+                                               {0x60000408, 0x64020120},
+                                               {0x60000508, 0x60000608, 0x60000708, 0x60000808}};
+  // Bit 30 of the TPDOs: not on remote request.
+  for (std::uint16_t number = 0; number < std::size(outputs); ++number) {
+    const std::uint32_t step = number * 0x100U;
+    add_pdo_objects(device_->dictionary, PdoDirection::receive, number, 0x200 + step, device_->node_id,
+                    outputs[number]);
+    add_pdo_objects(device_->dictionary, PdoDirection::transmit, number, 0x40000180 + step, device_->node_id,
+                    inputs[number]);
+  }
 }
 
 void Pdos::bind() {

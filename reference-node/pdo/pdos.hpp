@@ -22,7 +22,7 @@ class Pdos {
   ReceivePdoTerms rpdo;
   TransmitPdoTerms tpdo;
 
-  /// The node's own: one RPDO and one TPDO of four bytes each.
+  /// The node's own: the four RPDOs and four TPDOs of the pre-defined connection set (7.3.5).
   void add_objects();
   /// Puts the service behind every communication parameter there is.
   void bind();

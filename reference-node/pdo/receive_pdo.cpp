@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pdo/receive_pdo.hpp"
 
-#include <utility>
-
 #include "pdo/bits.hpp"
 
 namespace refnode {
@@ -17,14 +15,21 @@ constexpr std::uint16_t event_timer_elapsed = 0x8250;
 }  // namespace
 
 ReceivePdoRules::ReceivePdoRules()
-    : processed([](std::size_t received, std::size_t mapped) { return received >= mapped; }),
-      waits_for_sync(is_synchronous) {}
+    : valid([](const PdoParameters& pdo) { return pdo.cob_id().valid(); }),
+      processed(
+          [](const PdoParameters&, std::size_t received, std::size_t mapped) { return received >= mapped; }),
+      waits_for_sync([](const PdoParameters& pdo) { return is_synchronous(pdo.transmission_type()); }),
+      kept_for_sync(
+          [](const PdoParameters&, const std::optional<Bytes>&, const Bytes& received) { return received; }),
+      taken_at_sync([](const PdoParameters&, const Bytes& waiting) { return waiting; }),
+      due_at_sync([](const PdoParameters&, std::uint32_t) { return true; }),
+      watched_from_start([](const PdoParameters&) { return false; }) {}
 
 ReceivePdo::ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16_t number)
     : device_(&device), terms_(&terms), number_(number), parameters_(device, terms.parameters, number) {}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
-  if (!parameters_.cob_id().valid() || frame.id != parameters_.cob_id().can_id()) return false;
+  if (!terms_->rules.valid(parameters_) || frame.id != parameters_.cob_id().can_id()) return false;
   if (!device_->works_now(Service::rpdo)) return true;
   const std::size_t size = parameters_.mapped_size();
   if (size == 0) return true;
@@ -34,7 +39,7 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   } else {
     device_->errors.clear(cause(too_short));
   }
-  if (!terms_->rules.processed(frame.size(), size)) return true;
+  if (!terms_->rules.processed(parameters_, frame.size(), size)) return true;
   if (frame.size() <= size) {
     device_->errors.clear(cause(too_long));
   } else if (terms_->choices.too_long_reported) {
@@ -42,9 +47,12 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   }
   start_deadline();
 
-  Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
-  if (terms_->rules.waits_for_sync(parameters_.transmission_type())) {
-    if (terms_->in_window()) buffered_ = std::move(data);
+  const Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
+  if (terms_->rules.waits_for_sync(parameters_)) {
+    if (terms_->in_window()) {
+      buffered_ = terms_->rules.kept_for_sync(parameters_, buffered_, data);
+      syncs_ = 0;
+    }
   } else {
     apply(data);
   }
@@ -52,13 +60,16 @@ bool ReceivePdo::on_frame(const Frame& frame) {
 }
 
 void ReceivePdo::on_sync() {
-  if (buffered_ && device_->works_now(Service::rpdo)) apply(*buffered_);
+  if (!buffered_ || !terms_->rules.due_at_sync(parameters_, ++syncs_)) return;
+  if (device_->works_now(Service::rpdo)) apply(terms_->rules.taken_at_sync(parameters_, *buffered_));
   buffered_.reset();
 }
 
 void ReceivePdo::on_state_change() {
   buffered_.reset();
   deadline_.reset();
+  const bool watched = device_->works_now(Service::rpdo) && terms_->rules.watched_from_start(parameters_);
+  if (watched && terms_->rules.valid(parameters_)) start_deadline();
 }
 
 // The event timer of an RPDO: the next one has to come before it has elapsed.

@@ -17,10 +17,20 @@ struct ReceivePdoChoices {
 };
 
 struct ReceivePdoRules {
+  /// Bit 31 of the COB-ID says whether the PDO exists and is used.
+  Rule<bool(const PdoParameters&)> valid;
   /// With fewer bytes than are mapped the PDO is not processed, of more bytes the first are used (7.5.2.36).
-  Rule<bool(std::size_t received, std::size_t mapped)> processed;
+  Rule<bool(const PdoParameters&, std::size_t received, std::size_t mapped)> processed;
   /// Data of the types 00h to F0h become valid with the next SYNC, those of the others at once.
-  Rule<bool(std::uint8_t type)> waits_for_sync;
+  Rule<bool(const PdoParameters&)> waits_for_sync;
+  /// Of several before one SYNC the last one counts. `waiting`: what came before, if anything.
+  Rule<Bytes(const PdoParameters&, const std::optional<Bytes>& waiting, const Bytes& received)> kept_for_sync;
+  /// With the SYNC the mapped objects get what their PDO brought.
+  Rule<Bytes(const PdoParameters&, const Bytes& waiting)> taken_at_sync;
+  /// Every synchronous type waits for one SYNC, whatever its number. `syncs`: since the data came.
+  Rule<bool(const PdoParameters&, std::uint32_t syncs)> due_at_sync;
+  /// The deadline is watched from the first RPDO on, not from the start of Operational.
+  Rule<bool(const PdoParameters&)> watched_from_start;
   ReceivePdoRules();
 };
 
@@ -65,6 +75,7 @@ class ReceivePdo {
   PdoParameters parameters_;
   bool applying_ = false;
   std::optional<Bytes> buffered_;    ///< synchronous types: waiting for the SYNC
+  std::uint32_t syncs_ = 0;          ///< since then
   std::optional<BusTime> deadline_;  ///< event timer, armed by the first RPDO
 };
 

@@ -43,11 +43,16 @@ Mapped Mapped::unpack(std::uint64_t value) {
 
 PdoRules::PdoRules(Rule<Accepted(const Mapped&)>::Decision can_be_mapped)
     : mappable(std::move(can_be_mapped)),
-      locked([](PdoPart part, bool valid, bool enabled) {
+      locked([](const PdoParameters&, PdoPart part, bool valid, bool enabled) {
         return valid || (part == PdoPart::mapped_object && enabled);
       }),
-      inhibit_time([](std::int64_t value) -> Duration { return std::chrono::microseconds(value * 100); }),
-      event_timer([](std::int64_t value) -> Duration { return std::chrono::milliseconds(value); }) {}
+      inhibit_time([](const PdoParameters&, std::int64_t value) -> Duration {
+        return std::chrono::microseconds(value * 100);
+      }),
+      event_timer([](const PdoParameters&, std::int64_t value) -> Duration {
+        return std::chrono::milliseconds(value);
+      }),
+      mapping([](const PdoParameters&, const std::vector<Mapped>& counted) { return counted; }) {}
 
 PdoTerms::PdoTerms(const ObjectDictionary& dictionary, PdoDirection of)
     : direction(of),

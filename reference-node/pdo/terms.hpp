@@ -5,11 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
 
 namespace refnode {
+
+class PdoParameters;
 
 enum class PdoDirection : std::uint8_t { receive, transmit };
 
@@ -42,7 +45,9 @@ struct PdoChoices {
   AbortCode too_long = abort_code::mapping_too_long;  ///< more than 64 bits
   AbortCode out_of_order = abort_code::unsupported_access;
   bool checked_at_count = false;  ///< what is mapped is looked at when sub-index 00h is set
-  bool synchronous_types = true;  ///< 00h-F0h
+  bool synchronous_types = true;  ///< 00h-F0h, of which
+  bool acyclic_type = true;       ///< 00h
+  std::uint8_t most_syncs = 240;  ///< and 01h up to this one
   bool event_types = true;        ///< FEh, FFh
   bool remote_types = true;       ///< TPDO: FCh, FDh
   bool needs_mapping = false;     ///< without mapped objects bit 31 stays set, whatever is written
@@ -62,11 +67,13 @@ struct PdoRules {
   Rule<Accepted(const Mapped&)> mappable;
   /// While the PDO is valid, none of them can be changed; mapped objects neither while the mapping is
   /// enabled: the procedure is PDO not valid, sub-index 00h := 00h, then the entries.
-  Rule<bool(PdoPart, bool valid, bool enabled)> locked;
+  Rule<bool(const PdoParameters&, PdoPart, bool valid, bool enabled)> locked;
   /// Sub-index 03h counts in 100 us.
-  Rule<Duration(std::int64_t value)> inhibit_time;
+  Rule<Duration(const PdoParameters&, std::int64_t value)> inhibit_time;
   /// Sub-index 05h counts in milliseconds.
-  Rule<Duration(std::int64_t value)> event_timer;
+  Rule<Duration(const PdoParameters&, std::int64_t value)> event_timer;
+  /// The PDO carries what the entries name that sub-index 00h counts, in their order.
+  Rule<std::vector<Mapped>(const PdoParameters&, const std::vector<Mapped>& counted)> mapping;
 
   explicit PdoRules(Rule<Accepted(const Mapped&)>::Decision can_be_mapped);
 };

@@ -7,14 +7,28 @@ namespace refnode {
 
 TransmitPdoRules::TransmitPdoRules()
     : valid([](const PdoParameters& parameters) { return parameters.cob_id().valid(); }),
-      sent_at_sync([](std::uint8_t type, std::uint32_t syncs, bool event) {
+      sent_at_sync([](const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        const std::uint8_t type = pdo.transmission_type();
         return type == 0 ? event : is_synchronous(type) && syncs >= type;
       }),
-      has_event_timer(is_event_driven) {}
+      counting_begins([](const PdoParameters& pdo, std::optional<std::uint8_t> counter) {
+        return !counter || *counter == pdo.sync_start();
+      }),
+      sent_with_event([](const PdoParameters& pdo) { return is_event_driven(pdo.transmission_type()); }),
+      has_event_timer([](const PdoParameters& pdo) { return is_event_driven(pdo.transmission_type()); }),
+      is_event([](const PdoParameters&, const Bytes& sent, const Bytes& now) { return sent != now; }),
+      held_back([](const PdoParameters&, TransmitCause) { return true; }),
+      made_up_for([](const PdoParameters&) { return true; }),
+      answers_remote(
+          [](const PdoParameters& pdo, bool enabled) { return enabled && pdo.cob_id().remote_allowed(); }),
+      carried([](const PdoParameters&, const Bytes& due) { return due; }),
+      takes_effect([](const PdoParameters&) { return true; }) {}
 
 TransmitPdo::TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uint16_t number)
     : device_(&device), terms_(&terms), parameters_(device, terms.parameters, number) {
-  parameters_.on_changed = [this] { restart(); };
+  parameters_.on_changed = [this] {
+    if (terms_->rules.takes_effect(parameters_)) restart();
+  };
 }
 
 bool TransmitPdo::enabled() const {
@@ -23,8 +37,7 @@ bool TransmitPdo::enabled() const {
 }
 
 bool TransmitPdo::timed() const {
-  return terms_->rules.has_event_timer(parameters_.transmission_type()) &&
-         parameters_.event_timer() > Duration::zero();
+  return terms_->rules.has_event_timer(parameters_) && parameters_.event_timer() > Duration::zero();
 }
 
 Bytes TransmitPdo::content() const {
@@ -43,10 +56,10 @@ Bytes TransmitPdo::content() const {
   return data;
 }
 
-void TransmitPdo::transmit(const Bytes& data) {
-  if (!enabled()) return;
+void TransmitPdo::transmit(const Bytes& due) {
+  const Bytes data = terms_->rules.carried(parameters_, due);
   device_->send(Service::tpdo, conform::can::data_frame(conform::CanId(parameters_.cob_id().can_id()), data));
-  reported_ = data;
+  reported_ = due;
   event_ = false;
   syncs_ = 0;
   inhibited_until_.reset();
@@ -62,29 +75,35 @@ void TransmitPdo::start_event_timer() {
 }
 
 void TransmitPdo::on_application_change() {
-  if (!terms_->choices.change_is_event || !enabled() || content() == reported_) return;
+  if (!terms_->choices.change_is_event || !enabled()) return;
+  const Bytes now = content();
+  if (!terms_->rules.is_event(parameters_, reported_, now)) return;
   event_ = true;
-  if (!event_driven()) return;
-  if (inhibited_until_ && device_->now < *inhibited_until_) return;
-  transmit(content());
+  if (event_driven() && !held_back(TransmitCause::change)) transmit(now);
+}
+
+bool TransmitPdo::held_back(TransmitCause cause) const {
+  return inhibited_until_ && device_->now < *inhibited_until_ && terms_->rules.held_back(parameters_, cause);
 }
 
 void TransmitPdo::on_sync(std::optional<std::uint8_t> counter) {
   if (!enabled()) return;
-  // Counting begins at the SYNC that has the start value; where SYNCs are not counted it means nothing.
-  if (awaits_start_ && counter) {
-    if (*counter != parameters_.sync_start()) return;
-    awaits_start_ = false;
-  }
   const std::uint8_t type = parameters_.transmission_type();
+  if (awaits_start_) {
+    if (!terms_->rules.counting_begins(parameters_, counter)) return;
+    awaits_start_ = !counter;
+    // A cyclic TPDO is sent with the start value itself, and with every n-th SYNC from there.
+    if (counter && terms_->choices.sends_at_start_value && type >= 1 && is_synchronous(type))
+      syncs_ = type - 1U;
+  }
   if (type == remote_synchronous_type) sampled_ = content();
   ++syncs_;
-  if (terms_->rules.sent_at_sync(type, syncs_, event_)) transmit(content());
+  if (terms_->rules.sent_at_sync(parameters_, syncs_, event_)) transmit(content());
 }
 
 bool TransmitPdo::on_remote(const Frame& frame) {
-  if (!enabled() || frame.id != parameters_.cob_id().can_id()) return false;
-  if (!parameters_.cob_id().remote_allowed()) return true;
+  if (frame.id != parameters_.cob_id().can_id()) return false;
+  if (!terms_->rules.answers_remote(parameters_, enabled())) return enabled();
   const bool sampled = parameters_.transmission_type() == remote_synchronous_type && !sampled_.empty();
   transmit(sampled ? sampled_ : content());
   return true;
@@ -114,12 +133,12 @@ void TransmitPdo::restart() {
 void TransmitPdo::on_time() {
   if (inhibited_until_ && device_->now >= *inhibited_until_) {
     inhibited_until_.reset();
-    if (event_ && event_driven()) transmit(content());
+    if (event_ && enabled() && event_driven() && terms_->rules.made_up_for(parameters_)) transmit(content());
   }
   if (!timer_ || device_->now < *timer_) return;
   timer_.reset();
-  if (!timed()) return;
-  if (inhibited_until_) {
+  if (!timed() || !enabled()) return;
+  if (held_back(TransmitCause::timer)) {
     event_ = true;
   } else {
     transmit(content());

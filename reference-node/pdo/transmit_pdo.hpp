@@ -13,18 +13,39 @@ namespace refnode {
 struct TransmitPdoChoices {
   bool initial_event = false;        ///< entering Operational is an event
   bool sends_at_first_sync = false;  ///< type n sends at SYNC 1, n + 1, ...
-  bool change_is_event = true;       ///< of what is mapped; types 00h, FEh and FFh
-  bool sent_empty = false;           ///< without mapped objects it is sent, with no data
+  bool sends_at_start_value =
+      true;                     ///< and with a SYNC start value at that one, else it only begins to count
+  bool change_is_event = true;  ///< of what is mapped; types 00h, FEh and FFh
+  bool sent_empty = false;      ///< without mapped objects it is sent, with no data
 };
+
+/// What lets a TPDO be sent by itself.
+enum class TransmitCause : std::uint8_t { change, timer };
 
 struct TransmitPdoRules {
   /// Bit 31 of the COB-ID says whether the PDO exists and is used.
   Rule<bool(const PdoParameters&)> valid;
   /// Types 01h to F0h: with every n-th SYNC; type 00h: with the SYNC after an event. `syncs`: since it was
   /// sent last.
-  Rule<bool(std::uint8_t type, std::uint32_t syncs, bool event)> sent_at_sync;
+  Rule<bool(const PdoParameters&, std::uint32_t syncs, bool event)> sent_at_sync;
+  /// Where SYNCs are counted, counting begins at the one that has the start value; else it means nothing.
+  Rule<bool(const PdoParameters&, std::optional<std::uint8_t> counter)> counting_begins;
+  /// Types FEh and FFh are sent with the event; type 00h waits for the SYNC.
+  Rule<bool(const PdoParameters&)> sent_with_event;
   /// Types FEh and FFh are also sent when the event timer has elapsed.
-  Rule<bool(std::uint8_t type)> has_event_timer;
+  Rule<bool(const PdoParameters&)> has_event_timer;
+  /// It is an event when what is mapped differs from what was sent last.
+  Rule<bool(const PdoParameters&, const Bytes& sent, const Bytes& now)> is_event;
+  /// The inhibit time holds back whatever the type sends by itself, on a change or by the event timer.
+  Rule<bool(const PdoParameters&, TransmitCause)> held_back;
+  /// What was held back is sent when the inhibit time is over.
+  Rule<bool(const PdoParameters&)> made_up_for;
+  /// A remote frame is answered in every type, where the PDO is valid and bit 30 allows it.
+  Rule<bool(const PdoParameters&, bool enabled)> answers_remote;
+  /// It carries what the mapped objects hold at the moment; type FCh: with the last SYNC.
+  Rule<Bytes(const PdoParameters&, const Bytes& due)> carried;
+  /// Parameters that are written in Operational take effect there.
+  Rule<bool(const PdoParameters&)> takes_effect;
   TransmitPdoRules();
 };
 
@@ -55,10 +76,11 @@ class TransmitPdo {
 
  private:
   [[nodiscard]] Bytes content() const;
-  [[nodiscard]] bool event_driven() const { return is_event_driven(parameters_.transmission_type()); }
+  [[nodiscard]] bool event_driven() const { return terms_->rules.sent_with_event(parameters_); }
+  [[nodiscard]] bool held_back(TransmitCause cause) const;
   [[nodiscard]] bool timed() const;
   [[nodiscard]] bool enabled() const;
-  void transmit(const Bytes& data);
+  void transmit(const Bytes& due);
   void start_event_timer();
   void restart();
 

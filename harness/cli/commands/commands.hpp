@@ -8,7 +8,13 @@
 #include <string>
 #include <vector>
 
+namespace conform::device {
+struct Profile;
+}
+
 namespace conform::cli {
+
+struct LoadedSuites;
 
 inline constexpr int exit_usage = 2;
 inline constexpr int exit_environment = 3;
@@ -29,6 +35,7 @@ struct RunCommand {
   std::uint64_t seed = 1;
   bool strict = false;
   bool all_objects = false;
+  bool cct = false;  ///< the cases of CiA's tool, in its order
   bool slow = false;
   bool dry_run = false;
   bool quiet = false;
@@ -135,13 +142,20 @@ struct SelftestCommand {
   std::vector<std::string> defects;
   bool whole = false;
   bool blame = false;
-  std::size_t pairs = 0;   ///< with blame
-  std::string blame_page;  ///< file for docs/blame.md
-  bool edits = false;      ///< edits of every entry of the dictionary instead of the defects
-  unsigned jobs = 0;       ///< 0: the machine's cores
-  std::string markdown;    ///< file for docs/proof.md
+  std::size_t pairs = 0;            ///< with blame
+  std::string blame_page;           ///< file for docs/blame.md
+  bool edits = false;               ///< edits of every entry of the dictionary instead of the defects
+  bool mutants = false;             ///< mutants instead of the defects
+  std::vector<std::string> mutant;  ///< with mutants: only these numbers, rooms, files
+  std::size_t sample = 0;           ///< with mutants: so many, drawn by the seed
+  bool quick = false;               ///< with mutants: without the scenarios that take long
+  unsigned jobs = 0;                ///< 0: the machine's cores
+  std::string markdown;             ///< file for docs/proof.md, with mutants for docs/mutants.md
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);
+/// Its --mutants.
+[[nodiscard]] int mutants_command(const SelftestCommand& options, const device::Profile& profile,
+                                  const LoadedSuites& suites);
 
 /// Hidden: benchmark helpers used by scripts/benchmark.
 struct BenchCommand {

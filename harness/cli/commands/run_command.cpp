@@ -15,6 +15,7 @@
 #include "can/socketcan_interface.hpp"
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/pages/cct_run.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/proof/variant_profile.hpp"
 #include "cli/run/guardian.hpp"
@@ -159,6 +160,7 @@ int run(const RunCommand& options, RunReports& reports) {
     run_options.power_cycle = [profile, power_limit] { return run_shell(profile->power_cycle, power_limit); };
   run_options.plan.selection = {options.select, options.requirements, options.exclude};
   run_options.plan.seed = options.seed;
+  if (options.cct) run_options.plan.order = cct_order(suites->suite, suites->catalogue);
   run_options.plan.all_objects = options.all_objects;
   run_options.plan.slow = options.slow || options.simulate;
   for (const auto& id : options.requirements) {
@@ -307,6 +309,8 @@ int run(const RunCommand& options, RunReports& reports) {
   }
   if (live) print("\r\x1B[K");
   facts.complete(run);
+  if (options.cct)
+    run.compared = cct_outcomes(run, suites->suite, suites->catalogue, known->description.get());
   if (journal) journal->finished(run);
   if (journal && journal->error() != 0)
     run.unwritten.push_back((kept->path().empty() ? "the journal" : kept->path()) +

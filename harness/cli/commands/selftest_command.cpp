@@ -119,6 +119,7 @@ int selftest_command(const SelftestCommand& options) {
   auto profile = device::load_profile_file(root->root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
   if (options.edits) return edits(options, profile->profile, *suites);
+  if (options.mutants) return mutants_command(options, profile->profile, *suites);
   auto matrix = kill_matrix(profile->profile, suites->suite, suites->catalogue,
                             {.seed = options.seed,
                              .only = options.defects,

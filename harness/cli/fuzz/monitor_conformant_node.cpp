@@ -71,6 +71,7 @@ class Scene {
     node_ = std::move(*node);
     monitor::Facts facts;
     facts.node = NodeId(refnode::fuzz::node_id);
+    facts.alone = true;
     std::vector<const monitor::Rule*> chosen;
     for (const auto& rule : monitor::rules()) chosen.push_back(&rule);
     watch_ = std::make_unique<monitor::Watch>(facts, chosen);
@@ -106,7 +107,8 @@ class Scene {
     return true;
   }
 
-  void must_be_right() const {
+  void must_be_right() {
+    watch_->end();
     CONFORM_CHECK(bus_.queue_overruns(*node_) == 0);
     bool right = true;
     for (const auto& monitor : watch_->monitors()) {

@@ -2,6 +2,7 @@
 // The cases of CiA's conformance test tool, to compare with: who passed there wants to see them here.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,18 @@ struct CctCase {
 };
 /// In the order of the tool.
 [[nodiscard]] std::span<const CctCase> cct_cases();
+
+/// The numbers of the cases that a scenario corresponds to: those that it names itself, and those that only
+/// its requirements name.
+class CctNumbers {
+ public:
+  explicit CctNumbers(const scenario::Suite& suite);
+  [[nodiscard]] std::set<std::string> of(const scenario::Scenario& scenario,
+                                         const scenario::Catalogue& catalogue) const;
+
+ private:
+  std::set<std::string> marked_;  ///< cases that some scenario names by itself
+};
 
 /// What `list --cct` prints: every case with the scenarios and rules that correspond, what has no
 /// counterpart here, and what of ours has no case there. A selection leaves only the cases that a chosen

@@ -28,42 +28,38 @@ std::string by_file(const std::map<std::string, Names>& files) {
   return out;
 }
 
-/// Cases that some scenario names by itself.
-std::set<std::string> marked_cases(const scenario::Suite& suite) {
-  std::set<std::string> out;
+}  // namespace
+
+CctNumbers::CctNumbers(const scenario::Suite& suite) {
   for (const auto& file : suite.files) {
-    for (const auto& each : file.scenarios) out.insert(each.cct.begin(), each.cct.end());
+    for (const auto& each : file.scenarios) marked_.insert(each.cct.begin(), each.cct.end());
   }
-  return out;
 }
 
-/// What a scenario names, and what its rules name and no scenario does.
-std::set<std::string> cases_of(const scenario::Scenario& each, const scenario::Catalogue& catalogue,
-                               const std::set<std::string>& marked) {
-  std::set<std::string> out(each.cct.begin(), each.cct.end());
-  for (const auto& id : each.requirements) {
+std::set<std::string> CctNumbers::of(const scenario::Scenario& scenario,
+                                     const scenario::Catalogue& catalogue) const {
+  std::set<std::string> out(scenario.cct.begin(), scenario.cct.end());
+  for (const auto& id : scenario.requirements) {
     const auto* rule = catalogue.find(id);
     if (rule == nullptr) continue;
     for (const auto& number : rule->cct) {
-      if (!marked.contains(number)) out.insert(number);
+      if (!marked_.contains(number)) out.insert(number);
     }
   }
   return out;
 }
-
-}  // namespace
 
 std::string cct_page(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                      const scenario::Selection& selection, bool everything) {
   std::map<std::string, Names, std::less<>> scenarios, rules;
   std::map<std::string, Names> ours_alone;
   std::size_t alone = 0, chosen = 0;
-  const auto marked = marked_cases(suite);
+  const CctNumbers numbers_of(suite);
   for (const auto& file : suite.files) {
     for (const auto& each : file.scenarios) {
       if (!selection.takes(each, "", catalogue)) continue;
       ++chosen;
-      const auto numbers = cases_of(each, catalogue, marked);
+      const auto numbers = numbers_of.of(each, catalogue);
       for (const auto& number : numbers) scenarios[number].push_back(each.id);
       if (!numbers.empty()) continue;
       ++alone;

@@ -31,6 +31,8 @@ device::Profile profile_of_variants(const device::Profile& reference,
   const auto gone = [&held](Multiplexer mux) { return held(mux) == nullptr; };
   std::erase_if(out.objects, [&gone](const device::Entry& entry) { return gone(entry.mux); });
   std::erase_if(out.safe_objects, gone);
+  std::erase_if(out.wired,
+                [&gone](const device::Wire& wire) { return gone(wire.output) || gone(wire.input); });
   for (device::Entry& entry : out.objects) {
     const refnode::Entry& node_entry = *held(entry.mux);
     entry.access = access_of(node_entry.access, entry.access);

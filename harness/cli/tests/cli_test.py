@@ -303,6 +303,23 @@ class CommandLine(unittest.TestCase):
         self.assertIn("1 cases of CiA's tool", only)
         self.assertEqual(run("list", "--cct", "cia301/sdo/load").returncode, 2)
 
+    def test_the_cases_of_cias_tool_are_run_in_its_order_and_judged_one_by_one(self):
+        done = run("run", "--simulate", "--cct", "--defect", "1000-writable", "--markdown", self.path("r.md"))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        page = done.stdout[done.stdout.index("What CiA's tool would say"):]
+        self.assertRegex(page, r"\n1\.0 +skipped +EDS: .*--eds")
+        self.assertRegex(page, r"\n2\.1 +passed ")
+        self.assertRegex(page, r"\n2\.3 +failed +SDO: .*OD-ACC-01")
+        self.assertRegex(page, r"\n127 cases of CiA's tool: \d+ passed, ")
+        order = [page.index(f"\n{number} ") for number in ("1.0", "2.1", "2.10", "2.11", "3.1", "10.4")]
+        self.assertEqual(order, sorted(order))
+        # Nothing else was run, and what was run keeps the order.
+        self.assertNotIn("cia301/sdo/load/", done.stdout)
+        first = done.stdout.index("cia301/sdo/upload/32-bits")
+        self.assertLess(first, done.stdout.index("cia301/nmt/services/stopped"))
+        with open(self.path("r.md"), encoding="utf-8") as report:
+            self.assertRegex(report.read(), r"\| 2\.3 \| SDO: .* \| failed \| ")
+
     def test_list_and_explain_show_requirements(self):
         self.assertIn("OD-1003-06", run("list", "cia301/dictionary/1003-error-history").stdout)
         explained = run("explain", "OD-1003-06").stdout

@@ -164,6 +164,37 @@ TEST_CASE("The dictionary lays the profile over the standard and adds the node-I
   CHECK(dictionary.find(mux(0x2001))->object == ObjectCode::var);
 }
 
+TEST_CASE("What is wired brings the claim that a change sends, unless that is denied") {
+  const std::string wired = R"(objects:
+  - {object: 6000h:00, name: Input, type: UNSIGNED8, access: ro}
+  - {object: 6200h:00, name: Output, type: UNSIGNED8, access: rww}
+  - {object: 6411h:00, name: Output, type: INTEGER16, access: rww}
+wired: [{output: 6200h:00, input: 6000h:00}]
+)";
+  const Profile profile = good(head + wired);
+  CHECK(profile.claimed("tpdo on change"));
+  const Dictionary dictionary = dictionary_of(profile);
+  CHECK(dictionary.find(mux(0x6200))->wired_input == mux(0x6000));
+  CHECK_FALSE(dictionary.find(mux(0x6000))->wired_input.has_value());
+  CHECK_FALSE(good(head + wired + "not_claimed: [tpdo on change]\n").claimed("tpdo on change"));
+
+  const auto mistake = [&](const std::string& wire) {
+    return load(head + wired.substr(0, wired.find("wired")) + "wired: [" + wire + "]\n").messages;
+  };
+  CHECK(contains(mistake("{output: 6200h:00, input: 6200h:00}"), "6200h:00 is wired to itself"));
+  CHECK(contains(mistake("{output: 6411h:00, input: 6000h:00}"), "different lengths"));
+  CHECK(contains(mistake("{output: 6200h:00, input: 6000h:00}, {output: 6200h:00, input: 6000h:00}"),
+                 "6200h:00 is wired twice"));
+}
+
+TEST_CASE("Of the data types up to UNSIGNED32 those that are not listed as placeholders are forbidden") {
+  const Profile profile = good(head + "placeholders: [0005h, 0007h]\n");
+  CHECK(profile.placeholders.at(Index(0x0005)));
+  CHECK_FALSE(profile.placeholders.at(Index(0x0001)));
+  CHECK_FALSE(profile.placeholders.contains(Index(0x0008)));
+  CHECK(good(head).placeholders.empty());
+}
+
 TEST_CASE("All mistakes of a profile are reported at their places") {
   const Loaded loaded = load(R"(format: 1
 name: Pump
@@ -270,9 +301,10 @@ TEST_CASE("The schema for editors knows every feature and key") {
     CHECK(contains(schema, "\"" + std::string(feature.word) + "\""));
   }
   for (const char* key :
-       {"boot_time", "sdo_timeout", "store_timeout", "nmt_time", "quiet_time", "server_timeout",
-        "block_timeout", "lss_timeout", "claims", "not_claimed", "objects", "errors", "safe_objects",
-        "untouchable", "factory_defaults", "identity", "known_deviations", "store_fault"}) {
+       {"boot_time",      "sdo_timeout",   "store_timeout", "nmt_time",         "quiet_time",
+        "server_timeout", "block_timeout", "lss_timeout",   "claims",           "not_claimed",
+        "objects",        "errors",        "safe_objects",  "untouchable",      "factory_defaults",
+        "wired",          "placeholders",  "identity",      "known_deviations", "store_fault"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }

@@ -417,16 +417,30 @@ TEST_CASE("a guard request leaves no watch behind on a device that has a life ti
       - guard: once
         checks: T-MUST
 )";
-  const auto resets_with = [&](std::uint8_t guard_time, std::uint8_t factor) {
+  const auto resets_with = [&](std::uint8_t guard_time, std::uint8_t factor, const std::string& scenario) {
     ScriptedDevice device;
     device.entries[0x100C00] = {guard_time, 0};
     device.entries[0x100D00] = {factor};
-    (void)play(device, guarded + three_reads);
+    (void)play(device, scenario + three_reads);
     return std::ranges::count(device.nmt, std::uint8_t{0x82});
   };
-  CHECK(resets_with(100, 2) == 1);
-  CHECK(resets_with(0, 2) == 0);
-  CHECK(resets_with(100, 0) == 0);
+  CHECK(resets_with(100, 2, guarded) == 1);
+  // Requests that go on over a reset begin the watch again.
+  const std::string guarded_over_a_reset = R"(
+  - id: guarded
+    title: t
+    risk: config
+    steps:
+      - produce: {guard: {every: 5 ms}}
+      - nmt: reset communication
+      - wait: 100 ms
+      - stop: guard
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)";
+  CHECK(resets_with(100, 2, guarded_over_a_reset) == 2);
+  CHECK(resets_with(0, 2, guarded) == 0);
+  CHECK(resets_with(100, 0, guarded) == 0);
 }
 
 TEST_CASE("the same seed gives the same frames at the same times") {

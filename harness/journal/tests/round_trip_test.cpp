@@ -91,6 +91,7 @@ RunResult full_run() {
   out.aborted = "";
   out.signal = 15;
   out.unwritten = {"file: full"};
+  out.compared = {{"2.10", "SDO", "a value above the limit", "failed", "OD-RNG-01", {"a/b"}}};
   return out;
 }
 
@@ -124,6 +125,8 @@ TEST_CASE("every member of a run survives the way through JSON") {
   CHECK(back.signal == 15);
   CHECK(back.notes == run.notes);
   CHECK(back.unwritten == run.unwritten);
+  REQUIRE(back.compared.size() == 1);
+  CHECK(back.compared[0].cases == run.compared[0].cases);
   CHECK(back.requirements[0].statement == "statement");
   REQUIRE(back.cases.size() == 2);
   CHECK(back.cases[1].reason == "not run");

@@ -104,6 +104,7 @@ void watch_only(const Trace& trace, const Facts& facts, std::span<const Rule* co
     if (std::ranges::any_of(trace.losses, [i](const Loss& loss) { return loss.end == i; })) watch.on_loss();
     watch.on_frame(trace.frames[i], i);
   }
+  watch.end();
   for (const auto& monitor : watch.monitors()) {
     CONFORM_CHECK(monitor->violations().size() <= Monitor::most_kept * monitor->rule().requirements.size());
     for (const auto& tally : monitor->tallies()) {

@@ -2,6 +2,8 @@
 // Literal traces for the tests of the monitors: node-ID 1, one frame per millisecond.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -99,5 +101,56 @@ inline std::vector<std::string> after_exchanges(std::vector<std::string> lines) 
   out.insert(out.end(), lines.begin(), lines.end());
   return out;
 }
+
+/// "<index low> <index high> <sub>"
+inline std::string object_bytes(std::uint16_t index, std::uint8_t sub) {
+  return fmt::format("{:02X} {:02X} {:02X}", index & 0xFFU, index >> 8U, sub);
+}
+inline std::string value_bytes(std::uint32_t value) {
+  return fmt::format("{:02X} {:02X} {:02X} {:02X}", value & 0xFFU, value >> 8U & 0xFFU, value >> 16U & 0xFFU,
+                     value >> 24U);
+}
+
+/// Lines of a trace in which a client reads and writes, with pauses, so that what they say is settled.
+class Story {
+ public:
+  Story& read(std::uint16_t index, std::uint8_t sub, std::uint32_t value) {
+    return line("wait 150 ms")
+        .line("> 40 " + object_bytes(index, sub) + " 00 00 00 00")
+        .line("< 43 " + object_bytes(index, sub) + " " + value_bytes(value));
+  }
+  Story& write(std::uint16_t index, std::uint8_t sub, std::uint32_t value) {
+    return line("wait 150 ms")
+        .line("> 23 " + object_bytes(index, sub) + " " + value_bytes(value))
+        .line("< 60 " + object_bytes(index, sub) + " 00 00 00 00");
+  }
+  Story& refuse(std::uint8_t command, std::uint16_t index, std::uint8_t sub, std::uint32_t code) {
+    return line("wait 150 ms")
+        .line(fmt::format("> {:02X} ", command) + object_bytes(index, sub) + " 00 00 00 00")
+        .line("< 80 " + object_bytes(index, sub) + " " + value_bytes(code));
+  }
+  Story& absent(std::uint16_t index, std::uint8_t sub) { return refuse(0x40, index, sub, 0x0602'0000); }
+  Story& line(std::string text) {
+    lines_.push_back(std::move(text));
+    return *this;
+  }
+  /// A frame some time after what was said before.
+  Story& later(std::string frame) { return line("wait 150 ms").line(std::move(frame)); }
+
+  /// "fail PDO-TX-02", each kind once.
+  [[nodiscard]] Told told(const Facts& facts = {}) const {
+    Told out;
+    for (const auto& each : testing::told(judged(trace(lines_), {}, facts)))
+      if (auto kind = each.substr(0, each.find(" in ")); std::ranges::find(out, kind) == out.end())
+        out.push_back(std::move(kind));
+    return out;
+  }
+  [[nodiscard]] result::Verdict verdict(std::string_view monitor) const {
+    return verdict_of(judged(trace(lines_)), monitor);
+  }
+
+ private:
+  std::vector<std::string> lines_;
+};
 
 }  // namespace conform::monitor::testing

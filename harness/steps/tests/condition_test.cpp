@@ -84,6 +84,7 @@ TEST_CASE("Conditions about device and bench are phrases") {
     CHECK(answer(text, session) == "yes");
   }
   CHECK(answer("3 error triggers are known", session) == "no");
+  CHECK(answer("$count error triggers are known", session) == "no");
   session.remote = session.factory = session.described = session.sweeps = true;
   CHECK(answer("interface can send RTR and factory defaults are active", session) == "yes");
   CHECK(answer("device description is given and all objects are tried", session) == "yes");

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "base/files.hpp"
+#include "cli/commands/commands.hpp"
+#include "cli/pages/mutants_page.hpp"
+#include "cli/proof/explained.hpp"
+#include "cli/proof/mutants.hpp"
+#include "cli/run/terminal.hpp"
+#include "cli/suite_folder.hpp"
+#include "device/profile.hpp"
+
+namespace conform::cli {
+
+int mutants_command(const SelftestCommand& options, const device::Profile& profile,
+                    const LoadedSuites& suites) {
+  const auto* build = mutant_build();
+  if (build == nullptr) {
+    return report_error(Error{.what = "this program has no mutants",
+                              .where = {},
+                              .hint = "cmake --build --preset release --target canopen-conform-mutants; then "
+                                      "build/release/bin/canopen-conform-mutants selftest --mutants"},
+                        exit_usage);
+  }
+  const auto text = read_file(std::string(build->explained), 1U << 20U);
+  if (!text) return report_error(text.error(), exit_environment);
+  const auto explanations = parse_explanations(*text);
+  if (!explanations) return report_error(explanations.error(), exit_usage);
+  const bool shows_progress = ::isatty(STDERR_FILENO) != 0;
+  const auto progress = [&](std::size_t done, std::size_t of) {
+    if (shows_progress) std::fprintf(stderr, "\r%zu of %zu", done, of);
+  };
+  auto fates = run_mutants(*build, profile, suites.suite, suites.catalogue,
+                           {.seed = options.seed,
+                            .only = options.mutant,
+                            .sample = options.sample,
+                            .jobs = options.jobs,
+                            .slow = !options.quick,
+                            .progress = progress});
+  if (!fates) return report_error(fates.error(), exit_environment);
+  if (shows_progress) std::fputs("\r", stderr);
+  const auto stale = explain(*fates, build->mutants, *explanations);
+  auto out = mutants_words(*fates, options.verbose);
+  for (const auto& line : stale) out += fmt::format("STALE {}: {}\n", build->explained, line);
+  out += fmt::format("{} places could not be mutated: the compiler refused\n", build->dropped);
+  print(out);
+  if (!options.markdown.empty()) {
+    const auto written = write_file_atomically(options.markdown, mutants_page(*fates));
+    if (!written) return report_error(written.error(), exit_environment);
+  }
+  return unexplained(*fates) == 0 && stale.empty() ? 0 : 1;
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Monitors of emergency messages: when they come, how they look, and whether 1001h and 1003h say the same.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "base/text.hpp"
+#include "monitor/factories.hpp"
+#include "monitor/own_ids.hpp"
+
+namespace conform::monitor {
+namespace {
+
+using Subject = Observation::Subject;
+using result::Verdict;
+
+constexpr std::uint16_t emcy_index = 0x1014;
+
+/// The object is the one that may have sent the frame.
+bool is_emcy(const std::vector<Holder>& found, Held held) {
+  return !other_holder(found, emcy_index, emcy_index) &&
+         std::ranges::any_of(
+             found, [held](const Holder& each) { return each.index == emcy_index && each.held == held; });
+}
+bool is_emcy(const Observation& seen, const Follower& follower) {
+  if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return false;
+  const auto found = holders(follower, seen.key());
+  if (found.empty()) return false;
+  return is_emcy(found, Held::yes) || is_emcy(found, Held::maybe);
+}
+unsigned code_of(const Observation& seen) {
+  return static_cast<unsigned>(load_le(ByteView(seen.frame().data).first(2)));
+}
+
+class Emergencies final : public Monitor {
+ public:
+  using Monitor::Monitor;
+  enum : std::size_t { stopped, valid, form, code_class, register_bits, inhibit };
+
+  void on_frame(const Observation& seen, const Follower& follower) override {
+    if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return;
+    const auto found = holders(follower, seen.key());
+    if (found.empty()) return;
+    if (is_emcy(found, Held::off)) return off(seen, follower, found);
+    if (!is_emcy(found, Held::yes) && !is_emcy(found, Held::maybe)) return;
+    if (is_emcy(found, Held::yes)) good(valid);
+    judge_state(seen, follower);
+    judge_form(seen);
+    judge_distance(seen, follower);
+  }
+  void on_loss() override { made_.reset(); }
+
+ private:
+  [[nodiscard]] static bool is_own(const Observation& seen) { return seen.subject == Subject::emcy; }
+
+  void off(const Observation& seen, const Follower& follower, const std::vector<Holder>& found) {
+    const auto* entry = std::ranges::find(found, emcy_index, &Holder::index)->entry;
+    if (!follower.nmt().is_newer(seen.time(), entry->since)) return;
+    accuse(valid, seen, "an emergency message", "silence", "bit 31 of 1014h is 1: EMCY does not exist");
+  }
+
+  void judge_state(const Observation& seen, const Follower& follower) {
+    const auto state = follower.nmt().commanded_to_sender(seen.time());
+    if (!state) return;
+    if (state != canopen::NmtState::stopped) return good(stopped);
+    accuse(stopped, seen, "an emergency message", "silence",
+           fmt::format("the device was stopped more than {} before", to_string(follower.facts().nmt_time)));
+  }
+
+  void judge_form(const Observation& seen) {
+    const auto& frame = seen.frame();
+    if (frame.dlc == 8) {
+      good(form);
+    } else {
+      accuse(form, seen, fmt::format("DLC {}", frame.dlc), "DLC 8", "an emergency message has eight bytes");
+    }
+    if (frame.size() < 3) return;
+    const auto code = code_of(seen);
+    constexpr std::array<unsigned, 21> classes{0x00, 0x10, 0x20, 0x21, 0x22, 0x23, 0x30,
+                                               0x31, 0x32, 0x33, 0x40, 0x41, 0x42, 0x50,
+                                               0x60, 0x61, 0x62, 0x63, 0x70, 0x80, 0x81};
+    const auto high = code >> 8U;
+    if (std::ranges::find(classes, high) != classes.end() || high == 0x82 || high == 0x90 || high == 0xF0 ||
+        high == 0xFF) {
+      good(code_class);
+    } else {
+      accuse(code_class, seen, fmt::format("error code {:04X}h", code), "a class of CiA 301, table 25",
+             "the upper byte is none of those");
+    }
+    const unsigned bits = frame.data[2];
+    if ((bits & 0x40U) != 0) {
+      accuse(register_bits, seen, fmt::format("error register {}", hex(bits, 2)), "bit 6 = 0",
+             "bit 6 is reserved");
+    } else if (high != 0 && (bits & 0x01U) == 0) {
+      accuse(register_bits, seen, fmt::format("error register {}", hex(bits, 2)), "bit 0 = 1",
+             "the generic bit is set with every error", Verdict::warn);
+    } else if (high != 0) {
+      good(register_bits);
+    }
+  }
+
+  void judge_distance(const Observation& seen, const Follower& follower) {
+    const auto& nmt = follower.nmt();
+    const auto before = std::exchange(made_, nmt.made_since(seen.time()));
+    const auto* time = follower.entries().known(0x1015, 0);
+    if (!before || time == nullptr || time->value == 0 || time->value > 0xFFFF) return;
+    // The time that runs already may be the old one.
+    if (time->since + follower.facts().nmt_time >= *before) return;
+    if (follower.entries().touched(emcy_index, 0x1015) >= *before) return;
+    const Duration least = time->value * std::chrono::microseconds(100);
+    const auto distance = seen.time() - *before;
+    if (distance >= least - least / 4 - std::chrono::milliseconds(5)) return good(inhibit);
+    accuse(inhibit, seen, to_string(Duration(distance)) + " after the last one",
+           "at least " + to_string(least), fmt::format("1015h holds {}", time->value));
+  }
+
+  /// On a CAN-ID that the node-ID does not give it may be somebody else's.
+  void accuse(std::size_t requirement, const Observation& seen, std::string actual, std::string expected,
+              std::string reason, Verdict verdict = Verdict::fail) {
+    if (is_own(seen)) {
+      if (bad(requirement))
+        tell(requirement, seen, std::move(actual), std::move(expected), std::move(reason), verdict);
+    } else if (bad_if_alone(requirement)) {
+      tell_if_alone(requirement, seen, std::move(actual), std::move(expected), std::move(reason), verdict);
+    }
+  }
+
+  std::optional<BusTime> made_;  ///< the earliest time at which the last one may have been made
+};
+
+/// 1001h and 1003h as they are read behind an emergency message. What differs may be a new error, whose own
+/// message is to come: only where it does not come the entry and the message contradict each other.
+class ErrorObjects final : public Monitor {
+ public:
+  using Monitor::Monitor;
+  enum : std::size_t { error_register, history };
+
+  void on_frame(const Observation& seen, const Follower& follower) override {
+    for (auto& open : open_) {
+      if (open && seen.time() > open->due) {
+        if (bad(open->violation.requirement)) tell(std::move(open->violation));
+        open.reset();
+        last_.reset();
+      }
+    }
+    if (is_emcy(seen, follower)) {
+      forget();
+      if (seen.frame().size() >= 3) {
+        last_ = Message{code_of(seen), seen.frame().data[2], seen.time()};
+      }
+    } else if (seen.subject == Subject::nmt || seen.boot_up()) {
+      forget();
+    } else if (seen.subject == Subject::sdo_request) {
+      asked_at_ = seen.time();
+    } else if (seen.subject == Subject::sdo_response && seen.read && last_) {
+      look(seen, follower);
+    }
+  }
+  void on_loss() override { forget(); }
+
+ private:
+  struct Message {
+    unsigned code = 0;
+    unsigned bits = 0;
+    BusTime time{};
+  };
+  struct Open {
+    Violation violation;
+    BusTime due{};
+  };
+
+  void forget() {
+    last_.reset();
+    open_ = {};
+  }
+
+  void look(const Observation& seen, const Follower& follower) {
+    const auto index = seen.read->object.index.value();
+    const auto sub = seen.read->object.sub.value();
+    const auto& entries = follower.entries();
+    // Without EMCY, or in its inhibit time, errors come and go and nobody tells.
+    if (entries.touched(emcy_index, 0x1015) > last_->time || entries.touched(0x1003, 0x1003) > last_->time)
+      return;
+    const Duration inhibit =
+        std::min<std::uint32_t>(entries.most(0x1015, 0), 0xFFFF) * std::chrono::microseconds(100);
+    const auto after = asked_at_ - last_->time - inhibit;
+    if (after < follower.facts().nmt_time) return;
+    const auto value = seen.read->value;
+    if (index == 0x1001 && sub == 0) {
+      // Less may be left of it.
+      if ((value & ~last_->bits & 0xFFU) == 0) return good(error_register);
+      put(error_register, seen, inhibit, fmt::format("1001h holds {}", hex(value & 0xFFU, 2)),
+          fmt::format("no other bit than in {}", hex(last_->bits, 2)),
+          fmt::format("EMCY {:04X}h told {} as error register, and no further one came", last_->code,
+                      hex(last_->bits, 2)));
+    } else if (index == 0x1003 && sub == 1 && last_->code >= 0x1000 && after >= std::chrono::seconds(1)) {
+      if ((value & 0xFFFFU) == last_->code) return good(history);
+      put(history, seen, inhibit, fmt::format("{:04X}h in bits 15 to 0", value & 0xFFFFU),
+          fmt::format("{:04X}h", last_->code), "that was the code of the last emergency message");
+    }
+  }
+
+  void put(std::size_t requirement, const Observation& seen, Duration inhibit, std::string actual,
+           std::string expected, std::string reason) {
+    if (open_[requirement]) return;
+    open_[requirement] = Open{{requirement, Verdict::fail, seen.index, seen.frame(), std::move(actual),
+                               std::move(expected), std::move(reason)},
+                              seen.time() + std::chrono::seconds(1) + inhibit};
+  }
+
+  std::optional<Message> last_;
+  BusTime asked_at_{};
+  std::array<std::optional<Open>, 2> open_;
+};
+
+}  // namespace
+
+std::unique_ptr<Monitor> make_emergencies(const Rule& rule) { return std::make_unique<Emergencies>(rule); }
+std::unique_ptr<Monitor> make_error_objects(const Rule& rule) { return std::make_unique<ErrorObjects>(rule); }
+
+}  // namespace conform::monitor

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emergency messages, and what 1001h and 1003h say behind them.
+#include "trace.hpp"
+
+using namespace conform;
+using namespace conform::monitor::testing;
+using result::Verdict;
+
+namespace {
+const std::string start = "> 000: 01 01", stop = "> 000: 02 01", reset = "> 000: 82 01",
+                  boot_up = "< 701: 00";
+const std::string emcy = "< 081: 30 81 11 00 00 00 00 00", gone = "< 081: 00 00 00 00 00 00 00 00";
+}  // namespace
+
+TEST_CASE("No emergency message comes in Stopped") {
+  CHECK(Story().line(start).later(emcy).told().empty());
+  CHECK(Story().line(stop).later(emcy).told() == Told{"fail EMCY-NMT-01"});
+  CHECK(Story().line(stop).line(emcy).told().empty());
+  CHECK(Story().line(stop).later("> 081: 30 81 11 00 00 00 00 00").told().empty());
+  CHECK(Story().line(stop).later("< 082: 30 81 11 00 00 00 00 00").told().empty());
+}
+
+TEST_CASE("Emergency messages have eight bytes, a known class, and bit 0 of the error register") {
+  CHECK(Story().line("< 081: 30 81 11").told() == Told{"fail EMCY-FMT-01"});
+  CHECK(Story().line("< 081: 30 A1 11 00 00 00 00 00").told() == Told{"fail EMCY-FMT-02"});
+  CHECK(Story().line("< 081: 30 81 51 00 00 00 00 00").told() == Told{"fail EMCY-FMT-04"});
+  CHECK(Story().line("< 081: 30 81 10 00 00 00 00 00").told() == Told{"warn EMCY-FMT-04"});
+  CHECK(Story().line(emcy).line(gone).verdict("monitor/emergencies") == Verdict::pass);
+}
+
+TEST_CASE("Without a valid 1014h there is no EMCY") {
+  CHECK(Story().write(0x1014, 0, 0x8000'0081).later(emcy).told() == Told{"fail OD-1014-08"});
+  CHECK(Story().write(0x1014, 0, 0x8000'0081).line(emcy).told().empty());
+  CHECK(Story().write(0x1014, 0, 0x8000'0081).later(reset).line(boot_up).later(emcy).told().empty());
+  // A TPDO has that CAN-ID now.
+  CHECK(Story()
+            .write(0x1014, 0, 0x8000'0081)
+            .write(0x1800, 1, 0x8000'0081)
+            .read(0x1800, 1, 0x81)
+            .later(emcy)
+            .told()
+            .empty());
+  auto moved = [] { return Story().write(0x1014, 0, 0x8000'06A1).write(0x1014, 0, 0x6A1).later(stop); };
+  CHECK(moved().later("< 6A1: 30 81 11 00 00 00 00 00").told() == Told{"fail EMCY-NMT-01"});
+  CHECK(moved().later("< 6A1: 30 81 11 00 00 00 00 00").line("< 702: 05").told().empty());
+}
+
+TEST_CASE("The inhibit time of EMCY is kept") {
+  CHECK(Story().write(0x1015, 0, 1000).later(emcy).line("wait 20 ms").line(gone).told() ==
+        Told{"fail EMCY-INH-01"});
+  CHECK(Story().write(0x1015, 0, 1000).later(emcy).line("wait 99 ms").line(gone).told().empty());
+  CHECK(Story().write(0x1015, 0, 0).later(emcy).line(gone).told().empty());
+  CHECK(Story().later(emcy).write(0x1015, 0, 5000).line(gone).told().empty());
+}
+
+TEST_CASE("1001h has no error that EMCY did not tell") {
+  CHECK(Story().line(emcy).read(0x1001, 0, 0x11).line("wait 2 s").line(gone).told().empty());
+  CHECK(Story().line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
+        Told{"fail EMCY-FMT-03"});
+  // Less is left of it; the message about more is to come; it cannot come.
+  CHECK(Story().line(emcy).read(0x1001, 0, 0x01).line("wait 2 s").line(gone).told().empty());
+  CHECK(Story().line(emcy).read(0x1001, 0, 0x15).line(emcy).line("wait 2 s").line(gone).told().empty());
+  CHECK(Story()
+            .line(emcy)
+            .line("> 000: 80 01")
+            .read(0x1001, 0, 0x15)
+            .line("wait 2 s")
+            .line(gone)
+            .told()
+            .empty());
+  CHECK(Story()
+            .line(emcy)
+            .write(0x1014, 0, 0x8000'0081)
+            .read(0x1001, 0, 0x15)
+            .line("wait 2 s")
+            .line("< 701: 7F")
+            .told()
+            .empty());
+  CHECK(Story()
+            .write(0x1015, 0, 30000)
+            .later(emcy)
+            .read(0x1001, 0, 0x15)
+            .line("wait 4 s")
+            .line("< 701: 7F")
+            .told()
+            .empty());
+}
+
+TEST_CASE("1003h begins with the error of the last EMCY") {
+  const std::string long_after = "wait 1200 ms", end = "< 701: 7F";
+  CHECK(
+      Story().line(emcy).line(long_after).read(0x1003, 1, 0x8130).line("wait 2 s").line(end).told().empty());
+  CHECK(Story().line(emcy).line(long_after).read(0x1003, 1, 0x3081).line("wait 2 s").line(end).told() ==
+        Told{"fail OD-1003-11"});
+  CHECK(Story().line(emcy).read(0x1003, 1, 0x3081).line("wait 2 s").line(end).told().empty());
+  CHECK(Story()
+            .line(emcy)
+            .line(long_after)
+            .write(0x1003, 0, 0)
+            .read(0x1003, 1, 0x3081)
+            .line("wait 2 s")
+            .line(end)
+            .told()
+            .empty());
+}

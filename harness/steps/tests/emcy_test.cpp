@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which EMCY a step takes: any, that of a code, or that of an error whatever its code.
+#include "catch.hpp"
+#include "steps/step.hpp"
+#include "steps/tests/fake_session.hpp"
+#include "yaml/loader.hpp"
+
+namespace {
+
+using namespace conform;
+using namespace conform::steps;
+
+/// What the step makes of the end of an error (0000h) that is followed by error 5000h.
+std::string taken_by(const std::string& text) {
+  const auto source = yaml::make_source("x.yaml", text);
+  yaml::Diagnostics diagnostics(source);
+  const auto root = yaml::load(*source, diagnostics);
+  REQUIRE(root);
+  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
+  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
+  if (diagnostics.has_errors() || steps.size() != 1) return "error";
+  FakeSession session;
+  session.trace.add(
+      {can::data_frame(CanId(0x85), {0, 0, 0, 0, 0, 0, 0, 0}), {}, can::Direction::received, ""});
+  session.trace.add(
+      {can::data_frame(CanId(0x85), {0x00, 0x50, 1, 0, 0, 0, 0, 0}), {}, can::Direction::received, ""});
+  const auto actual = steps[0].action->run(session);
+  REQUIRE(actual);
+  return actual->decisive ? hex_bytes(std::span(actual->data).first(2)) : "nothing";
+}
+
+TEST_CASE("Without a code the first EMCY is taken, the end of an error too") {
+  CHECK(taken_by("- emcy: {within: 1 s}\n") == "00 00");
+  CHECK(taken_by("- emcy: {code: 0, within: 1 s}\n") == "00 00");
+}
+
+TEST_CASE("Where an error is waited for, the end of another one is none") {
+  CHECK(taken_by("- emcy: {code: error, within: 1 s}\n") == "00 50");
+  CHECK(taken_by("- emcy: {code: 5000h, within: 1 s}\n") == "00 50");
+  CHECK(taken_by("- emcy: {code: errors, within: 1 s}\n") == "error");
+}
+
+}  // namespace

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finer defects of EMCY and of the error register: one error of several, and what happens later than the
+// error.
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "defects/hooks.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+EmergencyRules& rules_of(Parts& parts) { return parts.emergency.rules; }
+
+/// The error register for one error code only.
+Change sets_bits_for(std::uint16_t code, std::uint8_t bits) {
+  return decides(
+      rules_of, &EmergencyRules::register_bits,
+      [code, bits](const auto& former, std::uint16_t given) { return given == code ? bits : former(given); });
+}
+
+/// The EMCY of one error code only.
+Filter changes_message_of(std::uint16_t code, void (*change)(Frame&)) {
+  return [code, change](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency) return;
+    for (Outgoing& outgoing : frames) {
+      if (conform::load_le(std::span(outgoing.frame.data).first(2)) == code) change(outgoing.frame);
+    }
+  };
+}
+
+/// While an error is there, entering `state` reports it once more.
+Change again_on_entering(NmtState state) {
+  return [state](Parts& parts) {
+    const auto latest = std::make_shared<std::optional<Frame>>();
+    parts.device.outbox.add_filter([latest](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service == Service::boot_up) latest->reset();
+      if (context.service == Service::emergency && !frames.empty()) *latest = frames.back().frame;
+    });
+    parts.nmt.on_change = [&parts, latest, state, former = parts.nmt.on_change](NmtState from) {
+      former(from);
+      if (parts.device.state == state && *latest && parts.emergency.error_register() != 0)
+        parts.device.send(Service::emergency, **latest);
+    };
+  };
+}
+
+/// The error that is there is reported again when the history is cleared.
+Change again_when_history_is_cleared() {
+  return [](Parts& parts) {
+    const auto latest = std::make_shared<std::optional<Frame>>();
+    parts.device.outbox.add_filter([latest](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service == Service::emergency && !frames.empty()) *latest = frames.back().frame;
+    });
+    checking(0x1003, 0, [latest](Parts& node, const Check& former, ByteView bytes) {
+      Accepted taken = former(bytes);
+      if (taken && *latest && node.emergency.error_register() != 0)
+        node.device.send(Service::emergency, **latest);
+      return taken;
+    })(parts);
+  };
+}
+
+/// The errors of one source are reported the first time only, until there is a reset.
+Change reported_once(ErrorSource source) {
+  return [source](Parts& parts) {
+    const auto seen = std::make_shared<bool>(false);
+    parts.device.errors.raise.replace(
+        [seen, source](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+          if (cause.source == source && std::exchange(*seen, true)) return;
+          former(cause, detail);
+        });
+    parts.device.outbox.add_filter([seen](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.service == Service::boot_up) *seen = false;
+    });
+  };
+}
+
+}  // namespace
+
+DefectTable emergency_course_defects() {
+  return {
+      {"1001-reserved-bit6-set-by-one-error",
+       "A temperature error sets the reserved bit 6 of 1001h",
+       {"OD-1001-03"},
+       sets_bits_for(0x4210, 0x49)},
+      {"1001-generic-bit-missing-in-one-error",
+       "A device-specific error does not set the generic bit of 1001h",
+       {"OD-1001-04"},
+       sets_bits_for(0xFF01, 0x80)},
+      {"1001-not-set-by-one-error",
+       "An external error does not show in 1001h",
+       {"OD-1001-05"},
+       sets_bits_for(0x9000, 0)},
+      {"emcy-register-wrong-for-one-error",
+       "The EMCY of a hardware error shows another error register than 1001h",
+       {"EMCY-FMT-03"},
+       changes_message_of(0x5000, [](Frame& frame) { frame.data[2] ^= 0x20U; })},
+      {"emcy-code-swapped-for-one-error",
+       "The EMCY of a mains voltage error has its code in big-endian order",
+       {"EMCY-FMT-01"},
+       changes_message_of(0x3110, [](Frame& frame) { std::swap(frame.data[0], frame.data[1]); })},
+      {"emcy-short-for-one-error",
+       "The EMCY of a software error has five bytes",
+       {"EMCY-FMT-01"},
+       changes_message_of(0x6100, [](Frame& frame) { frame.dlc = 5; })},
+      {"emcy-again-at-start",
+       "NMT start reports an error that is there once more",
+       {"EMCY-SEQ-01"},
+       again_on_entering(NmtState::operational)},
+      {"emcy-again-in-pre-operational",
+       "Entering Pre-operational reports an error that is there once more",
+       {"EMCY-SEQ-01"},
+       again_on_entering(NmtState::pre_operational)},
+      {"emcy-again-with-cleared-history",
+       "Clearing 1003h reports an error that is there once more",
+       {"EMCY-SEQ-01"},
+       again_when_history_is_cleared()},
+      {"emcy-of-application-once",
+       "The second error of the application is not reported, nor any later one",
+       {"EMCY-SEQ-04"},
+       reported_once(ErrorSource::application)},
+  };
+}
+
+}  // namespace refnode

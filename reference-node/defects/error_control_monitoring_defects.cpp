@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finer defects of the heartbeat consumer (1016h) and producer (1017h): one state, one entry, the upper half
+// of a value, the second time.
+#include <memory>
+#include <utility>
+
+#include "defects/heartbeats.hpp"
+#include "defects/sdo_exchanges.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+/// Heartbeats that show this state are not taken for one.
+Change deaf_to_state(std::uint8_t state) {
+  return deaf_to(
+      [state](Parts&, const Frame& frame) { return is_heartbeat(frame) && frame.data[0] == state; });
+}
+
+template <typename Rules>
+Change takes_time_for(Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule,
+                      std::int64_t (*other)(std::int64_t)) {
+  return decides(part, rule,
+                 [other](const auto& former, std::int64_t value) { return former(other(value)); });
+}
+std::int64_t cut_to_15_bits(std::int64_t value) { return value & 0x7FFF; }
+std::int64_t with_sign(std::int64_t value) { return value >= 0x8000 ? value - 0x10000 : value; }
+
+/// 1016h:`sub` is written without the look at the other entries.
+Change unchecked_where(bool (*where)(Parts&, std::uint8_t sub)) {
+  return checking_all(0x1016, [where](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) {
+    const Accepted allowed = former(bytes);
+    const bool duplicate = !allowed && allowed.error() == parts.consumer.choices.duplicate;
+    return duplicate && where(parts, sub) ? Accepted{} : allowed;
+  });
+}
+
+/// Only entries that are the same to the last bit count as two for one node.
+Change compares_whole_entries() {
+  return checking_all(0x1016, [](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) {
+    const Accepted allowed = former(bytes);
+    if (allowed || allowed.error() != parts.consumer.choices.duplicate) return allowed;
+    for (std::uint8_t other = 1; other <= consumer_entries(parts); ++other) {
+      if (other != sub && parts.device.dictionary.number(0x1016, other) == conform::load_le(bytes))
+        return allowed;
+    }
+    return Accepted{};
+  });
+}
+
+Change on_entering(NmtState state, std::function<void(Parts&)> act) {
+  return [state, act = std::move(act)](Parts& parts) {
+    parts.nmt.on_change = [&parts, state, act, former = parts.nmt.on_change](NmtState from) {
+      former(from);
+      if (parts.device.state == state) act(parts);
+    };
+  };
+}
+
+/// A loss is reported once; the next one is not noticed until there is a reset.
+Change reports_one_loss() {
+  return [](Parts& parts) {
+    const auto ended = std::make_shared<bool>(false);
+    parts.device.errors.clear.replace([ended](const auto& former, const ErrorCause& cause) {
+      if (cause.source == ErrorSource::heartbeat) *ended = true;
+      former(cause);
+    });
+    parts.device.errors.raise.replace(
+        [ended](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+          if (cause.source != ErrorSource::heartbeat || !*ended) former(cause, detail);
+        });
+    parts.device.outbox.add_filter([ended](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.service == Service::boot_up) *ended = false;
+    });
+  };
+}
+
+/// The first node that is back ends the error of all that are lost.
+Change first_return_ends_all() {
+  return [](Parts& parts) {
+    parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {
+      former(cause);
+      if (cause.source != ErrorSource::heartbeat) return;
+      for (std::uint8_t sub = 1; sub <= consumer_entries(parts); ++sub)
+        former({cause.code, cause.source, sub});
+    });
+  };
+}
+
+/// The heartbeat of one node counts for that with another bit 6 of its node-ID as well.
+void knows_nodes_by_six_bits(Parts&, std::vector<Frame>& frames) {
+  const std::vector<Frame> received = frames;
+  for (Frame frame : received) {
+    if (!is_heartbeat(frame)) continue;
+    frame.id ^= 0x40U;
+    if (frame.id != 0x700) frames.push_back(frame);
+  }
+}
+
+Change pauses_in_a_transfer() {
+  return [](Parts& parts) {
+    const auto transfer = std::make_shared<Transfer>();
+    parts.device.outbox.add_filter([transfer](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service == Service::boot_up) *transfer = {};
+      if (context.sdo != nullptr) transfer->see(*context.sdo, frames);
+      if (context.service == Service::heartbeat && transfer->running != Transfer::Direction::none)
+        frames.clear();
+    });
+  };
+}
+
+Change begins_anew_with_every_download() {
+  return [](Parts& parts) {
+    parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.sdo != nullptr && context.sdo->step == SdoStep::download_initiate)
+        parts.producer.on_boot_up();
+    });
+  };
+}
+
+/// Every second heartbeat is left out in this state.
+Change at_half_rate_in(NmtState state) {
+  return Filter([state, odd = false](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+    if (context.service != Service::heartbeat || context.state != state) return;
+    if (std::exchange(odd, !odd)) frames.clear();
+  });
+}
+
+}  // namespace
+
+DefectTable error_control_monitoring_defects() {
+  return {
+      {"hbc-counts-operational-only",
+       "Heartbeats of nodes that are not Operational do not count",
+       {"EC-HBC-04"},
+       deaf_to([](Parts&, const Frame& frame) { return is_heartbeat(frame) && frame.data[0] != 0x05; })},
+      {"hbc-deaf-to-stopped",
+       "The heartbeat of a stopped node does not count",
+       {"EC-HBC-04"},
+       deaf_to_state(0x04)},
+      {"hbc-deaf-to-operational",
+       "The heartbeat of an operational node does not count",
+       {"EC-HBC-04"},
+       deaf_to_state(0x05)},
+      {"hbc-deaf-to-pre-operational",
+       "The heartbeat of a node in Pre-operational does not count",
+       {"EC-HBC-04"},
+       deaf_to_state(0x7F)},
+      {"1016-time-cut-to-15-bits",
+       "The highest bit of a consumer heartbeat time is lost",
+       {"OD-1016-11"},
+       takes_time_for(of_consumer, &HeartbeatConsumerRules::time, cut_to_15_bits)},
+      {"1016-time-signed",
+       "A consumer heartbeat time from 8000h on is negative",
+       {"OD-1016-11"},
+       takes_time_for(of_consumer, &HeartbeatConsumerRules::time, with_sign)},
+      {"hbc-last-entry-not-monitored",
+       "The last entry of 1016h is not monitored",
+       {"EC-HBC-13"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return is_heartbeat(frame) && node_at(parts, consumer_entries(parts)) == producer_of(frame);
+       })},
+      {"1016-last-entry-duplicate-accepted",
+       "The last entry of 1016h may name a node that is monitored already",
+       {"OD-1016-06"},
+       unchecked_where([](Parts& parts, std::uint8_t sub) { return sub == consumer_entries(parts); })},
+      {"1016-first-entry-duplicate-accepted",
+       "The first entry of 1016h may name a node that is monitored already",
+       {"OD-1016-06"},
+       unchecked_where([](Parts&, std::uint8_t sub) { return sub == 1; })},
+      {"1016-duplicate-with-other-time-accepted",
+       "Two entries of 1016h for one node are accepted when their times differ",
+       {"OD-1016-06"},
+       compares_whole_entries()},
+      {"hbc-other-entry-ends-monitoring",
+       "Writing another entry of 1016h ends the monitoring of the first",
+       {"EC-HBC-13"},
+       after_writing_all(0x1016,
+                         [](Parts& parts, const Written& former, std::uint8_t sub) {
+                           former();
+                           if (sub != 1) parts.consumer.on_written(1);
+                         })},
+      {"hbc-forgets-at-start",
+       "NMT start ends the monitoring of other nodes",
+       {"EC-HBC-03"},
+       on_entering(NmtState::operational, [](Parts& parts) { parts.consumer.on_reset(); })},
+      {"hbc-reports-one-loss",
+       "Only the first loss of a heartbeat is noticed",
+       {"EC-HBC-07"},
+       reports_one_loss()},
+      {"hbc-first-return-ends-all",
+       "Of two lost nodes the first that is back ends the error",
+       {"EC-HBC-07"},
+       first_return_ends_all()},
+      {"hbc-node-id-in-6-bits",
+       "Bit 6 of the node-ID of a monitored node is not looked at",
+       {"EC-HBC-09"},
+       Reading(knows_nodes_by_six_bits)},
+      {"1017-cut-to-15-bits",
+       "The highest bit of the producer heartbeat time is lost",
+       {"EC-HBP-11"},
+       takes_time_for(of_producer, &HeartbeatProducerRules::period, cut_to_15_bits)},
+      {"heartbeat-pauses-in-a-transfer",
+       "While a segmented transfer is open there is no heartbeat",
+       {"EC-HBP-09"},
+       pauses_in_a_transfer()},
+      {"heartbeat-begins-anew-with-downloads",
+       "Every SDO download starts the period of the heartbeat anew",
+       {"EC-HBP-09"},
+       begins_anew_with_every_download()},
+      {"heartbeat-at-half-rate-in-operational",
+       "In Operational the heartbeat comes at half the rate",
+       {"EC-HBP-01"},
+       at_half_rate_in(NmtState::operational)},
+      {"heartbeat-at-half-rate-in-stopped",
+       "In Stopped the heartbeat comes at half the rate",
+       {"EC-HBP-01"},
+       at_half_rate_in(NmtState::stopped)},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of TPDOs that are sent with an event, by the event timer or on remote request, and of the inhibit
+// time.
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "defects/pdos.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+/// A change is an event where `seen` says so, of every TPDO.
+Change sees_changes(bool (*seen)(const PdoParameters&, const Bytes& sent, const Bytes& now)) {
+  return decides(tpdo_traffic, &TransmitPdoRules::is_event,
+                 [seen](const auto& former, const PdoParameters& pdo, const Bytes& sent, const Bytes& now) {
+                   return former(pdo, sent, now) && seen(pdo, sent, now);
+                 });
+}
+
+/// Whether one byte of both differs in the bits of `mask`; `first` and `end` bound the bytes looked at.
+bool differ(const Bytes& one, const Bytes& other, std::uint8_t mask, std::size_t first = 0,
+            std::size_t end = 8) {
+  for (std::size_t i = first; i < std::min({one.size(), other.size(), end}); ++i) {
+    if (((one[i] ^ other[i]) & mask) != 0) return true;
+  }
+  return false;
+}
+
+Change timer_of(Duration (*as)(std::int64_t value)) {
+  return decides(
+      tpdo_parameters, &PdoRules::event_timer,
+      [as](const auto&, const PdoParameters&, std::int64_t value) -> Duration { return as(value); });
+}
+
+Change inhibit_of(Duration (*as)(std::int64_t value)) {
+  return decides(
+      tpdo_parameters, &PdoRules::inhibit_time,
+      [as](const auto&, const PdoParameters&, std::int64_t value) -> Duration { return as(value); });
+}
+
+Change sends_with_event(std::uint8_t type) {
+  return decides(tpdo_traffic, &TransmitPdoRules::sent_with_event,
+                 [type](const auto& former, const PdoParameters& pdo) {
+                   return pdo.transmission_type() == type || former(pdo);
+                 });
+}
+
+Change sends_by_timer(std::uint8_t type) {
+  return decides(tpdo_traffic, &TransmitPdoRules::has_event_timer,
+                 [type](const auto& former, const PdoParameters& pdo) {
+                   return pdo.transmission_type() == type || former(pdo);
+                 });
+}
+
+}  // namespace
+
+DefectTable pdo_event_defects() {
+  return {
+      {"tpdo-type-ffh-never-on-change",
+       "A change sends no TPDO of type FFh",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters& pdo, const Bytes&, const Bytes&) {
+         return pdo.transmission_type() != 0xFF;
+       })},
+      {"tpdo-type-feh-never-on-change",
+       "A change sends no TPDO of type FEh",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters& pdo, const Bytes&, const Bytes&) {
+         return pdo.transmission_type() != 0xFE;
+       })},
+      {"tpdo-last-never-on-change",
+       "A change does not send the last TPDO",
+       {"PDO-TX-08"},
+       sees_changes(
+           [](const PdoParameters& pdo, const Bytes&, const Bytes&) { return pdo.number() != last_pdo; })},
+      {"tpdo-first-byte-watched-only",
+       "A change of the first byte of a TPDO is an event only",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters&, const Bytes& sent, const Bytes& now) {
+         return differ(sent, now, 0xFF, 0, 1);
+       })},
+      {"tpdo-first-byte-not-watched",
+       "A change of the first byte of a TPDO is no event",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters&, const Bytes& sent, const Bytes& now) {
+         return differ(sent, now, 0xFF, 1);
+       })},
+      {"tpdo-last-byte-not-watched",
+       "A change of the last byte of a TPDO is no event",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters&, const Bytes& sent, const Bytes& now) {
+         return differ(sent, now, 0xFF, 0, now.size() - 1);
+       })},
+      {"tpdo-high-bits-not-watched",
+       "A change of bits 4 to 7 of a byte is no event",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters&, const Bytes& sent, const Bytes& now) {
+         return differ(sent, now, 0x0F);
+       })},
+      {"tpdo-low-bit-not-watched",
+       "A change of bit 0 of a byte is no event",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters&, const Bytes& sent, const Bytes& now) {
+         return differ(sent, now, 0xFE);
+       })},
+      {"tpdo-change-back-not-seen",
+       "A change to a smaller value is no event",
+       {"PDO-TX-08"},
+       sees_changes([](const PdoParameters&, const Bytes& sent, const Bytes& now) { return now > sent; })},
+      {"tpdo-one-for-a-change",
+       "Of two TPDOs with the object that has changed the first one is sent only",
+       {"PDO-TX-08"},
+       Change([](Parts& parts) {
+         parts.pdos.tpdo.rules.is_event.replace(
+             [&parts, last = std::make_shared<std::optional<BusTime>>()](
+                 const auto& former, const PdoParameters& pdo, const Bytes& sent, const Bytes& now) {
+               if (!former(pdo, sent, now) || *last == parts.device.now) return false;
+               *last = parts.device.now;
+               return true;
+             });
+       })},
+      {"tpdo-change-within-inhibit-time-lost",
+       "A change within the inhibit time is not sent after it",
+       {"PDO-TX-12", "PDO-TX-08"},
+       decides(tpdo_traffic, &TransmitPdoRules::made_up_for,
+               [](const auto&, const PdoParameters&) { return false; })},
+      {"tpdo-inhibit-ignored-for-changes",
+       "The inhibit time holds back the event timer only",
+       {"PDO-TX-12"},
+       decides(tpdo_traffic, &TransmitPdoRules::held_back,
+               [](const auto&, const PdoParameters&, TransmitCause cause) {
+                 return cause == TransmitCause::timer;
+               })},
+      {"tpdo-inhibit-ignored-for-timer",
+       "The inhibit time holds back changes only",
+       {"PDO-TX-12"},
+       decides(tpdo_traffic, &TransmitPdoRules::held_back,
+               [](const auto&, const PdoParameters&, TransmitCause cause) {
+                 return cause == TransmitCause::change;
+               })},
+      {"tpdo-inhibit-unit-1ms",
+       "The inhibit time counts in milliseconds",
+       {"PDO-TX-12"},
+       inhibit_of([](std::int64_t value) -> Duration { return milliseconds(value); })},
+      {"tpdo-inhibit-8-bits",
+       "The inhibit time has eight bits",
+       {"PDO-TX-12"},
+       inhibit_of([](std::int64_t value) -> Duration { return microseconds((value & 0xFF) * 100); })},
+      {"tpdo-inhibit-15-bits",
+       "The inhibit time has fifteen bits",
+       {"PDO-TX-12"},
+       inhibit_of([](std::int64_t value) -> Duration { return microseconds((value & 0x7FFF) * 100); })},
+      {"tpdo-last-inhibit-ignored",
+       "The last TPDO has no inhibit time",
+       {"PDO-TX-12"},
+       decides_for(
+           last_pdo, tpdo_parameters, &PdoRules::inhibit_time,
+           [](const auto&, const PdoParameters&, std::int64_t) -> Duration { return Duration::zero(); })},
+      {"tpdo-event-timer-8-bits",
+       "The event timer of a TPDO has eight bits",
+       {"PDO-TX-09"},
+       timer_of([](std::int64_t value) -> Duration { return milliseconds(value & 0xFF); })},
+      {"tpdo-event-timer-15-bits",
+       "The event timer of a TPDO has fifteen bits",
+       {"PDO-TX-09"},
+       timer_of([](std::int64_t value) -> Duration { return milliseconds(value & 0x7FFF); })},
+      {"tpdo-event-timer-100us",
+       "The event timer of a TPDO counts in 100 us",
+       {"PDO-TX-09"},
+       timer_of([](std::int64_t value) -> Duration { return microseconds(value * 100); })},
+      {"tpdo-last-event-timer-ignored",
+       "The last TPDO has no event timer",
+       {"PDO-TX-09"},
+       decides_for(
+           last_pdo, tpdo_parameters, &PdoRules::event_timer,
+           [](const auto&, const PdoParameters&, std::int64_t) -> Duration { return Duration::zero(); })},
+      {"tpdo-event-timer-zero-sends",
+       "An event timer of 0 is one of 200 ms",
+       {"PDO-TX-10"},
+       timer_of([](std::int64_t value) -> Duration { return milliseconds(value == 0 ? 200 : value); })},
+      {"tpdo-written-in-operational-without-effect",
+       "What is written to a TPDO in Operational has no effect until the device is started again",
+       {"PDO-TX-09", "OD-1800-09"},
+       decides(tpdo_traffic, &TransmitPdoRules::takes_effect,
+               [](const auto&, const PdoParameters&) { return false; })},
+      {"tpdo-last-written-in-operational-without-effect",
+       "What is written to the last TPDO in Operational has no effect until the device is started again",
+       {"PDO-TX-09"},
+       decides_for(last_pdo, tpdo_traffic, &TransmitPdoRules::takes_effect,
+                   [](const auto&, const PdoParameters&) { return false; })},
+      {"tpdo-event-timer-restarted-by-sdo",
+       "Every SDO request restarts the event timers",
+       {"PDO-TX-09"},
+       misreads([](Parts& parts, Frame& frame) {
+         if (frame.id == 0x600U + parts.device.node_id && parts.device.state == NmtState::operational)
+           parts.pdos.on_boot_up();
+       })},
+      {"tpdo-type-0-sent-with-event",
+       "A TPDO of type 00h is sent with the event, without a SYNC",
+       {"PDO-TX-07"},
+       sends_with_event(0)},
+      {"tpdo-type-0-sent-by-timer",
+       "A TPDO of type 00h is sent by the event timer, without a SYNC",
+       {"PDO-TX-07"},
+       sends_by_timer(0)},
+      {"tpdo-type-fdh-sent-with-event",
+       "A TPDO of type FDh is sent with an event, without being asked",
+       {"PDO-TX-19"},
+       sends_with_event(0xFD)},
+      {"tpdo-type-fdh-sent-by-timer",
+       "A TPDO of type FDh is sent by the event timer, without being asked",
+       {"PDO-TX-19"},
+       sends_by_timer(0xFD)},
+      {"tpdo-type-fch-sent-with-event",
+       "A TPDO of type FCh is sent with an event, without being asked",
+       {"PDO-TX-20"},
+       sends_with_event(0xFC)},
+      {"tpdo-answers-remote-while-not-valid",
+       "A TPDO that is not valid answers remote frames",
+       {"OD-1800-09"},
+       Change([](Parts& parts) {
+         parts.pdos.tpdo.rules.answers_remote.replace(
+             [&parts](const auto& former, const PdoParameters& pdo, bool enabled) {
+               const bool works = parts.device.works_now(Service::tpdo) && pdo.mapped_size() > 0;
+               return former(pdo, enabled || (works && !pdo.cob_id().valid()));
+             });
+       })},
+      {"tpdo-last-answers-remote-despite-bit-30",
+       "The last TPDO answers remote frames although bit 30 forbids them",
+       {"OD-1800-14"},
+       decides_for(last_pdo, tpdo_traffic, &TransmitPdoRules::answers_remote,
+                   [](const auto&, const PdoParameters&, bool enabled) { return enabled; })},
+      {"tpdo-second-answers-no-remote",
+       "The second TPDO answers no remote frame",
+       {"OD-1800-14", "PDO-TX-19"},
+       decides_for(second_pdo, tpdo_traffic, &TransmitPdoRules::answers_remote,
+                   [](const auto&, const PdoParameters&, bool) { return false; })},
+      {"tpdo-sent-when-stopped",
+       "TPDOs are sent in Stopped",
+       {"PDO-TX-02"},
+       works_also(Service::tpdo, NmtState::stopped)},
+      {"tpdo-second-never-sent",
+       "The second TPDO is never sent",
+       {"PDO-TX-09", "PDO-TX-08", "PDO-TX-05"},
+       decides_for(second_pdo, tpdo_traffic, &TransmitPdoRules::valid,
+                   [](const auto&, const PdoParameters&) { return false; })},
+      {"tpdo-last-valid-bit-ignored",
+       "The last TPDO is sent although it is not valid",
+       {"OD-1800-09"},
+       decides_for(last_pdo, tpdo_traffic, &TransmitPdoRules::valid,
+                   [](const auto&, const PdoParameters&) { return true; })},
+  };
+}
+
+}  // namespace refnode

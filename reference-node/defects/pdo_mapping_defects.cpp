@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of mappings: which are taken that should be refused, and what of a mapping is used.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "defects/pdos.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+using Entries = std::vector<Mapped>;
+
+/// What is mapped is another thing than the entries say.
+Change uses(PdoRulesPart of, Entries (*other)(const PdoParameters& pdo, Entries counted)) {
+  return decides(of, &PdoRules::mapping,
+                 [other](const auto& former, const PdoParameters& pdo, const Entries& counted) {
+                   return other(pdo, former(pdo, counted));
+                 });
+}
+
+/// The mapping that a PDO had when it was first looked at stays in use.
+Change uses_the_first(PdoRulesPart of) {
+  using First = std::map<std::uint16_t, Entries>;
+  return decides_by<First>(
+      of, &PdoRules::mapping,
+      [](First& first, const auto& former, const PdoParameters& pdo, const Entries& counted) {
+        return first.try_emplace(pdo.number(), former(pdo, counted)).first->second;
+      });
+}
+
+Entries without_last(Entries counted) {
+  if (counted.size() > 1) counted.pop_back();
+  return counted;
+}
+
+Entries first_seven(const PdoParameters&, Entries counted) {
+  if (counted.size() > 7) counted.resize(7);
+  return counted;
+}
+
+/// Sub-index 00h takes a mapping of more than 64 bits where `taken` holds for its lengths.
+Change takes_too_long(std::uint16_t index, bool (*taken)(const std::vector<unsigned>& bits)) {
+  return checking(index, 0, [=](Parts& parts, const Check& former, ByteView bytes) {
+    const Accepted right = former(bytes);
+    if (right || right.error() != abort_code::mapping_too_long) return right;
+    std::vector<unsigned> lengths;
+    for (std::uint8_t sub = 1; sub <= bytes[0]; ++sub) {
+      if (parts.device.dictionary.entry(index, sub) == nullptr) return right;  // more than there are
+      lengths.push_back(Mapped::unpack(parts.device.dictionary.number(index, sub)).bits);
+    }
+    return taken(lengths) ? Accepted{} : right;
+  });
+}
+
+bool all_are(const std::vector<unsigned>& bits, unsigned length) {
+  return std::ranges::all_of(bits, [length](unsigned one) { return one == length; });
+}
+
+}  // namespace
+
+DefectTable pdo_mapping_defects() {
+  return {
+      {"rpdo-uses-first-mapping",
+       "RPDOs go on with the mapping they had at first",
+       {"PDO-RX-01"},
+       uses_the_first(rpdo_parameters)},
+      {"tpdo-uses-first-mapping",
+       "TPDOs go on with the mapping they had at first",
+       {"PDO-TX-01"},
+       uses_the_first(tpdo_parameters)},
+      {"rpdo-last-mapped-object-lost",
+       "The last object that is mapped to an RPDO is not written",
+       {"PDO-RX-01"},
+       uses(rpdo_parameters, [](const PdoParameters&, Entries counted) { return without_last(counted); })},
+      {"tpdo-last-mapped-object-lost",
+       "The last object that is mapped to a TPDO is not sent",
+       {"PDO-TX-01"},
+       uses(tpdo_parameters, [](const PdoParameters&, Entries counted) { return without_last(counted); })},
+      {"rpdo-eighth-mapped-object-lost",
+       "Of eight objects that are mapped to an RPDO seven are written",
+       {"PDO-RX-01"},
+       uses(rpdo_parameters, first_seven)},
+      {"tpdo-eighth-mapped-object-lost",
+       "Of eight objects that are mapped to a TPDO seven are sent",
+       {"PDO-TX-01"},
+       uses(tpdo_parameters, first_seven)},
+      {"rpdo-last-has-objects-swapped",
+       "The last RPDO writes its objects in the reverse order",
+       {"PDO-RX-01"},
+       uses(rpdo_parameters,
+            [](const PdoParameters& pdo, Entries counted) {
+              if (pdo.number() == last_pdo) std::ranges::reverse(counted);
+              return counted;
+            })},
+      {"tpdo-last-has-objects-swapped",
+       "The last TPDO sends its objects in the reverse order",
+       {"PDO-TX-01"},
+       uses(tpdo_parameters,
+            [](const PdoParameters& pdo, Entries counted) {
+              if (pdo.number() == last_pdo) std::ranges::reverse(counted);
+              return counted;
+            })},
+      {"1600-nine-bytes-accepted",
+       "Nine objects of 8 bits are accepted in an RPDO",
+       {"OD-1600-09"},
+       Change([](Parts& parts) {
+         // As many entries as a device with a mapping of 64 single bits would have.
+         for (std::uint8_t sub = 9; sub <= 16; ++sub)
+           parts.device.dictionary.add_sub(
+               0x1600, sub, integer_entry("Mapped object", DataType::unsigned32, Access::rw, 0));
+         takes_too_long(0x1600, [](const std::vector<unsigned>& bits) { return all_are(bits, 8); })(parts);
+       })},
+      {"1600-five-words-accepted",
+       "Five objects of 16 bits are accepted in an RPDO",
+       {"OD-1600-09"},
+       takes_too_long(0x1600, [](const std::vector<unsigned>& bits) { return all_are(bits, 16); })},
+      {"1600-three-long-words-accepted",
+       "Three objects of 32 bits are accepted in an RPDO",
+       {"OD-1600-09"},
+       takes_too_long(0x1600, [](const std::vector<unsigned>& bits) { return all_are(bits, 32); })},
+      {"1a00-five-words-accepted",
+       "Five objects of 16 bits are accepted in a TPDO",
+       {"OD-1A00-09"},
+       takes_too_long(0x1A00, [](const std::vector<unsigned>& bits) { return all_are(bits, 16); })},
+      {"1a00-three-long-words-accepted",
+       "Three objects of 32 bits are accepted in a TPDO",
+       {"OD-1A00-09"},
+       takes_too_long(0x1A00, [](const std::vector<unsigned>& bits) { return all_are(bits, 32); })},
+      {"1603-overlong-mapping-accepted",
+       "A mapping of more than 64 bits is accepted in the last RPDO",
+       {"OD-1600-09"},
+       takes_count(0x1603, CountThat::exceeds_64_bits)},
+      {"1a03-overlong-mapping-accepted",
+       "A mapping of more than 64 bits is accepted in the last TPDO",
+       {"OD-1A00-09"},
+       takes_count(0x1A03, CountThat::exceeds_64_bits)},
+      {"1603-reserved-count-accepted",
+       "1603h:00 accepts any number",
+       {"OD-1600-10"},
+       takes_count(0x1603, CountThat::exceeds_the_entries)},
+      {"1a03-reserved-count-accepted",
+       "1A03h:00 accepts any number",
+       {"OD-1A00-10"},
+       takes_count(0x1A03, CountThat::exceeds_the_entries)},
+      {"1600-last-entry-not-stored",
+       "The last entry of 1600h is confirmed and not stored",
+       {"OD-1600-05"},
+       not_stored(0x1600, 8)},
+      {"1a03-last-entry-not-stored",
+       "The last entry of 1A03h is confirmed and not stored",
+       {"OD-1A00-05"},
+       not_stored(0x1A03, 8)},
+      {"1603-entry-writable-while-enabled",
+       "Entries of 1603h can be changed while the mapping is enabled",
+       {"OD-1600-11"},
+       unlocked(rpdo_parameters, PdoPart::mapped_object, last_pdo)},
+      {"1a03-entry-writable-while-enabled",
+       "Entries of 1A03h can be changed while the mapping is enabled",
+       {"OD-1A00-11"},
+       unlocked(tpdo_parameters, PdoPart::mapped_object, last_pdo)},
+      {"1603-mapping-writable-while-valid",
+       "1603h:00 can be changed while the last RPDO is valid",
+       {"OD-1600-12"},
+       unlocked(rpdo_parameters, PdoPart::mapping, last_pdo)},
+      {"1a03-mapping-writable-while-valid",
+       "1A03h:00 can be changed while the last TPDO is valid",
+       {"OD-1A00-12"},
+       unlocked(tpdo_parameters, PdoPart::mapping, last_pdo)},
+      {"rpdo-boolean-placeholder-accepted",
+       "The data type BOOLEAN can be mapped to an RPDO, although it is not declared as a placeholder",
+       {"PDO-MAP-16"},
+       Change([](Parts& parts) { parts.pdos.rpdo.parameters.placeholders[1] = true; })},
+      {"rpdo-placeholder-takes-no-room",
+       "A placeholder in an RPDO skips no bytes",
+       {"PDO-MAP-15"},
+       uses(rpdo_parameters,
+            [](const PdoParameters&, Entries counted) {
+              std::erase_if(counted, [](const Mapped& mapped) { return mapped.index < 0x20; });
+              return counted;
+            })},
+      {"rpdo-declared-placeholder-refused",
+       "UNSIGNED8 cannot be mapped to an RPDO, although it is declared as a placeholder",
+       {"PDO-MAP-15"},
+       Change([](Parts& parts) { parts.pdos.rpdo.parameters.placeholders[5] = false; })},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of synchronous TPDOs: which SYNC sends them, and the SYNC start value; and of what TPDOs carry.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "defects/pdos.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+using Counter = std::optional<std::uint8_t>;
+
+Change at_sync(bool (*sent)(const PdoParameters& pdo, std::uint32_t syncs, bool event, bool right)) {
+  return decides(tpdo_traffic, &TransmitPdoRules::sent_at_sync,
+                 [sent](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+                   return sent(pdo, syncs, event, former(pdo, syncs, event));
+                 });
+}
+
+Change begins(bool (*at)(const PdoParameters& pdo, Counter counter, bool right)) {
+  return decides(tpdo_traffic, &TransmitPdoRules::counting_begins,
+                 [at](const auto& former, const PdoParameters& pdo, Counter counter) {
+                   return at(pdo, counter, former(pdo, counter));
+                 });
+}
+
+/// The TPDO carries something else than what is due.
+Change carries(Bytes (*what)(const PdoParameters& pdo, Bytes due)) {
+  return decides(tpdo_traffic, &TransmitPdoRules::carried,
+                 [what](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+                   return what(pdo, former(pdo, due));
+                 });
+}
+
+/// A TPDO carries what it should have carried the time before; `when` tells which.
+Change carries_the_former(bool (*when)(const PdoParameters& pdo)) {
+  using Former = std::map<std::uint16_t, Bytes>;
+  return decides_by<Former>(
+      tpdo_traffic, &TransmitPdoRules::carried,
+      [when](Former& before, const auto& former, const PdoParameters& pdo, const Bytes& due) {
+        Bytes sent = former(pdo, due);
+        const Bytes fresh = sent;
+        const auto old = before.find(pdo.number());
+        if (old != before.end() && old->second.size() == sent.size() && when(pdo)) sent = old->second;
+        before[pdo.number()] = fresh;
+        return sent;
+      });
+}
+
+}  // namespace
+
+DefectTable pdo_sync_defects() {
+  return {
+      {"tpdo-type-0-never-sent",
+       "A TPDO of type 00h is never sent",
+       {"PDO-TX-07"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
+         return right && pdo.transmission_type() != 0;
+       })},
+      {"tpdo-type-0-with-event-timer-at-every-sync",
+       "A TPDO of type 00h that has an event timer is sent with every SYNC",
+       {"PDO-TX-07"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
+         const bool timed = pdo.transmission_type() == 0 && pdo.event_timer() > Duration::zero();
+         return right || timed;
+       })},
+      {"tpdo-types-from-80h-never-sent",
+       "A TPDO of the types 80h to F0h is not sent with SYNC",
+       {"PDO-TX-06"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
+         return right && pdo.transmission_type() < 0x80;
+       })},
+      {"tpdo-type-has-7-bits",
+       "Of the transmission type of a TPDO the lower seven bits count",
+       {"PDO-TX-06"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t syncs, bool, bool right) {
+         const std::uint8_t type = pdo.transmission_type();
+         return is_synchronous(type) && type >= 0x80 ? syncs >= (type & 0x7FU) : right;
+       })},
+      {"tpdo-type-f0h-one-late",
+       "A TPDO of type F0h is sent with every 241st SYNC",
+       {"PDO-TX-06"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t syncs, bool, bool right) {
+         return pdo.transmission_type() == 0xF0 ? syncs > 0xF0 : right;
+       })},
+      {"tpdo-last-never-with-sync",
+       "The last TPDO is never sent with SYNC",
+       {"PDO-TX-05"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
+         return right && pdo.number() != last_pdo;
+       })},
+      {"tpdo-second-cyclic-ratio-wrong",
+       "The second TPDO is sent one SYNC too late",
+       {"PDO-TX-05", "PDO-TX-06"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t syncs, bool, bool right) {
+         const std::uint8_t type = pdo.transmission_type();
+         return pdo.number() == second_pdo && is_synchronous(type) && type > 0 ? syncs > type : right;
+       })},
+      {"tpdo-type-fdh-sent-with-sync",
+       "A TPDO of type FDh is sent with SYNC, without being asked",
+       {"PDO-TX-19"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
+         return right || pdo.transmission_type() == 0xFD;
+       })},
+      {"tpdo-event-driven-sent-with-sync-only",
+       "A TPDO of type FFh waits with its change for the SYNC",
+       {"PDO-TX-08"},
+       Change([](Parts& parts) {
+         parts.pdos.tpdo.rules.sent_with_event.replace(
+             [](const auto&, const PdoParameters&) { return false; });
+         parts.pdos.tpdo.rules.sent_at_sync.replace(
+             [](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+               return former(pdo, syncs, event) || (event && is_event_driven(pdo.transmission_type()));
+             });
+       })},
+      {"tpdo-one-for-a-sync",
+       "With a SYNC the TPDO of the lowest number is sent only",
+       {"PDO-TX-27"},
+       Change([](Parts& parts) {
+         parts.pdos.tpdo.rules.sent_at_sync.replace(
+             [&parts, last = std::make_shared<std::optional<BusTime>>()](
+                 const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+               if (!former(pdo, syncs, event) || *last == parts.device.now) return false;
+               *last = parts.device.now;
+               return true;
+             });
+       })},
+      {"tpdo-three-for-a-sync",
+       "With a SYNC three TPDOs are sent at most",
+       {"PDO-TX-27"},
+       Change([](Parts& parts) {
+         struct Sent {
+           BusTime time{};
+           unsigned count = 0;
+         };
+         parts.pdos.tpdo.rules.sent_at_sync.replace(
+             [&parts, sent = std::make_shared<Sent>()](const auto& former, const PdoParameters& pdo,
+                                                       std::uint32_t syncs, bool event) {
+               if (!former(pdo, syncs, event)) return false;
+               if (sent->time != parts.device.now) *sent = {parts.device.now, 0};
+               return ++sent->count <= 3;
+             });
+       })},
+      {"tpdo-sync-start-ignored",
+       "The SYNC start value has no effect",
+       {"PDO-TX-14"},
+       begins([](const PdoParameters&, Counter, bool) { return true; })},
+      {"tpdo-sync-start-two-late",
+       "A TPDO begins to count two SYNCs after its start value",
+       {"PDO-TX-14"},
+       begins([](const PdoParameters& pdo, Counter counter, bool right) {
+         return counter ? *counter == pdo.sync_start() + 2 : right;
+       })},
+      {"tpdo-sync-start-from-value-on",
+       "A TPDO begins to count with a counter of its start value or above",
+       {"PDO-TX-14"},
+       begins([](const PdoParameters& pdo, Counter counter, bool right) {
+         return counter ? *counter >= pdo.sync_start() : right;
+       })},
+      {"tpdo-sync-start-7-bits",
+       "The SYNC start value has seven bits",
+       {"PDO-TX-14"},
+       begins([](const PdoParameters& pdo, Counter counter, bool right) {
+         return counter ? *counter == (pdo.sync_start() & 0x7F) : right;
+       })},
+      {"tpdo-sync-start-blocks-without-counter",
+       "A TPDO with a SYNC start value is not sent while SYNCs have no counter",
+       {"PDO-TX-15"},
+       begins([](const PdoParameters&, Counter counter, bool right) { return right && counter; })},
+      {"tpdo-carries-former-data-with-sync",
+       "A synchronous TPDO carries the data of the SYNC before",
+       {"PDO-TX-01"},
+       carries_the_former([](const PdoParameters& pdo) { return is_synchronous(pdo.transmission_type()); })},
+      {"tpdo-carries-former-data-with-event",
+       "An event-driven TPDO carries the data of the event before",
+       {"PDO-TX-01"},
+       carries_the_former([](const PdoParameters& pdo) { return is_event_driven(pdo.transmission_type()); })},
+      {"tpdo-carries-former-data-on-request",
+       "A TPDO of type FDh carries the data of the remote frame before",
+       {"PDO-TX-19"},
+       carries_the_former([](const PdoParameters& pdo) { return pdo.transmission_type() == 0xFD; })},
+      {"tpdo-last-carries-zeros",
+       "The last TPDO carries zeros",
+       {"PDO-TX-01"},
+       carries([](const PdoParameters& pdo, Bytes due) {
+         return pdo.number() == last_pdo ? Bytes(due.size(), 0) : due;
+       })},
+      {"tpdo-fifth-byte-on-lost",
+       "From the fifth byte on TPDOs carry zeros",
+       {"PDO-TX-01"},
+       carries([](const PdoParameters&, Bytes due) {
+         for (std::size_t i = 4; i < due.size(); ++i) due[i] = 0;
+         return due;
+       })},
+      {"tpdo-bit-7-lost",
+       "Of every byte TPDOs carry the lower seven bits only",
+       {"PDO-TX-01"},
+       carries([](const PdoParameters&, Bytes due) {
+         for (std::uint8_t& byte : due) byte &= 0x7F;
+         return due;
+       })},
+      {"tpdo-second-eight-bytes-long",
+       "The second TPDO always has eight bytes",
+       {"PDO-TX-01"},
+       carries([](const PdoParameters& pdo, Bytes due) {
+         if (pdo.number() == second_pdo) due.resize(8);
+         return due;
+       })},
+      {"tpdo-last-one-byte-short",
+       "The last TPDO lacks its last byte",
+       {"PDO-TX-01"},
+       carries([](const PdoParameters& pdo, Bytes due) {
+         if (pdo.number() == last_pdo && !due.empty()) due.pop_back();
+         return due;
+       })},
+      {"tpdo-third-sent-with-can-id-of-first",
+       "The third TPDO is sent with the CAN-ID of the first one",
+       {"PDO-TX-09", "PDO-TX-05"},
+       Change([](Parts& parts) {
+         parts.device.outbox.add_filter(
+             [&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+               if (context.service != Service::tpdo) return;
+               const auto can_id = [&](std::uint16_t index) {
+                 return static_cast<std::uint32_t>(parts.device.dictionary.number(index, 1) & 0x7FFU);
+               };
+               for (Outgoing& outgoing : frames) {
+                 if (outgoing.frame.id == can_id(0x1802)) outgoing.frame.id = can_id(0x1800);
+               }
+             });
+       })},
+  };
+}
+
+}  // namespace refnode

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finer defects of SDO: lengths that are wrong for one size only, the last segment of a full sub-block, and
+// data that two servers share.
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "defects/sdo_block_exchanges.hpp"
+#include "defects/sdo_rules.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+constexpr std::uint8_t expedited_of(std::size_t size) {
+  return static_cast<std::uint8_t>(0x23U | ((4U - size) << 2U));
+}
+
+/// An expedited download of `given` bytes to an entry of `size` bytes counts as one of the right length.
+Change takes_length(std::size_t size, std::size_t given) {
+  return misreads([size, given](Parts& parts, Frame& frame) {
+    if (server_asked(parts, frame) == nullptr || frame.data[0] != expedited_of(given)) return;
+    if (receiving(parts, frame) != nullptr) return;
+    const Entry* entry = parts.device.dictionary.entry(
+        static_cast<std::uint16_t>(conform::load_le(std::span(frame.data).subspan(1, 2))), frame.data[3]);
+    if (entry != nullptr && fixed_size(entry->type) == size) frame.data[0] = expedited_of(size);
+  });
+}
+
+/// The size that a segmented upload of a number announces is one byte too high.
+Change announces_more_for_numbers() {
+  return [](Parts& parts) {
+    parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.sdo == nullptr || !upload_initiated(*context.sdo)) return;
+      const Entry* entry = parts.device.dictionary.entry(context.sdo->index(), context.sdo->sub());
+      if (entry == nullptr || fixed_size(entry->type) == 0) return;
+      for (Outgoing& outgoing : frames) {
+        if (is_segmented_upload(outgoing.frame.data)) ++outgoing.frame.data[4];
+      }
+    });
+  };
+}
+
+/// When the last segment of a block upload is number 127, the end frame does not tell its unused bytes.
+Filter unused_bytes_of_segment_127_not_told() {
+  return on_exchange([last = std::uint8_t{0}](const SdoExchange& e, Frames& frames) mutable {
+    if (is_upload_segment(e, frames)) last = frames.front().frame.data[0];
+    if (!is_upload_end(e, frames) || last != 0xFF) return;
+    for (Outgoing& outgoing : frames) outgoing.frame.data[0] &= 0xE3U;
+  });
+}
+/// When the last segment of a block download is number 127, all its bytes are taken for data.
+Change unused_bytes_of_segment_127_taken() {
+  return [](Parts& parts) {
+    const auto last = std::make_shared<std::uint8_t>(0);
+    Change(misreads([last](Parts& node, Frame& frame) {
+      if (receiving(node, frame) != nullptr) {
+        *last = frame.data[0];
+      } else if (transfer_of<BlockDownload>(node, frame) != nullptr && (frame.data[0] & 0xE3U) == 0xC1U &&
+                 *last == 0xFF) {
+        frame.data[0] &= 0xE3U;
+      }
+    }))(parts);
+  };
+}
+
+/// All servers send the segments of the upload that was begun last, each from where it is.
+Change segments_of_the_latest_upload() {
+  struct Shared {
+    Bytes data;
+    std::map<std::uint8_t, std::size_t> position;  ///< by channel
+  };
+  return [](Parts& parts) {
+    const auto shared = std::make_shared<Shared>();
+    parts.device.outbox.add_filter(
+        [&parts, shared](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.sdo == nullptr || frames.empty()) return;
+          const SdoExchange& e = *context.sdo;
+          if (upload_initiated(e) && is_segmented_upload(frames.front().frame.data)) {
+            if (const Upload data = parts.device.dictionary.upload(e.mux)) shared->data = *data;
+            shared->position[e.channel] = 0;
+          }
+          if (!upload_segment_sent(e)) return;
+          std::size_t& position = shared->position[e.channel];
+          for (Outgoing& outgoing : frames) {
+            for (std::size_t i = 1; i < 8 && position < shared->data.size(); ++i)
+              outgoing.frame.data[i] = shared->data[position++];
+          }
+        });
+  };
+}
+
+}  // namespace
+
+DefectTable sdo_length_defects() {
+  return {
+      {"u32-takes-three-bytes",
+       "Three bytes are taken for an entry of 32 bits",
+       {"OD-LEN-01"},
+       takes_length(4, 3)},
+      {"u32-takes-two-bytes",
+       "Two bytes are taken for an entry of 32 bits",
+       {"OD-LEN-01"},
+       takes_length(4, 2)},
+      {"u8-takes-two-bytes", "Two bytes are taken for an entry of 8 bits", {"OD-LEN-02"}, takes_length(1, 2)},
+      {"u16-takes-three-bytes",
+       "Three bytes are taken for an entry of 16 bits",
+       {"OD-LEN-02"},
+       takes_length(2, 3)},
+      {"segmented-size-of-numbers-one-too-high",
+       "A segmented upload of five to eight bytes announces one byte more",
+       {"SDO-SUP-02"},
+       announces_more_for_numbers()},
+      {"block-upload-segment-127-unused-bytes",
+       "The end of a block upload tells no unused bytes when its last segment is number 127",
+       {"SDO-BUP-13"},
+       unused_bytes_of_segment_127_not_told()},
+      {"block-download-segment-127-unused-bytes",
+       "The unused bytes of the last segment of a block download are taken for data when it is number 127",
+       {"SDO-BDN-06"},
+       unused_bytes_of_segment_127_taken()},
+      {"segments-of-the-latest-upload",
+       "Two SDO servers that upload at the same time both send the data of the later request",
+       {"SDO-MUL-04"},
+       segments_of_the_latest_upload()},
+  };
+}
+
+}  // namespace refnode
