@@ -59,7 +59,7 @@ DefectTable cob_id_defects() {
        refuses(0x1005, 0, abort_code::invalid_value, is_moved)},
       {"1005-new-id-not-used",
        "The node goes on listening on 080h after 1005h was changed",
-       {"OD-1005-07", "SYNC-COB-02"},
+       {"OD-1005-07", "SYNC-COB-02", "OD-1005-09"},
        stays_on_default(of_sync)},
       {"1005-bit31-treated-as-valid",
        "1005h refuses bit 31",

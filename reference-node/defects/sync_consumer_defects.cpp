@@ -162,7 +162,7 @@ DefectTable sync_consumer_defects() {
        })},
       {"sync-dead-after-reset",
        "After a reset no SYNC is taken until 1005h is written",
-       {"SYNC-CON-01"},
+       {"SYNC-CON-01", "PDO-TX-05"},
        deaf_after_reset},
       {"sync-can-id-survives-reset",
        "After a reset SYNC is taken on the CAN-ID that 1005h had before",
@@ -179,10 +179,11 @@ DefectTable sync_consumer_defects() {
        "Synchronous TPDOs follow their SYNC after 15 ms",
        {"SYNC-CON-09"},
        [](Parts& parts) {
-         parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
-           if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
-           for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(15);
-         });
+         parts.device.outbox.add_filter(
+             [&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+               if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
+               for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(15);
+             });
        }},
       {"sync-off-by-bit-31",
        "With bit 31 of 1005h set no SYNC is taken",
@@ -260,7 +261,7 @@ DefectTable sync_consumer_defects() {
        takes_longer_than_the_window()},
       {"1007-zero-closes",
        "With 1007h = 0 synchronous RPDOs are discarded",
-       {"OD-1007-02"},
+       {"OD-1007-02", "PDO-RX-03"},
        decides(of_window, &SyncWindowRules::open,
                [](const auto& former, Duration since_sync, Duration window) {
                  return window != Duration::zero() && former(since_sync, window);

@@ -57,7 +57,7 @@ DefectTable sync_defects() {
        wrong_abort_at(mux(0x1019, 0), abort_code::device_state, abort_code::unsupported_access)},
       {"sync-right-length-reported",
        "A SYNC without data causes EMCY 8240h although no counter is configured",
-       {"SYNC-CON-03"},
+       {"SYNC-CON-03", "SYNC-CON-04"},
        Change([](Parts& parts) {
          // Whatever has the right length is what clears the error of a wrong one.
          parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {

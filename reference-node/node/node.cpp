@@ -120,12 +120,8 @@ void Node::Impl::take_over(Twin twin) {
         history->second.entries, [](const auto& entry) { return entry.first != 0 && entry.first != 0xFF; });
     emergency.history.choices.depth = static_cast<std::uint8_t>(fields);
   }
-  // A description does not say whether SYNC and TIME can be produced, unless they are from power-on.
-  const auto produced = [this](std::uint16_t index) {
-    return (device.dictionary.number(index, 0) & 0x40000000U) != 0;
-  };
-  sync.cob_id_rules.choices.produced = produced(0x1005);
-  time.cob_id_rules.choices.produced = produced(0x1012);
+  // Whoever produces SYNC has a period for it; more than that a description does not say.
+  sync.cob_id_rules.choices.produced = objects.contains(0x1006);
   // Without SYNC there are no transmission types that need it.
   if (!objects.contains(0x1005)) {
     for (PdoTerms* terms : {&pdos.rpdo.parameters, &pdos.tpdo.parameters})

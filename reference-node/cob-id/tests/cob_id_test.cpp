@@ -5,11 +5,20 @@
 using namespace refnode;
 using namespace refnode::testing;
 
-TEST_CASE("1005h takes another CAN-ID, but neither generates nor uses 29 bits") {
+TEST_CASE("Who produces neither SYNC nor TIME refuses bit 30") {
+  Bench bench(Bench::Wanted{{.node_id = 5, .adjust = [](Parts& parts) {
+                               parts.sync.cob_id_rules.choices.produced = false;
+                               parts.time.cob_id_rules.choices.produced = false;
+                             }}});
+  bench.wait(100ms);
+  CHECK(bench.sdo("23 05 10 00 80 00 00 40") == "80 05 10 00 30 00 09 06");
+  CHECK(bench.sdo("23 12 10 00 00 01 00 40") == "80 12 10 00 30 00 09 06");
+}
+
+TEST_CASE("1005h takes another CAN-ID, but no 29 bits") {
   Bench bench;
   bench.wait(100ms);
   CHECK(bench.sdo("40 05 10 00 00 00 00 00") == "43 05 10 00 80 00 00 00");
-  CHECK(bench.sdo("23 05 10 00 80 00 00 40") == "80 05 10 00 30 00 09 06");
   CHECK(bench.sdo("23 05 10 00 80 00 00 20") == "80 05 10 00 30 00 09 06");
   CHECK(bench.sdo("23 05 10 00 80 08 00 00") == "80 05 10 00 30 00 09 06");
   CHECK(bench.sdo("23 05 10 00 00 00 00 00") == "80 05 10 00 30 00 09 06");
@@ -24,7 +33,6 @@ TEST_CASE("1012h is locked while TIME is consumed") {
   Bench bench;
   bench.wait(100ms);
   CHECK(bench.sdo("40 12 10 00 00 00 00 00") == "43 12 10 00 00 01 00 00");
-  CHECK(bench.sdo("23 12 10 00 00 01 00 40") == "80 12 10 00 30 00 09 06");
   CHECK(bench.sdo("23 12 10 00 00 01 00 20") == "80 12 10 00 30 00 09 06");
   CHECK(bench.sdo("23 12 10 00 00 01 00 80") == "60 12 10 00 00 00 00 00");
   CHECK(bench.sdo("23 12 10 00 A0 06 00 80") == "80 12 10 00 30 00 09 06");
