@@ -163,6 +163,7 @@ DefectTable pdo_mapping_defects() {
        "Nine objects of 8 bits are accepted in an RPDO",
        {"OD-1600-09"},
        Change([](Parts& parts) {
+         if (!parts.device.dictionary.objects().contains(0x1600)) return;
          // As many entries as a device with a mapping of 64 single bits would have.
          for (std::uint8_t sub = 9; sub <= 16; ++sub)
            parts.device.dictionary.add_sub(
