@@ -236,6 +236,17 @@ DefectTable pdo_event_defects() {
                return former(pdo, enabled || (works && !pdo.cob_id().valid()));
              });
        })},
+      {"tpdo-answers-remote-before-operational",
+       "TPDOs answer remote frames in Pre-operational",
+       {"PDO-TX-22"},
+       Change([](Parts& parts) {
+         parts.pdos.tpdo.rules.answers_remote.replace(
+             [&parts](const auto& former, const PdoParameters& pdo, bool enabled) {
+               const bool early = parts.device.state == NmtState::pre_operational && pdo.cob_id().valid() &&
+                                  pdo.mapped_size() > 0;
+               return former(pdo, enabled || early);
+             });
+       })},
       {"tpdo-last-answers-remote-despite-bit-30",
        "The last TPDO answers remote frames although bit 30 forbids them",
        {"OD-1800-14"},

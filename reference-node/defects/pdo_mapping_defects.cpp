@@ -63,6 +63,58 @@ bool all_are(const std::vector<unsigned>& bits, unsigned length) {
   return std::ranges::all_of(bits, [length](unsigned one) { return one == length; });
 }
 
+/// What `taken` holds for can be mapped, whatever it is.
+Change maps_also(PdoRulesPart of, bool (*taken)(const Mapped& mapped)) {
+  return decides(of, &PdoRules::mappable, [taken](const auto& former, const Mapped& mapped) {
+    return taken(mapped) ? Accepted{} : former(mapped);
+  });
+}
+
+bool is_communication_object(const Mapped& mapped) {
+  return mapped.index >= 0x1000 && mapped.index < 0x2000 && mapped.index != 0x1001;
+}
+
+/// An entry that is refused switches the mapping on again, with one object.
+Change enables_when_refusing(std::uint16_t index) {
+  return checking_all(index, [index](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted right = former(bytes);
+    Entry* count = parts.device.dictionary.entry(index, 0);
+    if (!right && right.error() == abort_code::no_object && count != nullptr) count->value = Bytes{1};
+    return right;
+  });
+}
+
+/// Sub-index 00h takes a count although an entry of it is zero.
+Change takes_zero_entries(std::uint16_t index) {
+  return checking(index, 0, [index](Parts& parts, const Check& former, ByteView bytes) {
+    const Accepted right = former(bytes);
+    for (std::uint8_t sub = 1; sub <= bytes[0]; ++sub) {
+      const Entry* entry = parts.device.dictionary.entry(index, sub);
+      if (entry != nullptr && parts.device.dictionary.number(index, sub) == 0) return Accepted{};
+    }
+    return right;
+  });
+}
+
+Change reads_zero_in_operational(std::uint16_t index) {
+  return reading(index, 0, [](Parts& parts, const Read& former) -> Upload {
+    if (parts.device.state == NmtState::operational) return Bytes{0};
+    return former();
+  });
+}
+
+/// A PDO whose mapping has been switched off goes on with the one it had.
+Change keeps_mapping(PdoRulesPart of) {
+  using Last = std::map<std::uint16_t, Entries>;
+  return decides_by<Last>(
+      of, &PdoRules::mapping,
+      [](Last& last, const auto& former, const PdoParameters& pdo, const Entries& counted) {
+        const Entries right = former(pdo, counted);
+        if (!right.empty()) last[pdo.number()] = right;
+        return last[pdo.number()];
+      });
+}
+
 }  // namespace
 
 DefectTable pdo_mapping_defects() {
@@ -111,6 +163,7 @@ DefectTable pdo_mapping_defects() {
        "Nine objects of 8 bits are accepted in an RPDO",
        {"OD-1600-09"},
        Change([](Parts& parts) {
+         if (!parts.device.dictionary.objects().contains(0x1600)) return;
          // As many entries as a device with a mapping of 64 single bits would have.
          for (std::uint8_t sub = 9; sub <= 16; ++sub)
            parts.device.dictionary.add_sub(
@@ -173,6 +226,58 @@ DefectTable pdo_mapping_defects() {
        "1A03h:00 can be changed while the last TPDO is valid",
        {"OD-1A00-12"},
        unlocked(tpdo_parameters, PdoPart::mapping, last_pdo)},
+      {"1600-communication-object-mapped",
+       "Communication objects can be mapped to an RPDO",
+       {"OD-MAP-02"},
+       maps_also(rpdo_parameters, is_communication_object)},
+      {"1a00-communication-object-mapped",
+       "Communication objects can be mapped to a TPDO",
+       {"OD-MAP-01"},
+       maps_also(tpdo_parameters, is_communication_object)},
+      {"1600-error-register-mapped",
+       "The error register can be mapped to an RPDO",
+       {"OD-MAP-04"},
+       maps_also(rpdo_parameters, [](const Mapped& mapped) { return mapped.index == 0x1001; })},
+      {"1a00-error-register-wrong-abort",
+       "The error register is refused in a TPDO with a general error",
+       {"OD-MAP-03"},
+       decides(tpdo_parameters, &PdoRules::mappable,
+               [](const auto& former, const Mapped& mapped) {
+                 return mapped.index == 0x1001 ? refuse(abort_code::general_error) : former(mapped);
+               })},
+      {"1602-default-mapping-too-long",
+       "The default mapping of the third RPDO has 72 bits",
+       {"OD-1600-03"},
+       both(preset(0x1602, 3, 0x64120220), preset(0x1602, 0, 3))},
+      {"1a02-default-mapping-too-long",
+       "The default mapping of the third TPDO has 72 bits",
+       {"OD-1A00-03"},
+       both(preset(0x1A02, 3, 0x64020220), preset(0x1A02, 0, 3))},
+      {"1600-enabled-by-refusal",
+       "An entry that is refused switches the mapping of the RPDO on again",
+       {"OD-1600-13"},
+       enables_when_refusing(0x1600)},
+      {"1a00-enabled-by-refusal",
+       "An entry that is refused switches the mapping of the TPDO on again",
+       {"OD-1A00-13"},
+       enables_when_refusing(0x1A00)},
+      {"1600-zero-entry-accepted",
+       "A mapping of an RPDO with an entry of zero is accepted",
+       {"PDO-MAP-14"},
+       takes_zero_entries(0x1600)},
+      {"1a00-zero-entry-accepted",
+       "A mapping of a TPDO with an entry of zero is accepted",
+       {"PDO-MAP-14"},
+       takes_zero_entries(0x1A00)},
+      {"tpdo-sent-without-mapping",
+       "A TPDO whose mapping was switched off is sent with the data it had before",
+       {"PDO-MAP-20"},
+       keeps_mapping(tpdo_parameters)},
+      {"1600-procedure-ignored-in-operational",
+       "In Operational sub-index 00h of the mappings of RPDOs reads as 0, whatever was written",
+       {"PDO-MAP-22"},
+       together(reads_zero_in_operational(0x1600), reads_zero_in_operational(0x1601),
+                reads_zero_in_operational(0x1602), reads_zero_in_operational(0x1603))},
       {"rpdo-boolean-placeholder-accepted",
        "The data type BOOLEAN can be mapped to an RPDO, although it is not declared as a placeholder",
        {"PDO-MAP-16"},

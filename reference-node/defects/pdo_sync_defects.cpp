@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of synchronous TPDOs: which SYNC sends them, and the SYNC start value; and of what TPDOs carry.
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -147,6 +148,29 @@ DefectTable pdo_sync_defects() {
                if (!former(pdo, syncs, event)) return false;
                if (sent->time != parts.device.now) *sent = {parts.device.now, 0};
                return ++sent->count <= 3;
+             });
+       })},
+      {"tpdo-burst-after-pause",
+       "After a pause of SYNC a TPDO of type n is sent with each of the first two",
+       {"PDO-TX-26", "PDO-TX-06"},
+       Change([](Parts& parts) {
+         struct Burst {
+           BusTime last{};
+           unsigned left = 0;
+         };
+         using All = std::map<std::uint16_t, Burst>;
+         parts.pdos.tpdo.rules.sent_at_sync.replace(
+             [&parts, all = std::make_shared<All>()](const auto& former, const PdoParameters& pdo,
+                                                     std::uint32_t syncs, bool event) {
+               Burst& burst = (*all)[pdo.number()];
+               if (parts.device.now - burst.last > std::chrono::milliseconds(250)) burst.left = 2;
+               burst.last = parts.device.now;
+               const std::uint8_t type = pdo.transmission_type();
+               if (burst.left > 0 && type > 1 && is_synchronous(type)) {
+                 --burst.left;
+                 return true;
+               }
+               return former(pdo, syncs, event);
              });
        })},
       {"tpdo-sync-start-ignored",

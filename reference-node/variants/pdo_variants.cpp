@@ -241,11 +241,14 @@ VariantTable pdo_variants() {
        choose_of_rpdos([](PdoChoices& c) { c.synchronous_types = false; })},
       {"tpdo-event-driven-only", "TPDO types FEh and FFh only", "7.5.2.37: types are the device's",
        choose_of_tpdos([](PdoChoices& c) { c.synchronous_types = c.remote_types = false; }), "tpdo-types"},
-      {"rpdo-few-types", "RPDO types 01h, FEh and FFh only", "7.5.2.35: types are the device's",
-       choose_of_rpdos([](PdoChoices& c) {
+      {.id = "rpdo-few-types",
+       .summary = "RPDO types 01h, FEh and FFh only",
+       .legal = "7.5.2.35: types are the device's",
+       .how = choose_of_rpdos([](PdoChoices& c) {
          c.acyclic_type = false;
          c.most_syncs = 1;
-       })},
+       }),
+       .warns = {"PDO-RX-05"}},
       {"tpdo-few-types", "TPDO types 01h to 0Ah, FEh and FFh only", "7.5.2.37: types are the device's",
        choose_of_tpdos([](PdoChoices& c) {
          c.acyclic_type = c.remote_types = false;

@@ -155,7 +155,7 @@ TEST_CASE("A mapping is changed by the procedure of the standard and refused oth
   CHECK(bench.sdo("23 00 18 01 85 01 00 40") == done1800);
   bench.send("000: 01 05");
   CHECK(bench.send("605: 2B 11 64 02 34 12 00 00") ==
-        Frames{"185: 34 12 00", "585: 60 11 64 02 00 00 00 00"});
+        Frames{"185: 34 12 00", "285: 34 12 00", "585: 60 11 64 02 00 00 00 00"});
 }
 
 TEST_CASE("A mapping of more than 64 bits is refused, placeholders are not") {

@@ -298,9 +298,10 @@ TEST_CASE("A TPDO with a SYNC start value begins at the SYNC of this counter") {
   CHECK(bench.sdo("23 00 18 01 85 01 00 40") == "60 00 18 01 00 00 00 00");
   CHECK(bench.sdo("2F 00 18 06 04 00 00 00") == "80 00 18 06 30 00 09 06");
   bench.send("000: 01 05");
-  CHECK(bench.send("080: 01\n080: 02\n080: 03").empty());
-  CHECK(bench.send("080: 04") == Frames{"185: 07 00 00 00"});
-  CHECK(bench.send("080: 05\n080: 06") == Frames{"185: 07 00 00 00"});
+  CHECK(bench.send("080: 01\n080: 02").empty());
+  CHECK(bench.send("080: 03") == Frames{"185: 07 00 00 00"});
+  CHECK(bench.send("080: 04").empty());
+  CHECK(bench.send("080: 05\n080: 06\n080: 07") == Frames{"185: 07 00 00 00", "185: 07 00 00 00"});
   CHECK(bench.send("080:") == Frames{"085: 40 82 11 00 03 00 00 00"});
 }
 
