@@ -40,6 +40,9 @@ class Emergencies final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { stopped, valid, form, code_class, register_bits, inhibit };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject == Subject::emcy || subject == Subject::data;
+  }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return;
     const auto found = holders(follower, seen.key());

@@ -68,9 +68,9 @@ void Entries::refused(Multiplexer object, BusTime time) {
 
 void Entries::read(Multiplexer object, std::uint32_t value, BusTime time) {
   if (!concerns(object)) return;
-  absent_.erase(key_of(object));
   auto& entry = entries_[key_of(object)];
   if (entry.known && entry.doubts == 0 && entry.value == value) return;
+  absent_.erase(key_of(object));
   entry = {.value = value, .since = time, .by_write = false, .known = true, .doubts = 0};
   note(object, value);
 }
