@@ -28,7 +28,7 @@ void Entries::asked(Multiplexer object, BusTime time) {
   // Restored defaults may be in force at once, and a program that starts has its own.
   if (object.index == restore || (index >= 0x1F50 && index <= 0x1F5F)) {
     restoring_ = true;
-    return forget();
+    return forget_values();
   }
   auto& entry = entries_[key_of(object)];
   if (entry.doubts < 0xFF) ++entry.doubts;
@@ -79,7 +79,19 @@ void Entries::absent(Multiplexer object) {
   if (concerns(object)) absent_.insert(key_of(object));
 }
 
-void Entries::forget() {
+void Entries::reset() {
+  // What comes back then nobody has seen.
+  if (restored_ || restoring_) seen_bits_.clear();
+  restored_ = restoring_ = false;
+  forget_values();
+}
+
+void Entries::lose_track() {
+  seen_bits_.clear();
+  forget_values();
+}
+
+void Entries::forget_values() {
   for (const auto& [place, entry] : entries_) {
     if (entry.doubts > 0) open_.insert(place);
   }

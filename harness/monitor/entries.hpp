@@ -32,7 +32,10 @@ class Entries {
   void read(Multiplexer object, std::uint32_t value, BusTime time);
   /// An upload said that there is no such entry. Resets do not change that.
   void absent(Multiplexer object);
-  void forget();
+  /// All values are those of power-on, or may be.
+  void reset();
+  /// Frames were lost, and downloads may have been among them.
+  void lose_track();
 
   /// nullptr: the trace leaves it open.
   [[nodiscard]] const Entry* known(std::uint16_t index, std::uint8_t sub) const;
@@ -67,6 +70,7 @@ class Entries {
   static Place key_of(std::uint16_t index, std::uint8_t sub) { return std::uint32_t{index} << 8U | sub; }
   static Place key_of(Multiplexer object) { return key_of(object.index.value(), object.sub.value()); }
   static bool concerns(Multiplexer object);
+  void forget_values();
   void note(Multiplexer object, std::uint32_t value);
 
   std::map<Place, Entry> entries_;

@@ -148,7 +148,7 @@ void Follower::settle() {
       if (nmt_.booting()) {
         guard_open_ = false;
         forget_channels();
-        entries_.forget();
+        entries_.reset();
       }
       break;
     }
@@ -160,7 +160,7 @@ void Follower::settle() {
         // A fresh server knows of no transfer, but requests may wait in the receive buffer.
         default_.channel.transfer_unclear();
         forget_channels();
-        entries_.forget();
+        entries_.reset();
       }
       heard_ = now_.time();
       break;
@@ -174,7 +174,7 @@ void Follower::lose_track() {
   default_.channel.lose_frames();
   for (auto& server : more_) server.channel.lose_frames();
   nmt_.lose_track();
-  entries_.forget();
+  entries_.lose_track();
   bait_ = {};
 }
 
