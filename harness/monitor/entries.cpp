@@ -22,8 +22,9 @@ bool Entries::concerns(Multiplexer object) {
   return object.index.value() >= 0x1000 && object.index.value() <= 0x1FFF;
 }
 
-void Entries::asked(Multiplexer object, BusTime time) {
+void Entries::asked(Multiplexer object, std::optional<std::uint32_t> value, BusTime time) {
   if (!concerns(object)) return;
+  if (value) note_can_id(object, *value, false);
   const auto index = object.index.value();
   // Restored defaults may be in force at once, and a program that starts has its own.
   if (object.index == restore || (index >= 0x1F50 && index <= 0x1F5F)) {
@@ -112,11 +113,15 @@ void Entries::note(Multiplexer object, std::uint32_t value) {
   auto& most = most_[key_of(object)];
   most = std::max(most, value);
   seen_bits_[key_of(object)] |= value;
+  note_can_id(object, value, is_active(object, value));
+}
+
+void Entries::note_can_id(Multiplexer object, std::uint32_t value, bool in_use) {
   if (!canopen::cob_id_kind(object)) return;
   const auto key =
       canopen::is_extended(CobId{value}) ? value & id_and_format : value & canopen::cob_id::base_id_mask;
   // What is not used holds anything, 000h most of all.
-  if (canopen::is_restricted(CanId{key}) && !is_active(object, value)) return;
+  if (canopen::is_restricted(CanId{key}) && !in_use) return;
   held_.insert(key);
   held_by_.emplace(key, object.index.value());
 }

@@ -209,7 +209,10 @@ void Follower::response(Server& server, bool default_channel) {
 void Follower::note_download(const can::Frame& frame, BusTime time) {
   const auto specifier = frame.data[0] >> 5U;
   const bool download = specifier == 1 || (specifier == 6 && (frame.data[0] & 0x01U) == 0);
-  if (download && !frame.remote && frame.size() >= 4) entries_.asked(multiplexer_of(frame), time);
+  if (!download || frame.remote || frame.size() < 4) return;
+  const bool expedited = specifier == 1 && (frame.data[0] & 0x02U) != 0 && frame.size() == 8;
+  const auto value = static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4)));
+  entries_.asked(multiplexer_of(frame), expedited ? std::optional(value) : std::nullopt, time);
 }
 
 /// What a refusal says of an entry.
