@@ -27,6 +27,9 @@ class CanIds final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { own, commands, base_frames, remote_frames };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject != Subject::sdo_request && subject != Subject::lss_answer;
+  }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (!seen.received()) return;
     switch (seen.subject) {
@@ -119,6 +122,9 @@ class LssAnswers final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { asked, form };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject == Subject::lss_request || subject == Subject::lss_answer;
+  }
   void on_frame(const Observation& seen, const Follower&) override {
     if (seen.subject == Subject::lss_request) return request(seen);
     if (seen.subject != Subject::lss_answer) return;

@@ -40,6 +40,9 @@ class Emergencies final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { stopped, valid, form, code_class, register_bits, inhibit };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject == Subject::emcy || subject == Subject::data;
+  }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return;
     const auto found = holders(follower, seen.key());
@@ -187,7 +190,7 @@ class ErrorObjects final : public Monitor {
     const Duration inhibit =
         std::min<std::uint32_t>(entries.most(0x1015, 0), 0xFFFF) * std::chrono::microseconds(100);
     const auto after = asked_at_ - last_->time - inhibit;
-    if (after < follower.facts().nmt_time) return;
+    if (after < settled) return;
     const auto value = seen.read->value;
     if (index == 0x1001 && sub == 0) {
       // Less may be left of it.
@@ -208,9 +211,13 @@ class ErrorObjects final : public Monitor {
     if (open_[requirement]) return;
     open_[requirement] = Open{{requirement, Verdict::fail, seen.index, seen.frame(), std::move(actual),
                                std::move(expected), std::move(reason)},
-                              seen.time() + std::chrono::seconds(1) + inhibit};
+                              seen.time() + late + inhibit};
   }
 
+  /// So long after the message the entry may still be behind.
+  static constexpr Duration settled = std::chrono::milliseconds(25);
+  /// So long after the reading the message of a new error may still come.
+  static constexpr Duration late = std::chrono::milliseconds(300);
   std::optional<Message> last_;
   BusTime asked_at_{};
   std::array<std::optional<Open>, 2> open_;

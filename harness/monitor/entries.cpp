@@ -22,13 +22,14 @@ bool Entries::concerns(Multiplexer object) {
   return object.index.value() >= 0x1000 && object.index.value() <= 0x1FFF;
 }
 
-void Entries::asked(Multiplexer object, BusTime time) {
+void Entries::asked(Multiplexer object, std::optional<std::uint32_t> value, BusTime time) {
   if (!concerns(object)) return;
+  if (value) note_can_id(object, *value, false);
   const auto index = object.index.value();
   // Restored defaults may be in force at once, and a program that starts has its own.
   if (object.index == restore || (index >= 0x1F50 && index <= 0x1F5F)) {
     restoring_ = true;
-    return forget();
+    return forget_values();
   }
   auto& entry = entries_[key_of(object)];
   if (entry.doubts < 0xFF) ++entry.doubts;
@@ -68,9 +69,9 @@ void Entries::refused(Multiplexer object, BusTime time) {
 
 void Entries::read(Multiplexer object, std::uint32_t value, BusTime time) {
   if (!concerns(object)) return;
-  absent_.erase(key_of(object));
   auto& entry = entries_[key_of(object)];
   if (entry.known && entry.doubts == 0 && entry.value == value) return;
+  absent_.erase(key_of(object));
   entry = {.value = value, .since = time, .by_write = false, .known = true, .doubts = 0};
   note(object, value);
 }
@@ -79,7 +80,19 @@ void Entries::absent(Multiplexer object) {
   if (concerns(object)) absent_.insert(key_of(object));
 }
 
-void Entries::forget() {
+void Entries::reset() {
+  // What comes back then nobody has seen.
+  if (restored_ || restoring_) seen_bits_.clear();
+  restored_ = restoring_ = false;
+  forget_values();
+}
+
+void Entries::lose_track() {
+  seen_bits_.clear();
+  forget_values();
+}
+
+void Entries::forget_values() {
   for (const auto& [place, entry] : entries_) {
     if (entry.doubts > 0) open_.insert(place);
   }
@@ -100,11 +113,15 @@ void Entries::note(Multiplexer object, std::uint32_t value) {
   auto& most = most_[key_of(object)];
   most = std::max(most, value);
   seen_bits_[key_of(object)] |= value;
+  note_can_id(object, value, is_active(object, value));
+}
+
+void Entries::note_can_id(Multiplexer object, std::uint32_t value, bool in_use) {
   if (!canopen::cob_id_kind(object)) return;
   const auto key =
       canopen::is_extended(CobId{value}) ? value & id_and_format : value & canopen::cob_id::base_id_mask;
   // What is not used holds anything, 000h most of all.
-  if (canopen::is_restricted(CanId{key}) && !is_active(object, value)) return;
+  if (canopen::is_restricted(CanId{key}) && !in_use) return;
   held_.insert(key);
   held_by_.emplace(key, object.index.value());
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -25,14 +26,17 @@ class Entries {
   /// A CAN-ID with the format in bit 29, as COB-ID entries hold it.
   using Key = std::uint32_t;
 
-  /// A client asks for a download, which may take effect before it is confirmed.
-  void asked(Multiplexer object, BusTime time);
+  /// A client asks for a download, which may take effect before it is confirmed. `value` of an expedited one.
+  void asked(Multiplexer object, std::optional<std::uint32_t> value, BusTime time);
   void written(Multiplexer object, std::uint32_t value, BusTime time);
   void refused(Multiplexer object, BusTime time);
   void read(Multiplexer object, std::uint32_t value, BusTime time);
   /// An upload said that there is no such entry. Resets do not change that.
   void absent(Multiplexer object);
-  void forget();
+  /// All values are those of power-on, or may be.
+  void reset();
+  /// Frames were lost, and downloads may have been among them.
+  void lose_track();
 
   /// nullptr: the trace leaves it open.
   [[nodiscard]] const Entry* known(std::uint16_t index, std::uint8_t sub) const;
@@ -45,7 +49,7 @@ class Entries {
   [[nodiscard]] std::uint32_t most(std::uint16_t index, std::uint8_t sub) const;
   /// The entry was seen, and no value that it may have had before or after a reset has one of these bits set.
   [[nodiscard]] bool never_had(std::uint16_t index, std::uint8_t sub, std::uint32_t bits) const;
-  /// Whether a COB-ID entry of the device ever held this CAN-ID.
+  /// Whether a COB-ID entry of the device ever held this CAN-ID, or may have.
   [[nodiscard]] bool ever_held(Key can_id) const { return held_.contains(can_id); }
   /// ... this one.
   [[nodiscard]] bool ever_held(std::uint16_t index, Key can_id) const {
@@ -67,7 +71,9 @@ class Entries {
   static Place key_of(std::uint16_t index, std::uint8_t sub) { return std::uint32_t{index} << 8U | sub; }
   static Place key_of(Multiplexer object) { return key_of(object.index.value(), object.sub.value()); }
   static bool concerns(Multiplexer object);
+  void forget_values();
   void note(Multiplexer object, std::uint32_t value);
+  void note_can_id(Multiplexer object, std::uint32_t value, bool in_use);
 
   std::map<Place, Entry> entries_;
   std::map<Place, std::uint32_t> most_;

@@ -148,7 +148,7 @@ void Follower::settle() {
       if (nmt_.booting()) {
         guard_open_ = false;
         forget_channels();
-        entries_.forget();
+        entries_.reset();
       }
       break;
     }
@@ -160,7 +160,7 @@ void Follower::settle() {
         // A fresh server knows of no transfer, but requests may wait in the receive buffer.
         default_.channel.transfer_unclear();
         forget_channels();
-        entries_.forget();
+        entries_.reset();
       }
       heard_ = now_.time();
       break;
@@ -174,7 +174,7 @@ void Follower::lose_track() {
   default_.channel.lose_frames();
   for (auto& server : more_) server.channel.lose_frames();
   nmt_.lose_track();
-  entries_.forget();
+  entries_.lose_track();
   bait_ = {};
 }
 
@@ -209,7 +209,10 @@ void Follower::response(Server& server, bool default_channel) {
 void Follower::note_download(const can::Frame& frame, BusTime time) {
   const auto specifier = frame.data[0] >> 5U;
   const bool download = specifier == 1 || (specifier == 6 && (frame.data[0] & 0x01U) == 0);
-  if (download && !frame.remote && frame.size() >= 4) entries_.asked(multiplexer_of(frame), time);
+  if (!download || frame.remote || frame.size() < 4) return;
+  const bool expedited = specifier == 1 && (frame.data[0] & 0x02U) != 0 && frame.size() == 8;
+  const auto value = static_cast<std::uint32_t>(load_le(ByteView(frame.data).subspan(4)));
+  entries_.asked(multiplexer_of(frame), expedited ? std::optional(value) : std::nullopt, time);
 }
 
 /// What a refusal says of an entry.

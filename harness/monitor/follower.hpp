@@ -35,6 +35,7 @@ struct Observation {
     data,             ///< any other data frame, whoever sent it
     remote,           ///< any other remote frame
   };
+  static constexpr std::size_t subjects = static_cast<std::size_t>(Subject::remote) + 1;
   const can::CapturedFrame* captured = nullptr;
   std::size_t index = 0;
   Subject subject = Subject::other;

@@ -20,6 +20,9 @@ class Guarding final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { asked, heartbeat_off, first_toggle, toggle, form, state, beside_heartbeat };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject == Subject::remote || subject == Subject::nmt || subject == Subject::error_control;
+  }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (seen.subject == Subject::remote && !seen.frame().extended &&
         seen.frame().id == 0x700U + follower.facts().node.value()) {

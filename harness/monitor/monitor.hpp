@@ -53,12 +53,16 @@ class Monitor {
   virtual ~Monitor() = default;
 
   virtual void on_frame(const Observation& seen, const Follower& follower) = 0;
+  /// Whether on_frame() is called for such frames at all: most of a trace is no matter of most monitors.
+  [[nodiscard]] virtual bool wants(Observation::Subject) const { return true; }
   /// Frames were lost before the next one.
   virtual void on_loss() {}
   /// The trace is over.
   void end(const Follower& follower);
   /// The device sent a frame: it was there when it was silent before.
   void alive() {
+    if (!waits_) return;
+    waits_ = false;
     for (auto& tally : tallies_) {
       tally.judged += tally.quiet;
       tally.quiet = 0;
@@ -81,7 +85,10 @@ class Monitor {
   /// Something was judged and is right.
   void good(std::size_t requirement) { ++tallies_[requirement].judged; }
   /// Silence is due, and is right once the device is heard again: who is not there is silent, too.
-  void quiet(std::size_t requirement) { ++tallies_[requirement].quiet; }
+  void quiet(std::size_t requirement) {
+    ++tallies_[requirement].quiet;
+    waits_ = true;
+  }
   /// True: tell() the violation. False: it is counted only.
   [[nodiscard]] bool bad(std::size_t requirement) {
     auto& tally = tallies_[requirement];
@@ -116,6 +123,7 @@ class Monitor {
   const Rule& rule_;
   std::vector<Tally> tallies_;
   std::vector<Violation> violations_;
+  bool waits_ = false;  ///< some silence waits for a sign of life
 };
 
 }  // namespace conform::monitor

@@ -185,6 +185,7 @@ class Heartbeat final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { state, bit_7, form };
 
+  [[nodiscard]] bool wants(Subject subject) const override { return subject == Subject::error_control; }
   void on_frame(const Observation& seen, const Follower& follower) override {
     // What answers a guarding request follows other rules.
     if (seen.subject != Subject::error_control || seen.guarded || seen.boot_up()) return;

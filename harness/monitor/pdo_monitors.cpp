@@ -62,6 +62,7 @@ class Tpdos final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { operational, valid, length };
 
+  [[nodiscard]] bool wants(Subject subject) const override { return subject == Subject::data; }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (seen.subject != Subject::data || !seen.received()) return;
     const auto found = holders(follower, seen.key());
@@ -130,6 +131,9 @@ class TpdoTriggers final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { every_sync, nth_sync, sync_and_event, request, sampled, inhibit };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject == Subject::data || subject == Subject::remote;
+  }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (seen.subject == Subject::remote) {
       ++requests_[seen.key()];

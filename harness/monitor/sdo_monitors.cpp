@@ -17,6 +17,7 @@ using To = SdoAnswer::To;
 using Cause = SdoAnswer::Cause;
 using result::Verdict;
 
+bool is_response(Observation::Subject subject) { return subject == Observation::Subject::sdo_response; }
 bool is_response(const Observation& seen) { return seen.subject == Observation::Subject::sdo_response; }
 /// An abort, also with reserved bits set. Segments of a block upload begin with their number.
 bool is_abort(const Observation& seen) {
@@ -30,6 +31,7 @@ class SdoResponses final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { per_request, idle_abort, once };
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen)) return;
     const auto& answer = seen.answer;
@@ -109,6 +111,7 @@ class SdoMultiplexer final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { initiate, abort };
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || !seen.answer.mux) return;
     const auto& mux = *seen.answer.mux;
@@ -130,6 +133,7 @@ class SdoFrameForm final : public Monitor {
  public:
   using Monitor::Monitor;
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen)) return;
     if (seen.frame().dlc == 8) return good(0);
@@ -143,6 +147,7 @@ class SdoCommandByte final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { reserved_bits, unused_bytes };
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || seen.answer.block || !seen.answer.well_formed) return;
     if (seen.answer.to == To::unclear || seen.answer.to == To::nothing) return;
@@ -180,6 +185,7 @@ class SdoReservedBytes final : public Monitor {
  public:
   using Monitor::Monitor;
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || seen.answer.block || seen.answer.to != To::request) return;
     const auto byte = seen.frame().data[0];
@@ -199,6 +205,7 @@ class SdoAbortCodes final : public Monitor {
  public:
   using Monitor::Monitor;
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || !is_abort(seen)) return;
     const AbortCode code(static_cast<std::uint32_t>(load_le(ByteView(seen.frame().data).subspan(4))));

@@ -10,6 +10,7 @@ namespace {
 
 using result::Verdict;
 
+bool is_response(Observation::Subject subject) { return subject == Observation::Subject::sdo_response; }
 bool is_response(const Observation& seen) { return seen.subject == Observation::Subject::sdo_response; }
 
 class SdoToggle final : public Monitor {
@@ -17,6 +18,7 @@ class SdoToggle final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { upload, download };
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || !seen.answer.toggle) return;
     const auto toggle = *seen.answer.toggle;
@@ -33,6 +35,7 @@ class SdoSize final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { segmented, block };
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || !seen.answer.size) return;
     const auto size = *seen.answer.size;
@@ -51,6 +54,7 @@ class SdoBlockUpload final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { numbers, block_size, crc, no_crc, unused };
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen)) return;
     if (seen.answer.segment) segment(seen, *seen.answer.segment);
@@ -104,6 +108,7 @@ class SdoBlockDownload final : public Monitor {
  public:
   using Monitor::Monitor;
 
+  [[nodiscard]] bool wants(Observation::Subject subject) const override { return is_response(subject); }
   void on_frame(const Observation& seen, const Follower&) override {
     if (!is_response(seen) || !seen.answer.block_size) return;
     const auto size = *seen.answer.block_size;

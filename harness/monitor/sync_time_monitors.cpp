@@ -32,6 +32,9 @@ class SyncProducer final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { off, stopped, period, counter };
 
+  [[nodiscard]] bool wants(Subject subject) const override {
+    return subject == Subject::data || subject == Subject::nmt || subject == Subject::error_control;
+  }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (seen.subject == Subject::nmt || seen.boot_up()) begin_anew();
     const auto found = from(seen, follower, 0x1005);
@@ -123,6 +126,7 @@ class TimeProducer final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { off, stopped, form };
 
+  [[nodiscard]] bool wants(Subject subject) const override { return subject == Subject::data; }
   void on_frame(const Observation& seen, const Follower& follower) override {
     const auto found = from(seen, follower, 0x1012);
     if (!found) return;

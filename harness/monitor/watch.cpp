@@ -111,15 +111,21 @@ void conclude(const Monitor& monitor, std::span<const can::CapturedFrame> frames
 }  // namespace
 
 Watch::Watch(const Facts& facts, std::span<const Rule* const> chosen) : follower_(facts) {
-  for (const auto* rule : chosen) monitors_.push_back(rule->make(*rule));
+  for (const auto* rule : chosen) {
+    monitors_.push_back(rule->make(*rule));
+    for (std::size_t i = 0; i < concerned_.size(); ++i) {
+      if (monitors_.back()->wants(static_cast<Observation::Subject>(i)))
+        concerned_[i].push_back(monitors_.back().get());
+    }
+  }
 }
 
 void Watch::on_frame(const can::CapturedFrame& captured, std::size_t index) {
   const auto& seen = follower_.follow(captured, index);
   if (seen.subject == Observation::Subject::other) return;
-  for (const auto& monitor : monitors_) {
-    monitor->on_frame(seen, follower_);
-    if (seen.from_device()) monitor->alive();
+  for (auto* monitor : concerned_[static_cast<std::size_t>(seen.subject)]) monitor->on_frame(seen, follower_);
+  if (seen.from_device()) {
+    for (const auto& monitor : monitors_) monitor->alive();
   }
   follower_.settle();
 }

@@ -2,6 +2,7 @@
 // The monitors over one trace, and their cases in the result.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -41,6 +42,7 @@ class Watch {
  private:
   Follower follower_;
   std::vector<std::unique_ptr<Monitor>> monitors_;
+  std::array<std::vector<Monitor*>, Observation::subjects> concerned_;  ///< by the subject of a frame
 };
 
 /// "monitor/sdo-toggle"

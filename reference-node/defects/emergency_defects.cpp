@@ -62,6 +62,21 @@ Change keeps_generic_bit() {
   };
 }
 
+/// Only who reads the entry sees what is left.
+void keeps_profile_bit(Parts& parts) {
+  const auto raised = std::make_shared<bool>(false);
+  parts.device.errors.raise.replace(
+      [raised](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        *raised = true;
+        former(cause, detail);
+      });
+  reading(0x1001, 0, [raised](Parts&, const Read& former) {
+    Upload bits = former();
+    if (bits && *raised) bits->front() |= 0x20;
+    return bits;
+  })(parts);
+}
+
 /// What comes while the inhibit time runs is not kept for its end.
 Change lost_while_inhibited() {
   return [](Parts& parts) {
@@ -103,6 +118,10 @@ DefectTable emergency_defects() {
        "1001h keeps bit 0 after all errors have gone",
        {"OD-1001-06", "EMCY-SEQ-02", "EC-HBC-07"},
        keeps_generic_bit()},
+      {"1001-keeps-a-bit-that-emcy-has-cleared",
+       "1001h keeps bit 5 after the first error, while EMCY 0000h tells 00h",
+       {"EMCY-FMT-03", "EMCY-SEQ-02", "OD-1001-06"},
+       keeps_profile_bit},
       {"1001-differs-from-emcy",
        "EMCY always shows 01h as error register",
        {"OD-1001-07", "EMCY-FMT-03"},

@@ -113,7 +113,7 @@ DefectTable pdo_transmit_defects() {
        })},
       {"event-timer-active-in-sync-mode",
        "The event timer also works with synchronous types",
-       {"PDO-TX-11"},
+       {"PDO-TX-11", "PDO-TX-05"},
        decides(tpdo_traffic, &TransmitPdoRules::has_event_timer,
                [](const auto&, const PdoParameters&) { return true; })},
       {"1800-tpdo-in-pre-operational",

@@ -107,6 +107,8 @@ void Emergency::report(const Message& message) {
 
 void Emergency::flush() {
   if (!device_->works_now(Service::emergency)) return;
+  // What waits when 1014h becomes not valid is not sent at all.
+  if (!cob_id_.valid()) pending_.clear();
   while (!pending_.empty()) {
     if (inhibited_until_ && device_->now < *inhibited_until_) return;
     inhibited_until_.reset();

@@ -77,6 +77,15 @@ TEST_CASE("The inhibit time of 1015h delays and loses nothing") {
         Frames{"@600 085: 10 23 0B 00 00 00 00 00", "@1100 085: 00 00 00 00 00 00 00 00"});
 }
 
+TEST_CASE("What waits for the inhibit time is dropped when 1014h becomes not valid") {
+  Bench bench;
+  bench.wait(100ms);
+  CHECK(bench.sdo("2B 15 10 00 88 13 00 00") == "60 15 10 00 00 00 00 00");
+  bench.send("605: 2B 00 2F 01 10 42 00 00\n605: 2B 00 2F 01 10 23 00 00");
+  CHECK(bench.sdo("23 14 10 00 85 00 00 80") == "60 14 10 00 00 00 00 00");
+  CHECK(bench.wait(2s, true).empty());
+}
+
 TEST_CASE("EMCY is silent in Stopped and tells the latest state afterwards") {
   Bench bench;
   bench.wait(100ms);
