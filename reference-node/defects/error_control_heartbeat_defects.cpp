@@ -184,6 +184,22 @@ DefectTable error_control_heartbeat_defects() {
        "A second entry of 1016h with time 0 is refused as a duplicate",
        {"OD-1016-07"},
        checks_instead([](std::uint64_t entry) { return monitored_time(entry) == 0 ? entry | 1U : entry; })},
+      {"1016-zero-time-entry-keeps-its-node",
+       "A time for a node is refused while another entry of 1016h names that node with time 0",
+       {"OD-1016-07"},
+       checking_all(0x1016,
+                    [](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) -> Accepted {
+                      const std::uint64_t wanted = conform::load_le(bytes);
+                      const Accepted allowed = former(bytes);
+                      if (!allowed || !parts.consumer.rules.used(wanted)) return allowed;
+                      const ObjectDictionary& od = parts.device.dictionary;
+                      for (std::uint8_t other = 1; other <= od.number(0x1016, 0); ++other) {
+                        if (other != sub &&
+                            monitored_node(od.number(0x1016, other)) == monitored_node(wanted))
+                          return refuse(abort_code::parameter_incompatible);
+                      }
+                      return {};
+                    })},
       {"1016-own-entry-counts-as-duplicate",
        "Rewriting an entry of 1016h is refused as a duplicate of itself",
        {"OD-1016-08"},
@@ -236,6 +252,20 @@ DefectTable error_control_heartbeat_defects() {
        deaf_to([](Parts& parts, const Frame& frame) {
          return is_heartbeat(frame) && node_at(parts, 1) != producer_of(frame);
        })},
+      {"hbc-last-entry-not-monitored",
+       "The last entry of 1016h is not monitored",
+       {"EC-HBC-13"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         const std::uint8_t last = consumer_entries(parts);
+         return is_heartbeat(frame) && node_at(parts, last) == producer_of(frame);
+       })},
+      {"hbc-node-127-not-monitored",
+       "An entry of 1016h for node 127 is taken and not monitored",
+       {"EC-HBC-03"},
+       decides(of_consumer, &HeartbeatConsumerRules::used,
+               [](const auto& former, std::uint64_t entry) {
+                 return former(entry) && monitored_node(entry) != 127;
+               })},
       {"1016-unused-entry-monitors",
        "An entry of 1016h with time 0 is monitored",
        {"OD-1016-09", "EC-HBC-06", "OD-1016-07"},

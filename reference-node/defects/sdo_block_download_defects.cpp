@@ -291,6 +291,10 @@ DefectTable end_rows() {
        shapes_data([](Bytes& data, const Terms& terms) {
          data.resize(std::max(data.size(), terms.announced.value_or(0)));
        })},
+      {"block-download-shortfall-taken",
+       "A block download of fewer bytes than announced is taken where the type of the entry allows it",
+       {"SDO-BDN-14"},
+       shapes_data([](Bytes&, Terms& terms) { terms.announced.reset(); })},
       {"block-download-surplus-cut",
        "A block download of more bytes than announced is cut off",
        {"SDO-BDN-15"},

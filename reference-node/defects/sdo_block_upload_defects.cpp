@@ -182,6 +182,14 @@ DefectTable frame_rows() {
          if (context.sdo != nullptr && is_end_confirmation(*context.sdo, frames))
            frames.push_back(response(context, {0xA1}));
        })},
+      {"block-upload-confirmed-times-out",
+       "A block upload that the client has confirmed is aborted after the server's time-out",
+       {"SDO-GEN-04", "SDO-BUP-24"},
+       Filter([](const FilterContext& context, Frames& frames) {
+         if (context.sdo == nullptr || !is_end_confirmation(*context.sdo, frames)) return;
+         frames.push_back(response(context, {0x80, 0, 0, 0, 0x00, 0x00, 0x04, 0x05}));
+         frames.back().delay = std::chrono::seconds(1);
+       })},
       {"block-upload-never-closed",
        "After a block upload no transfer is served until the client aborts",
        {"SDO-BUP-24"},

@@ -168,6 +168,14 @@ DefectTable sdo_channel_defects() {
          if (context.sdo == nullptr || !on_additional_channel(*context.sdo)) return;
          for (Outgoing& outgoing : frames) outgoing.frame.id = 0x580U + context.node_id;
        })},
+      {"additional-sdo-hears-its-neighbours",
+       "Additional SDO servers do not look at the lowest three bits of the CAN-ID of a request",
+       {"SDO-MUL-01"},
+       misreads([](Parts& parts, Frame& frame) {
+         const std::uint64_t own = parts.device.dictionary.number(0x1201, 1);
+         if ((own & 0x80000000U) == 0 && (frame.id & 0x7F8U) == (own & 0x7F8U))
+           frame.id = static_cast<std::uint32_t>(own & 0x7FFU);
+       })},
       {"default-sdo-answers-on-all-channels",
        "Answers of the default SDO server are sent on an additional channel as well",
        {"SDO-MUL-01"},

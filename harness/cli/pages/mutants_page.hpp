@@ -20,10 +20,11 @@ struct MutantScore {
   [[nodiscard]] double share_killed() const;
 };
 
+/// Of all of them.
+[[nodiscard]] MutantScore score_of(const std::vector<MutantFate>& fates);
+
 /// Score by room and by operator, then who survived: one line each, as it would begin in explained.txt.
 [[nodiscard]] std::string mutants_words(const std::vector<MutantFate>& fates, bool verbose);
 [[nodiscard]] std::string mutants_page(const std::vector<MutantFate>& fates);
-/// Survivors that nothing explains.
-[[nodiscard]] std::size_t unexplained(const std::vector<MutantFate>& fates);
 
 }  // namespace conform::cli

@@ -101,7 +101,8 @@ TEST_CASE("what is explained or not reached counts neither for nor against the s
 
 TEST_CASE("who survived is named, and a program without mutants says so") {
   const std::vector<MutantFate> fates{{&first, Fate::survived}, {&second, Fate::killed, "A-1 fail in x"}};
-  CHECK(unexplained(fates) == 1);
+  CHECK(score_of(fates).survived == 1);
+  CHECK(score_of(fates).share_noticed() == 50.0);
   CHECK(mutants_words(fates, false)
             .starts_with("SURVIVES 1 line 10: sdo/crc.cpp sdo_crc `i < 8` -> `i <= 8`\n"));
   CHECK(mutants_page(fates).find("| sdo/crc.cpp sdo_crc | `i < 8` | `i <= 8` | not known yet |") !=
