@@ -67,15 +67,24 @@ void keeps_can_id(Parts& parts) {
       });
 }
 
-bool is_synchronous_pdo(Parts& parts) { return parts.device.dictionary.number(0x1800, 2) <= 0xF0; }
+/// The frame carries a TPDO of the types 00h to F0h.
+bool is_synchronous(Parts& parts, const Frame& frame) {
+  const ObjectDictionary& od = parts.device.dictionary;
+  for (std::uint16_t index = 0x1800; index < 0x1810; ++index) {
+    if (od.entry(index, 1) != nullptr && (od.number(index, 1) & 0x7FFU) == frame.id)
+      return od.number(index, 2) <= 0xF0;
+  }
+  return false;
+}
 
 /// Every synchronous TPDO has the data of the one before.
 void sends_former_data(Parts& parts) {
   const auto former = std::make_shared<std::map<std::uint32_t, Frame>>();
   parts.device.outbox.add_filter(
       [&parts, former](const FilterContext& context, std::vector<Outgoing>& frames) {
-        if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
+        if (context.service != Service::tpdo) return;
         for (Outgoing& each : frames) {
+          if (!is_synchronous(parts, each.frame)) continue;
           const Frame present = each.frame;
           const auto before = former->find(present.id);
           if (before != former->end() && before->second.dlc == present.dlc) each.frame = before->second;
@@ -89,8 +98,9 @@ Change takes_longer_than_the_window() {
   return [](Parts& parts) {
     parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
       if (context.service != Service::tpdo || parts.device.dictionary.number(0x1007, 0) == 0) return;
-      if (!is_synchronous_pdo(parts)) return;
-      for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(40);
+      for (Outgoing& each : frames) {
+        if (is_synchronous(parts, each.frame)) each.delay = std::chrono::milliseconds(40);
+      }
     });
   };
 }
@@ -181,8 +191,10 @@ DefectTable sync_consumer_defects() {
        [](Parts& parts) {
          parts.device.outbox.add_filter(
              [&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
-               if (context.service != Service::tpdo || !is_synchronous_pdo(parts)) return;
-               for (Outgoing& each : frames) each.delay = std::chrono::milliseconds(15);
+               if (context.service != Service::tpdo) return;
+               for (Outgoing& each : frames) {
+                 if (is_synchronous(parts, each.frame)) each.delay = std::chrono::milliseconds(15);
+               }
              });
        }},
       {"sync-off-by-bit-31",
