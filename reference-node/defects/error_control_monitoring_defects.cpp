@@ -157,12 +157,6 @@ DefectTable error_control_monitoring_defects() {
        "A consumer heartbeat time from 8000h on is negative",
        {"OD-1016-11"},
        takes_time_for(of_consumer, &HeartbeatConsumerRules::time, with_sign)},
-      {"hbc-last-entry-not-monitored",
-       "The last entry of 1016h is not monitored",
-       {"EC-HBC-13"},
-       deaf_to([](Parts& parts, const Frame& frame) {
-         return is_heartbeat(frame) && node_at(parts, consumer_entries(parts)) == producer_of(frame);
-       })},
       {"1016-last-entry-duplicate-accepted",
        "The last entry of 1016h may name a node that is monitored already",
        {"OD-1016-06"},
