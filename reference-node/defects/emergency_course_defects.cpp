@@ -90,7 +90,7 @@ DefectTable emergency_course_defects() {
        sets_bits_for(0x4210, 0x49)},
       {"1001-generic-bit-missing-in-one-error",
        "A device-specific error does not set the generic bit of 1001h",
-       {"OD-1001-04"},
+       {"OD-1001-04", "OD-1001-05"},
        sets_bits_for(0xFF01, 0x80)},
       {"1001-not-set-by-one-error",
        "An external error does not show in 1001h",

@@ -138,7 +138,7 @@ DefectTable emergency_defects() {
                })},
       {"emcy-rpdo-class-undefined",
        "An RPDO that is too short is reported with the undefined code D210h",
-       {"EMCY-FMT-02"},
+       {"EMCY-FMT-02", "PDO-RX-06"},
        reshape(Service::emergency,
                [](const FilterContext&, Frame& frame) {
                  if (frame.data[0] == 0x10 && frame.data[1] == 0x82) frame.data[1] = 0xD2;

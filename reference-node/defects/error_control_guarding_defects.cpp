@@ -144,13 +144,13 @@ DefectTable request_rows() {
        reshape(Service::guarding, [](const FilterContext&, Frame& frame) { frame.data[0] &= 0x7F; })},
       {"guard-toggle-begins-anew-in-operational",
        "The toggle bit begins with 0 when the node becomes Operational",
-       {"EC-NG-03"},
+       {"EC-NG-03", "EC-NG-02"},
        toggle_restarts([](NmtState, NmtState now, bool) {
          return now == NmtState::operational || now == NmtState::initialising;
        })},
       {"guard-toggle-begins-anew-with-each-state",
        "The toggle bit begins with 0 at each change of the NMT state",
-       {"EC-NG-03"},
+       {"EC-NG-03", "EC-NG-02"},
        toggle_restarts([](NmtState, NmtState, bool) { return true; })},
       {"guard-toggle-survives-reset-communication",
        "The toggle bit goes on over reset communication",

@@ -183,7 +183,7 @@ DefectTable error_control_monitoring_defects() {
        on_entering(NmtState::operational, [](Parts& parts) { parts.consumer.on_reset(); })},
       {"hbc-reports-one-loss",
        "Only the first loss of a heartbeat is noticed",
-       {"EC-HBC-07"},
+       {"EC-HBC-07", "EC-HBC-03"},
        reports_one_loss()},
       {"hbc-first-return-ends-all",
        "Of two lost nodes the first that is back ends the error",

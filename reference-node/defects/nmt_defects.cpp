@@ -259,7 +259,10 @@ DefectTable nmt_defects() {
       {"time-consumed-in-stopped",
        "TIME is taken in Stopped",
        {"NMT-SVC-03"},
-       works_also(Service::time, NmtState::stopped)},
+       Reading([](Parts& parts, std::vector<Frame>& frames) {
+         if (parts.device.state != NmtState::stopped) return;
+         for (const Frame& frame : frames) (void)parts.time.on_frame(frame);
+       })},
       {"time-not-consumed-in-operational",
        "TIME is not taken in Operational",
        {"NMT-SVC-03"},

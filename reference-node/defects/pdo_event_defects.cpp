@@ -238,7 +238,7 @@ DefectTable pdo_event_defects() {
        })},
       {"tpdo-answers-remote-before-operational",
        "TPDOs answer remote frames in Pre-operational",
-       {"PDO-TX-22"},
+       {"PDO-TX-22", "PDO-TX-02"},
        Change([](Parts& parts) {
          parts.pdos.tpdo.rules.answers_remote.replace(
              [&parts](const auto& former, const PdoParameters& pdo, bool enabled) {

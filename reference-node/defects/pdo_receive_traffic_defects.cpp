@@ -114,7 +114,7 @@ DefectTable pdo_receive_traffic_defects() {
                 }))},
       {"rpdo-dead-after-stop",
        "Once the device was stopped RPDOs are not processed any more",
-       {"PDO-RX-02"},
+       {"PDO-RX-02", "PDO-RX-01"},
        Change([](Parts& parts) {
          parts.device.works.replace(
              [stopped = std::make_shared<bool>(false)](const auto& former, Service which, NmtState present) {

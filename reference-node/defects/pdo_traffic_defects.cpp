@@ -37,7 +37,7 @@ DefectTable pdo_traffic_defects() {
   return {
       {"1800-invalid-tpdo-on-can-id-0",
        "The event timer of a TPDO that is not valid sends it with CAN-ID 000h, where it is an NMT command",
-       {"NMT-SVC-05"},
+       {"NMT-SVC-05", "OD-1800-09"},
        event_timer_sends_on_000h()},
       {"1800-synchronous-tpdo-too-long",
        "TPDOs of synchronous transmission types have a byte more than is mapped",

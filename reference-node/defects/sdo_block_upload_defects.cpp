@@ -200,7 +200,7 @@ DefectTable frame_rows() {
        })},
       {"block-upload-wedged-by-full-sub-block",
        "A block upload is aborted when its last segment is the last one of a sub-block",
-       {"SDO-BUP-06"},
+       {"SDO-BUP-06", "SDO-BUP-13"},
        on_exchange([size = 0U](const SdoExchange& e, Frames& frames) mutable {
          if (block_upload_initiated(e)) size = e.request[4];
          if (is_upload_end(e, frames) && e.request[1] == size) answer_with_abort(frames, e, 0x05040001);

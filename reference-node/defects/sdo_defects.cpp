@@ -198,7 +198,7 @@ DefectTable frame_rows() {
        reshape(Service::sdo, [](const FilterContext&, Frame& frame) { frame.id &= 0xFFU; })},
       {"sdo-response-extended",
        "Responses have a 29-bit identifier",
-       {"SDO-GEN-01", "SDO-GEN-02"},
+       {"SDO-GEN-01", "SDO-GEN-02", "CAN-TRF-03"},
        reshape(Service::sdo, [](const FilterContext&, Frame& frame) { frame.extended = true; })},
       {"sdo-not-ready-after-boot-up",
        "After a reset SDO requests are answered from 200 ms after the boot-up message on",

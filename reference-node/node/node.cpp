@@ -203,11 +203,8 @@ void Node::Impl::dispatch(const Frame& frame) {
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.size() == 1) {
     return consumer.on_heartbeat(static_cast<std::uint8_t>(frame.id - 0x700U), frame.data[0]);
   }
-  const auto taken_by = [&](Service service, auto& part) {
-    return device.works_now(service) && part.on_frame(frame);
-  };
-  if (taken_by(Service::sync, sync) || taken_by(Service::time, time)) return;
-  if (taken_by(Service::emergency, emergencies)) return;
+  if (device.state == NmtState::stopped) return;
+  if (sync.on_frame(frame) || time.on_frame(frame) || emergencies.on_frame(frame)) return;
   pdos.on_frame(frame);
 }
 
