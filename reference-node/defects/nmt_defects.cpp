@@ -131,7 +131,7 @@ DefectTable nmt_defects() {
        reshape(Service::boot_up, [](const FilterContext&, Frame& frame) { frame.data[0] = 0x7F; })},
       {"bootup-on-preop-transition",
        "Entering Pre-operational sends a boot-up message",
-       {"NMT-BOOT-06", "NMT-FSA-03", "NMT-FSA-06"},
+       {"NMT-BOOT-06", "NMT-FSA-03", "NMT-FSA-06", "NMT-BOOT-10"},
        Change(boots_up_on_pre_operational)},
       {"starts-in-operational",
        "The node enters Operational by itself after boot-up",

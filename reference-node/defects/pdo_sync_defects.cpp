@@ -201,7 +201,7 @@ DefectTable pdo_sync_defects() {
        begins([](const PdoParameters&, Counter counter, bool right) { return right && counter; })},
       {"tpdo-carries-former-data-with-sync",
        "A synchronous TPDO carries the data of the SYNC before",
-       {"PDO-TX-01"},
+       {"PDO-TX-01", "PDO-TX-05"},
        carries_the_former([](const PdoParameters& pdo) { return is_synchronous(pdo.transmission_type()); })},
       {"tpdo-carries-former-data-with-event",
        "An event-driven TPDO carries the data of the event before",
