@@ -157,6 +157,7 @@ class TpdoTriggers final : public Monitor {
     std::uint64_t syncs = 0, requests = 0;  ///< counted when it was sent
     std::uint64_t credit = 1;               ///< causes that may not have led to a TPDO yet
     bool known = false;
+    Entries::Key can_id{};
   };
 
   static bool is_sync(const Observation& seen, const Follower& follower) {
@@ -167,11 +168,13 @@ class TpdoTriggers final : public Monitor {
 
   void sent(const Observation& seen, const Follower& follower, const Holder& tpdo) {
     auto& last = tpdos_[tpdo.index];
-    const auto before = last;
+    // On another CAN-ID it is counted anew: the requests were for the former one.
+    const auto before = last.can_id == seen.key() ? last : Tpdo{};
     const auto requested = requests_[seen.key()];
     last.made = follower.nmt().made_since(seen.time());
     last.sent = seen.time();
     last.known = true;
+    last.can_id = seen.key();
     last.syncs = syncs_;
     last.requests = requested;
     const auto* type = follower.entries().known(tpdo.index, 2);

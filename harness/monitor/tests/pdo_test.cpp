@@ -107,6 +107,13 @@ TEST_CASE("A synchronous TPDO needs a SYNC") {
   CHECK(configured(1).line(sync_frame).line(tpdo).line(tpdo).later("< 702: 05").told().empty());
 }
 
+TEST_CASE("Requests for the CAN-ID that a TPDO had before are not its requests now") {
+  auto moved = configured(1);
+  moved.line("> 181: remote").line(tpdo).later(sync_frame).line(tpdo);
+  moved.write(0x1800, 1, 0x8000'0181).write(0x1800, 1, 0x8000'06A0).write(0x1800, 1, 0x6A0);
+  CHECK(moved.later(sync_frame).line("< 6A0: 01 02").told().empty());
+}
+
 TEST_CASE("A TPDO on request waits for the request") {
   CHECK(configured(253).line("> 181: remote").line(tpdo).told().empty());
   CHECK(configured(253).line("> 181: remote").line(tpdo).later(tpdo).told() == Told{"fail PDO-TX-19"});
