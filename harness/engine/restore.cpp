@@ -103,6 +103,31 @@ Result<void> restore_pdo(Restorer& device, Observer& observer, Index communicati
   return mapping_changed && count_before ? settle(count, *count_before) : Result<void>();
 }
 
+constexpr Multiplexer cycle_period{Index(0x1006), SubIndex(0)}, counter_overflow{Index(0x1019), SubIndex(0)};
+
+/// 1019h can be written only while 1006h is 0 (7.5.2.22).
+Result<void> restore_counter(Restorer& device, Observer& observer, const Change& counter,
+                             const std::vector<Change>& changes) {
+  auto period = device.read(cycle_period);
+  if (!period) return std::unexpected(period.error());
+  const bool locked = *period && load_le(**period) != 0;
+  if (locked) {
+    const auto known = std::ranges::find(changes, cycle_period, &Change::object);
+    const Bytes wanted = known == changes.end() ? **period : known->before;
+    observer.changing(cycle_period, wanted);
+    if (auto done = device.write(cycle_period, to_le(0, wanted.size())); !done)
+      return std::unexpected(done.error());
+    if (auto done = device.write(counter.object, counter.before); !done) return std::unexpected(done.error());
+    if (auto done = device.write(cycle_period, wanted); !done) return std::unexpected(done.error());
+    const auto is = device.read(cycle_period);
+    if (!is) return std::unexpected(is.error());
+    if (*is == wanted) observer.put_back(cycle_period, wanted);
+    return {};
+  }
+  auto done = device.write(counter.object, counter.before);
+  return done ? Result<void>() : std::unexpected(done.error());
+}
+
 }  // namespace
 
 Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) {
@@ -143,6 +168,11 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
       auto done = device.write(change.object, to_le(0, 4));
       if (!done) return std::unexpected(done.error());
       consumers.push_back(&change);
+      continue;
+    }
+    if (change.object == counter_overflow) {
+      if (auto done = restore_counter(device, observer, change, differing); !done)
+        return std::unexpected(done.error());
       continue;
     }
     auto done = device.write(change.object, change.before);
