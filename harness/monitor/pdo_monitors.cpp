@@ -32,8 +32,8 @@ std::optional<Mapped> mapped(const Entries& entries, const Holder& tpdo) {
   } else {
     if (count->value > 64) return std::nullopt;
     unsigned bits = 0;
-    for (std::uint8_t sub = 1; sub <= count->value; ++sub) {
-      const auto* entry = entries.known(mapping, sub);
+    for (std::uint32_t sub = 1; sub <= count->value; ++sub) {
+      const auto* entry = entries.known(mapping, static_cast<std::uint8_t>(sub));
       if (entry == nullptr) return std::nullopt;
       bits += entry->value & 0xFFU;
       out.since = std::max(out.since, entry->since);

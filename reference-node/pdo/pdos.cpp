@@ -10,16 +10,17 @@ namespace refnode {
 void Pdos::add_objects() {
   // Every output is mapped to one RPDO at most, and every input that repeats it to the TPDO of the same
   // number.
-  const std::vector<std::uint32_t> outputs[] = {{0x62000108, 0x62000208, 0x64110110},
-                                                {0x64110210, 0x62000308},
-                                                {0x62000408, 0x64120120},
-                                                {0x62000508, 0x62000608, 0x62000708, 0x62000808}};
-  const std::vector<std::uint32_t> inputs[] = {{0x60000108, 0x60000208, 0x64010110},
-                                               {0x64010210, 0x60000308},
-                                               {0x60000408, 0x64020120},
-                                               {0x60000508, 0x60000608, 0x60000708, 0x60000808}};
+  constexpr std::uint16_t pdos = 4;
+  const std::vector<std::uint32_t> outputs[pdos] = {{0x62000108, 0x62000208, 0x64110110},
+                                                    {0x64110210, 0x62000308},
+                                                    {0x62000408, 0x64120120},
+                                                    {0x62000508, 0x62000608, 0x62000708, 0x62000808}};
+  const std::vector<std::uint32_t> inputs[pdos] = {{0x60000108, 0x60000208, 0x64010110},
+                                                   {0x64010210, 0x60000308},
+                                                   {0x60000408, 0x64020120},
+                                                   {0x60000508, 0x60000608, 0x60000708, 0x60000808}};
   // Bit 30 of the TPDOs: not on remote request.
-  for (std::uint16_t number = 0; number < std::size(outputs); ++number) {
+  for (std::uint16_t number = 0; number < pdos; ++number) {
     const std::uint32_t step = number * 0x100U;
     add_pdo_objects(device_->dictionary, PdoDirection::receive, number, 0x200 + step, device_->node_id,
                     outputs[number]);
