@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "base/check.hpp"
+#include "base/sanitizer.hpp"
 
 namespace conform::cli {
 namespace {
@@ -44,7 +45,7 @@ void write_all(int descriptor, std::string_view text) {
   // What a crash says belongs to nobody; whoever hangs first gets SIGXCPU, then SIGKILL.
   if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) ::dup2(null, STDERR_FILENO);
   limit(RLIMIT_CPU, limits.seconds, limits.seconds + 2);
-  limit(RLIMIT_AS, limits.memory, limits.memory);
+  if (!address_sanitizer) limit(RLIMIT_AS, limits.memory, limits.memory);
   limit(RLIMIT_CORE, 0, 0);
   // Nobody but the parent is told of a crash.
   for (const int signal : {SIGXCPU, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT})

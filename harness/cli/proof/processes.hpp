@@ -12,7 +12,7 @@ namespace conform::cli {
 /// What one process may use.
 struct ProcessLimits {
   unsigned seconds = 20;            ///< of processor time: what is simulated never waits
-  std::size_t memory = 2UL << 30U;  ///< bytes of address space
+  std::size_t memory = 2UL << 30U;  ///< bytes of address space; no limit where AddressSanitizer needs it
 };
 
 /// How a piece of work ended.

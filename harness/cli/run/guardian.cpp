@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/sanitizer.hpp"
 #include "base/text.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/run/run_reports.hpp"
@@ -150,17 +151,8 @@ int guard_command(const std::string& path) {
 }
 
 void record_faults_in(int journal) {
-#if defined(__SANITIZE_ADDRESS__)
-  static_cast<void>(journal);  // its own handlers say more
-#elif defined(__has_feature)
-#if !__has_feature(address_sanitizer)
-#define CONFORM_CATCHES_FAULTS
-#endif
-#else
-#define CONFORM_CATCHES_FAULTS
-#endif
+  if (address_sanitizer) return;  // its own handlers say more
   faulty_journal = journal;
-#if defined(CONFORM_CATCHES_FAULTS)
   // Where the stack is exhausted the handler needs another one.
   stack_t stack{};
   stack.ss_sp = fault_stack.data();
@@ -171,7 +163,6 @@ void record_faults_in(int journal) {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_ONSTACK | SA_NODEFER);
   ::sigemptyset(&action.sa_mask);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) ::sigaction(signal, &action, nullptr);
-#endif
 }
 
 void watch_progress(int journal) {

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "base/sanitizer.hpp"
 #include "catch.hpp"
 
 using namespace conform::cli;
@@ -42,7 +43,8 @@ TEST_CASE("a crash, an exception, an endless loop and endless memory are told ap
   CHECK(endings[1].kind == Kind::crashed);
   CHECK(endings[1].text == "exception: too far");
   CHECK(endings[2].kind == Kind::hung);
-  CHECK(endings[3].kind == Kind::out_of_memory);
+  // AddressSanitizer ends a process that asks for so much before anybody can catch it.
+  CHECK(endings[3].kind == (conform::address_sanitizer ? Kind::crashed : Kind::out_of_memory));
   CHECK(endings[4].kind == Kind::returned);
   CHECK(endings[4].text == "well");
 }
