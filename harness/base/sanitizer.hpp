@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether this build is instrumented by AddressSanitizer, which reserves terabytes of address space for itself and
-// has handlers of its own for faults.
+// Whether this build is instrumented by AddressSanitizer, which reserves terabytes of address space for
+// itself and has handlers of its own for faults.
 #pragma once
 
 #if defined(__has_feature)

@@ -2,10 +2,12 @@
 // The cases of CiA's conformance test tool, to compare with: who passed there wants to see them here.
 #pragma once
 
+#include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenario/catalogue.hpp"
 #include "scenario/loader.hpp"
@@ -32,6 +34,10 @@ class CctNumbers {
  private:
   std::set<std::string> marked_;  ///< cases that some scenario names by itself
 };
+
+/// Ids of the chosen scenarios by the number of each case that they correspond to, in the order of the suite.
+[[nodiscard]] std::map<std::string, std::vector<std::string>, std::less<>> scenarios_by_case(
+    const scenario::Suite& suite, const scenario::Catalogue& catalogue, const scenario::Selection& selection);
 
 /// What `list --cct` prints: every case with the scenarios and rules that correspond, what has no
 /// counterpart here, and what of ours has no case there. A selection leaves only the cases that a chosen

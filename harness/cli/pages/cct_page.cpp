@@ -49,9 +49,24 @@ std::set<std::string> CctNumbers::of(const scenario::Scenario& scenario,
   return out;
 }
 
+std::map<std::string, Names, std::less<>> scenarios_by_case(const scenario::Suite& suite,
+                                                            const scenario::Catalogue& catalogue,
+                                                            const scenario::Selection& selection) {
+  std::map<std::string, Names, std::less<>> out;
+  const CctNumbers numbers(suite);
+  for (const auto& file : suite.files) {
+    for (const auto& each : file.scenarios) {
+      if (!selection.takes(each, "", catalogue)) continue;
+      for (const auto& number : numbers.of(each, catalogue)) out[number].push_back(each.id);
+    }
+  }
+  return out;
+}
+
 std::string cct_page(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                      const scenario::Selection& selection, bool everything) {
-  std::map<std::string, Names, std::less<>> scenarios, rules;
+  const auto scenarios = scenarios_by_case(suite, catalogue, selection);
+  std::map<std::string, Names, std::less<>> rules;
   std::map<std::string, Names> ours_alone;
   std::size_t alone = 0, chosen = 0;
   const CctNumbers numbers_of(suite);
@@ -59,9 +74,7 @@ std::string cct_page(const scenario::Suite& suite, const scenario::Catalogue& ca
     for (const auto& each : file.scenarios) {
       if (!selection.takes(each, "", catalogue)) continue;
       ++chosen;
-      const auto numbers = numbers_of.of(each, catalogue);
-      for (const auto& number : numbers) scenarios[number].push_back(each.id);
-      if (!numbers.empty()) continue;
+      if (!numbers_of.of(each, catalogue).empty()) continue;
       ++alone;
       ours_alone[each.suite].push_back(each.id.substr(std::min(each.id.size(), each.suite.size() + 1)));
     }

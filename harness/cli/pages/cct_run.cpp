@@ -19,18 +19,6 @@ using result::Verdict;
 
 constexpr std::string_view description_case = "1.0";  ///< the file is checked, no frame is sent
 
-std::map<std::string, std::vector<std::string>, std::less<>> scenarios_by_case(
-    const scenario::Suite& suite, const scenario::Catalogue& catalogue) {
-  std::map<std::string, std::vector<std::string>, std::less<>> out;
-  const CctNumbers numbers(suite);
-  for (const auto& file : suite.files) {
-    for (const auto& each : file.scenarios) {
-      for (const auto& number : numbers.of(each, catalogue)) out[number].push_back(each.id);
-    }
-  }
-  return out;
-}
-
 std::string_view outcome_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::fail: return "failed";
@@ -71,7 +59,7 @@ void check_description(const eds::EdsFile* description, ComparedCase& out) {
 
 std::vector<std::string> cct_order(const scenario::Suite& suite, const scenario::Catalogue& catalogue) {
   std::vector<std::string> out;
-  const auto scenarios = scenarios_by_case(suite, catalogue);
+  const auto scenarios = scenarios_by_case(suite, catalogue, {});
   for (const auto& each : cct_cases()) {
     const auto found = scenarios.find(each.number);
     if (found == scenarios.end()) continue;
@@ -87,7 +75,7 @@ std::vector<ComparedCase> cct_outcomes(const result::RunResult& run, const scena
                                        const eds::EdsFile* description) {
   std::map<std::string, std::vector<const CaseResult*>, std::less<>> results;
   for (const auto& one : run.cases) results[one.id].push_back(&one);
-  const auto scenarios = scenarios_by_case(suite, catalogue);
+  const auto scenarios = scenarios_by_case(suite, catalogue, {});
   std::vector<ComparedCase> out;
   for (const auto& each : cct_cases()) {
     auto& row = out.emplace_back(ComparedCase{std::string(each.number),

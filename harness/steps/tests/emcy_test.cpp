@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which EMCY a step takes: any, that of a code, or that of an error whatever its code.
 #include "catch.hpp"
-#include "steps/step.hpp"
 #include "steps/tests/fake_session.hpp"
-#include "yaml/loader.hpp"
+#include "steps/tests/parsed_steps.hpp"
 
 namespace {
 
@@ -12,13 +11,8 @@ using namespace conform::steps;
 
 /// What the step makes of the end of an error (0000h) that is followed by error 5000h.
 std::string taken_by(const std::string& text) {
-  const auto source = yaml::make_source("x.yaml", text);
-  yaml::Diagnostics diagnostics(source);
-  const auto root = yaml::load(*source, diagnostics);
-  REQUIRE(root);
-  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
-  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
-  if (diagnostics.has_errors() || steps.size() != 1) return "error";
+  const auto steps = parsed_steps(text);
+  if (steps.size() != 1) return "error";
   FakeSession session;
   session.trace.add(
       {can::data_frame(CanId(0x85), {0, 0, 0, 0, 0, 0, 0, 0}), {}, can::Direction::received, ""});

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a guard request is written.
 #include "catch.hpp"
-#include "steps/step.hpp"
-#include "yaml/loader.hpp"
+#include "steps/tests/parsed_steps.hpp"
 
 namespace {
 
@@ -10,14 +9,8 @@ using namespace conform;
 using namespace conform::steps;
 
 std::string words_of(const std::string& text) {
-  const auto source = yaml::make_source("x.yaml", text);
-  yaml::Diagnostics diagnostics(source);
-  const auto root = yaml::load(*source, diagnostics);
-  REQUIRE(root);
-  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
-  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
-  return diagnostics.has_errors() || steps.size() != 1 ? "error"
-                                                       : std::string(word_of(steps[0].action->need().tier));
+  const auto steps = parsed_steps(text);
+  return steps.size() != 1 ? "error" : std::string(word_of(steps[0].action->need().tier));
 }
 
 TEST_CASE("Guard requests are remote frames, which a configuration may send") {

@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "catch.hpp"
-#include "steps/step.hpp"
 #include "steps/tests/fake_session.hpp"
-#include "yaml/loader.hpp"
+#include "steps/tests/parsed_steps.hpp"
 
 namespace {
 
@@ -13,16 +12,10 @@ using namespace conform;
 using namespace conform::steps;
 
 std::vector<can::Frame> sent_by(const std::string& text) {
-  const auto source = yaml::make_source("x.yaml", text);
-  yaml::Diagnostics diagnostics(source);
-  const auto root = yaml::load(*source, diagnostics);
-  REQUIRE(root);
-  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
-  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
-  REQUIRE(steps.size() == 1);
-  CHECK(steps[0].action->need().tier == Tier::config);
+  const auto step = parsed_step(text);
+  CHECK(step.action->need().tier == Tier::config);
   FakeSession session;
-  REQUIRE(steps[0].action->run(session));
+  REQUIRE(step.action->run(session));
   return session.sent;
 }
 

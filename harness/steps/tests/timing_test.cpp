@@ -3,9 +3,8 @@
 #include "steps/timing.hpp"
 
 #include "catch.hpp"
-#include "steps/step.hpp"
 #include "steps/tests/fake_session.hpp"
-#include "yaml/loader.hpp"
+#include "steps/tests/parsed_steps.hpp"
 
 namespace {
 
@@ -20,14 +19,8 @@ std::vector<BusTime> at(std::initializer_list<int> milliseconds) {
 }
 
 Actual collected(FakeSession& session, const std::string& text) {
-  const auto source = yaml::make_source("x.yaml", text);
-  yaml::Diagnostics diagnostics(source);
-  const auto root = yaml::load(*source, diagnostics);
-  REQUIRE(root);
-  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
-  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
-  REQUIRE(steps.size() == 1);
-  const auto actual = steps[0].action->run(session);
+  const auto step = parsed_step(text);
+  const auto actual = step.action->run(session);
   REQUIRE(actual);
   return *actual;
 }
@@ -154,12 +147,8 @@ TEST_CASE("counters and times of day are read from the frames that are collected
 TEST_CASE("a collection for answers needs something that was sent") {
   FakeSession session;
   record(session, 3, 0x185);
-  const auto source = yaml::make_source("x.yaml", "- collect: {from: 185h, per: sync, for: 50 ms}\n");
-  yaml::Diagnostics diagnostics(source);
-  const auto root = yaml::load(*source, diagnostics);
-  ParseContext context{diagnostics, {}, {}, {}, {}, {}};
-  const auto steps = parse_steps(yaml::Field(&*root, diagnostics, "'steps'"), context);
-  const auto actual = steps[0].action->run(session);
+  const auto step = parsed_step("- collect: {from: 185h, per: sync, for: 50 ms}\n");
+  const auto actual = step.action->run(session);
   REQUIRE_FALSE(actual);
   CHECK(actual.error().of == Error::Of::scenario);
 }
