@@ -13,28 +13,19 @@ void HeartbeatProducer::bind() {
 }
 
 void HeartbeatProducer::start() {
-  next_.reset();
+  raster_.stop();
   period_ = rules.period(device_->time_value(0x1017, 0));
   if (period_ == Duration::zero()) return;
-  next_ = device_->now + period_;
+  raster_.start(device_->now + period_);
   if (choices.at_once) transmit();
 }
 
 void HeartbeatProducer::on_state_change() {
-  if (choices.at_state_change && next_) transmit();
+  if (choices.at_state_change && raster_.runs()) transmit();
 }
 
 void HeartbeatProducer::on_time() {
-  if (!next_ || device_->now < *next_) return;
-  Duration step = period_;
-  if (choices.jitter_percent != 0) {
-    late_ = !late_;
-    step += (late_ ? step : -step) * choices.jitter_percent / 100;
-  }
-  // The raster is kept; only after a stall of more than a period it starts anew instead of catching up.
-  next_ = *next_ + step;
-  if (*next_ <= device_->now) next_ = device_->now + step;
-  transmit();
+  if (raster_.due(device_->now, period_, choices.jitter_percent)) transmit();
 }
 
 // One byte: the NMT state; bit 7 is reserved.

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "device/device.hpp"
+#include "device/raster.hpp"
 
 namespace refnode {
 
@@ -36,12 +37,12 @@ class HeartbeatProducer {
   /// A write of 1017h starts the heartbeat anew.
   void bind();
 
-  void on_reset() { next_.reset(); }
+  void on_reset() { raster_.stop(); }
   /// The boot-up message has been sent; it counts as the first heartbeat.
   void on_boot_up() { start(); }
   void on_state_change();
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return next_; }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return raster_.next(); }
 
  private:
   /// With the period that 1017h says now; 0: there is no heartbeat.
@@ -50,8 +51,7 @@ class HeartbeatProducer {
 
   Device* device_;
   Duration period_{};
-  std::optional<BusTime> next_;
-  bool late_ = false;  ///< with jitter: the interval that runs is a long one
+  Raster raster_;
 };
 
 }  // namespace refnode

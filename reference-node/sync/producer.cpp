@@ -40,13 +40,13 @@ Accepted SyncProducer::check_period(ByteView bytes) const {
 void SyncProducer::update(SyncStart occasion) {
   const Duration period = rules.period(device_->time_value(0x1006, 0));
   if (!device_->works_now(Service::sync) || !cob_id_.produced() || period <= Duration::zero()) {
-    next_.reset();
+    raster_.stop();
     return;
   }
-  if (next_) return set_period(period);
+  if (raster_.runs()) return set_period(period);
   if (rules.counts_anew(occasion)) count_ = 0;
   period_ = period;
-  next_ = device_->now + (choices.first_at_once ? Duration::zero() : rules.first_after(period_));
+  raster_.start(device_->now + (choices.first_at_once ? Duration::zero() : rules.first_after(period_)));
 }
 
 // Whoever writes 1005h again, or the period that there is, does not disturb the cycle.
@@ -55,11 +55,12 @@ void SyncProducer::set_period(Duration written) {
   if (period == period_) return;
   period_ = period;
   const BusTime first = device_->now + period_;
-  next_ = choices.due_sync_stays ? std::min(*next_, first) : rules.due_after_change(*next_, first);
+  const BusTime due = raster_.next().value_or(first);
+  raster_.start(choices.due_sync_stays ? std::min(due, first) : rules.due_after_change(due, first));
 }
 
 void SyncProducer::on_reset() {
-  next_.reset();
+  raster_.stop();
   count_ = 0;
 }
 
@@ -70,16 +71,7 @@ void SyncProducer::on_state_change(NmtState from) {
 }
 
 void SyncProducer::on_time() {
-  if (!next_ || device_->now < *next_) return;
-  Duration step = period_;
-  if (choices.jitter_percent != 0) {
-    late_ = !late_;
-    step += (late_ ? step : -step) * choices.jitter_percent / 100;
-  }
-  // The raster is kept; after a stall of more than a period it starts anew instead of catching up.
-  next_ = *next_ + step;
-  if (*next_ <= device_->now) next_ = device_->now + step;
-  transmit();
+  if (raster_.due(device_->now, period_, choices.jitter_percent)) transmit();
 }
 
 // Without data, or with the counter in one byte.

@@ -9,6 +9,7 @@
 
 #include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
+#include "device/raster.hpp"
 
 namespace refnode {
 
@@ -59,7 +60,7 @@ class SyncProducer {
   void on_boot_up();
   void on_state_change(NmtState from);
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return next_; }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return raster_.next(); }
 
  private:
   [[nodiscard]] Accepted check_period(ByteView bytes) const;
@@ -71,9 +72,8 @@ class SyncProducer {
   Device* device_;
   CobId cob_id_;
   Duration period_{};
-  std::optional<BusTime> next_;
+  Raster raster_;
   std::uint8_t count_ = 0;  ///< of the last SYNC
-  bool late_ = false;       ///< with jitter: the interval that runs is a long one
 };
 
 }  // namespace refnode

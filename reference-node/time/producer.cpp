@@ -35,17 +35,14 @@ void TimeProducer::set_clock(TimeOfDay time) {
 
 void TimeProducer::update() {
   if (!device_->works_now(Service::time) || !cob_id_.produced()) {
-    next_.reset();
-  } else if (!next_) {
-    next_ = device_->now + (choices.first_at_once ? Duration::zero() : choices.period);
+    raster_.stop();
+  } else if (!raster_.runs()) {
+    raster_.start(device_->now + (choices.first_at_once ? Duration::zero() : choices.period));
   }
 }
 
 void TimeProducer::on_time() {
-  if (!next_ || device_->now < *next_) return;
-  next_ = *next_ + choices.period;
-  if (*next_ <= device_->now) next_ = device_->now + choices.period;
-  transmit();
+  if (raster_.due(device_->now, choices.period)) transmit();
 }
 
 // Bits 27-0 milliseconds since midnight, 31-28 reserved, 47-32 days since 1984-01-01.

@@ -9,6 +9,7 @@
 
 #include "cob-id/cob_id.hpp"
 #include "device/device.hpp"
+#include "device/raster.hpp"
 
 namespace refnode {
 
@@ -44,11 +45,11 @@ class TimeProducer {
   /// A TIME message has been consumed.
   void set_clock(TimeOfDay time);
 
-  void on_reset() { next_.reset(); }
+  void on_reset() { raster_.stop(); }
   /// Boot-up or another NMT state.
   void update();
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return next_; }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return raster_.next(); }
 
  private:
   void transmit();
@@ -57,7 +58,7 @@ class TimeProducer {
   CobId cob_id_;
   std::chrono::milliseconds set_to_;  ///< after midnight of day 0
   BusTime set_at_{};
-  std::optional<BusTime> next_;
+  Raster raster_;
 };
 
 }  // namespace refnode
