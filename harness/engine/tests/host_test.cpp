@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host or a bus in trouble: bus-off, steps of the clock, late frames, floods.
+#include "bench.hpp"
+#include "engine/recorder.hpp"
+
+using namespace conform;
+using namespace conform::engine;
+using namespace conform::engine::testing;
+using namespace std::chrono_literals;
+using result::Verdict;
+
+namespace {
+
+/// A transport whose host is in trouble from the given request on.
+class UnwellTransport final : public can::Transport {
+ public:
+  using Trouble = std::function<void(can::BusHealth&)>;
+  UnwellTransport(can::Transport& inner, std::uint8_t command, Trouble trouble)
+      : inner_(inner), command_(command), trouble_(std::move(trouble)) {}
+  BusTime now() const override { return inner_.now(); }
+  Result<void> send(const can::Frame& frame) override {
+    if (frame.id == 0x601 && frame.data[0] == command_) trouble_(health_);
+    return inner_.send(frame);
+  }
+  Result<std::optional<can::BusEvent>> receive(BusTime deadline) override { return inner_.receive(deadline); }
+  can::BusHealth health() override { return health_; }
+  can::TransportInfo info() const override { return inner_.info(); }
+
+ private:
+  can::Transport& inner_;
+  std::uint8_t command_;
+  Trouble trouble_;
+  can::BusHealth health_;
+};
+
+constexpr std::string_view held_and_broken = R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+        expect: {value: 1}
+  - id: b
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+)";
+
+/// Two rules, one held and one broken, on a host in trouble.
+Outcome play_unwell(const UnwellTransport::Trouble& trouble, std::string_view scenarios = held_and_broken) {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  UnwellTransport transport(bus.transport(), 0x2B, trouble);
+  const auto suite = suite_of(std::string(scenarios));
+  Outcome out;
+  out.run = run(transport, device::default_profile(NodeId(1)), suite, catalogue(), {}, out.capture);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("every bus-off and every step of the clock is noticed, not only the first") {
+  const auto first = [](const Outcome& out) { return out.run.cases[0].verdict; };
+  const auto second = [](const Outcome& out) { return out.run.cases[1].verdict; };
+  const auto off = play_unwell([](can::BusHealth& health) {
+    health.bus_off = true;
+    ++health.bus_offs;
+  });
+  CHECK(first(off) == Verdict::inconclusive);
+  CHECK(second(off) == Verdict::inconclusive);
+  const auto stepped = play_unwell([](can::BusHealth& health) {
+    health.clock_stepped = true;
+    ++health.clock_steps;
+  });
+  CHECK(first(stepped) == Verdict::inconclusive);
+  CHECK(second(stepped) == Verdict::inconclusive);
+}
+
+TEST_CASE("a host that was late is no excuse for a value that was read, and what it saw in time stays") {
+  const auto out = play_unwell([](can::BusHealth& health) { ++health.late_frames; });
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::fail);
+  CHECK(out.run.cases[0].verdict == Verdict::fail);
+  CHECK(out.run.cases[1].verdict == Verdict::pass);
+}
+
+TEST_CASE("a host that was late blames nobody where a step waits, nor behind it") {
+  const auto out = play_unwell([](can::BusHealth& health) { ++health.late_frames; }, R"(
+  - id: waits
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - wait: 1 ms
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+        expect: {value: 1}
+  - id: silent
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - frame: {id: heartbeat, within: 10 ms}
+        checks: T-MUST
+  - id: before
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+        expect: {value: 1}
+      - download: {object: 1017h:00, value: 1000}
+      - wait: 1 ms
+)");
+  REQUIRE(out.run.cases.size() >= 3);
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[1].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[2].verdict == Verdict::fail);
+}
+
+TEST_CASE("a flooded bus ends the run before the memory does, and values are put back") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr, 10);
+  for (int i = 0; i < 5; ++i)
+    CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
+  const auto waited = recorder.wait_until(recorder.now() + 10ms);
+  REQUIRE(waited.has_value() == (recorder.capture().size() < 10));
+  const auto sent = recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0}));
+  REQUIRE_FALSE(sent.has_value());
+  CHECK(recorder.fault()->what == flooded);
+  recorder.ignore_stop(true);
+  CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
+}
+
+TEST_CASE("a cyclic frame that the host sends late is told, the first one is not") {
+  /// Wakes up late: what a starved host does.
+  class LateTransport final : public can::Transport {
+   public:
+    explicit LateTransport(can::Transport& inner) : inner_(inner) {}
+    BusTime now() const override { return inner_.now(); }
+    Result<void> send(const can::Frame& frame) override { return inner_.send(frame); }
+    Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+      return inner_.receive(deadline + late);
+    }
+    can::BusHealth health() override { return inner_.health(); }
+    can::TransportInfo info() const override { return inner_.info(); }
+    Duration late{};
+
+   private:
+    can::Transport& inner_;
+  };
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  LateTransport transport(bus.transport());
+  Recorder recorder(transport, nullptr);
+  recorder.produce({"heartbeat", can::data_frame(CanId(0x77E), {5}), 50ms, std::nullopt});
+  REQUIRE(recorder.wait_until(recorder.now() + 500ms).has_value());
+  CHECK(recorder.take_lateness().producing == Duration(0));
+  transport.late = 40ms;
+  REQUIRE(recorder.wait_until(recorder.now() + 500ms).has_value());
+  const auto lateness = recorder.take_lateness();
+  CHECK(lateness.producing == Duration(40ms));
+  CHECK(lateness.waking == Duration(40ms));
+}
+
+TEST_CASE("A produced SYNC may count in its data") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  recorder.produce({"sync", can::data_frame(CanId(0x80), {1}), 10ms, 5, 3});
+  REQUIRE(recorder.wait_until(recorder.now() + 100ms).has_value());
+  std::vector<int> counts;
+  for (const auto& captured : recorder.capture().frames()) counts.push_back(captured.frame.data[0]);
+  CHECK(counts == std::vector<int>{1, 2, 3, 1, 2});
+}
