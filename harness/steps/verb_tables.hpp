@@ -13,6 +13,7 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> interleave_verbs();
 [[nodiscard]] std::span<const Verb> nmt_verbs();
 [[nodiscard]] std::span<const Verb> frame_verbs();
+[[nodiscard]] std::span<const Verb> collect_verbs();
 [[nodiscard]] std::span<const Verb> error_verbs();
 [[nodiscard]] std::span<const Verb> lss_verbs();
 [[nodiscard]] std::span<const Verb> pdo_verbs();

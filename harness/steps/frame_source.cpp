@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "steps/frame_source.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+
+namespace conform::steps {
+namespace {
+
+constexpr std::string_view this_moment = "now";
+
+void parse_label(const yaml::Field& field, const ParseContext& context, std::string& label) {
+  auto name = field.text().value_or("");
+  if (name.starts_with('$')) name.erase(0, 1);
+  if (std::ranges::find(context.names, name) == context.names.end()) {
+    field.error("unknown label '" + name + "'", "labels come from as:");
+  }
+  label = name;
+}
+
+}  // namespace
+
+std::string relative(BusTime time, const Window& window) {
+  return to_string(std::chrono::round<std::chrono::microseconds>(time - window.anchor));
+}
+
+std::optional<Source> Source::parse(const yaml::Field& field, const NameCheck& names) {
+  Source out;
+  const auto text = field.text();
+  if (!text) return std::nullopt;
+  for (const std::string_view word :
+       {"heartbeat", "emcy", "emcy error", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
+    if (*text == word) {
+      out.service = *text;
+      return out;
+    }
+  }
+  auto expression = parse_expression_at(field, names);
+  if (!expression) return std::nullopt;
+  out.id = *expression;
+  return out;
+}
+
+Channels Source::rests_on() const {
+  if (service == "heartbeat") return {channel::heartbeat};
+  if (service == "emcy") return {channel::emcy};
+  if (service == "boot-up") return {channel::boot_up};
+  return {};
+}
+
+std::vector<ObjectReference> Source::concerns() const {
+  const std::string_view entry = service == "heartbeat"        ? "1017h:00"
+                                 : service.starts_with("emcy") ? "1014h:00"
+                                 : service == "sync"           ? "1005h:00"
+                                 : service == "tpdo 1"         ? "1800h:01"
+                                                               : "";
+  auto object = ObjectReference::parse(entry);
+  return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
+}
+
+Result<Session::Match> Source::match(Session& session) const {
+  const auto set = canopen::connection_set(session.node());
+  if (service == "anything") {
+    return
+        [](const can::CapturedFrame& c) { return c.direction == can::Direction::received && !c.frame.error; };
+  }
+  CanId can_id{};
+  if (service == "heartbeat" || service == "boot-up") {
+    can_id = set.error_control;
+  } else if (service == "sdo") {
+    can_id = set.sdo_response;
+  } else if (service == "sync") {
+    can_id = canopen::sync_can_id;
+  } else if (service == "tpdo 1") {
+    can_id = set.tpdo[0];
+  } else if (service == "emcy" || service == "emcy error") {
+    can_id = session.emcy_can_id();
+  } else {
+    const auto number = id.number(session);
+    if (!number) return std::unexpected(number.error());
+    can_id = CanId(static_cast<std::uint32_t>(*number));
+  }
+  // Not the end of one: EMCY 0000h.
+  if (service == "emcy error") {
+    return [can_id](const can::CapturedFrame& c) {
+      if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
+      return c.frame.size() < 2 || c.frame.data[0] != 0 || c.frame.data[1] != 0;
+    };
+  }
+  const bool no_boot_up = service == "heartbeat", only_boot_up = service == "boot-up";
+  return [can_id, no_boot_up, only_boot_up](const can::CapturedFrame& c) {
+    if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
+    const bool boot_up = c.frame.size() > 0 && c.frame.data[0] == 0;
+    return only_boot_up ? boot_up : !no_boot_up || !boot_up;
+  };
+}
+
+Result<Window> window_of(Session& session, const std::string& after) {
+  return after.empty() ? Result<Window>(session.window()) : session.window_after(after);
+}
+
+Result<Window> settled_window_of(Session& session, const std::string& after) {
+  if (!after.empty()) return session.window_after(after);
+  if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());
+  return session.window();
+}
+
+std::optional<WindowEnd> WindowEnd::parse(yaml::Fields& fields, const ParseContext& context) {
+  const auto field = fields.exactly_one_of({"for", "until"});
+  if (!field) return std::nullopt;
+  WindowEnd out;
+  if (!fields.has("until")) {
+    if (auto parsed = parse_time_at(field)) out.time = *parsed;
+  } else if (field.text() == this_moment) {
+    out.until = this_moment;
+  } else {
+    parse_label(field, context, out.until);
+  }
+  return out;
+}
+
+Result<BusTime> WindowEnd::after(BusTime anchor, const Session& session) const {
+  if (until.empty()) return anchor + time.resolve(session.profile());
+  if (until == this_moment) return session.now();
+  const auto end = session.window_after(until);
+  if (!end) return std::unexpected(end.error());
+  return end->anchor;
+}
+
+void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {
+  if (const auto field = fields.optional("after")) parse_label(field, context, after);
+}
+
+}  // namespace conform::steps

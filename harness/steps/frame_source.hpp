@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What verbs about frames have in common: whose frames, and the time in which they are looked for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "steps/step.hpp"
+
+namespace conform::steps {
+
+/// "12.5 ms" behind the beginning of the window.
+[[nodiscard]] std::string relative(BusTime time, const Window& window);
+
+/// The frames a verb is about: a CAN-ID, or a service of the device under test.
+struct Source {
+  Expression id;
+  std::string service;
+
+  static std::optional<Source> parse(const yaml::Field& field, const NameCheck& names);
+
+  /// Channels that a frame of the source comes through; that none comes is no ground for anything.
+  [[nodiscard]] Channels rests_on() const;
+  [[nodiscard]] std::string words() const { return service.empty() ? "CAN-ID " + id.text() : service; }
+  /// The entry that configures the service.
+  [[nodiscard]] std::vector<ObjectReference> concerns() const;
+  [[nodiscard]] Result<Session::Match> match(Session& session) const;
+};
+
+/// From the label on, or, where there is none, from the step before on.
+[[nodiscard]] Result<Window> window_of(Session& session, const std::string& after);
+/// For steps that count frames or insist on none: what the device sends before it has followed an NMT command
+/// is of the old state.
+[[nodiscard]] Result<Window> settled_window_of(Session& session, const std::string& after);
+
+/// `for: 1 s`, or `until:` with a label that was reached, or `now`: the step itself.
+struct WindowEnd {
+  TimeReference time;
+  std::string until;  ///< empty: `time` counts
+
+  static std::optional<WindowEnd> parse(yaml::Fields& fields, const ParseContext& context);
+  [[nodiscard]] std::string words() const { return until.empty() ? "for " + time.text() : "until " + until; }
+  [[nodiscard]] Result<BusTime> after(BusTime anchor, const Session& session) const;
+};
+
+/// `after:` with a label of the scenario.
+void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after);
+
+}  // namespace conform::steps
