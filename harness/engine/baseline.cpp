@@ -1,9 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/baseline.hpp"
 
+#include "canopen/cob_id.hpp"
 #include "engine/liveness.hpp"
 
 namespace conform::engine {
+namespace {
+
+/// What asks the device and changes nothing in it: the engine's own way to Pre-operational, and requests of
+/// SDO uploads.
+bool only_asks(const can::Frame& frame, NodeId node) {
+  const auto set = canopen::connection_set(node);
+  if (frame.is_data(CanId(0)))
+    return canopen::nmt_command_at(frame.data[0]) == canopen::NmtCommand::pre_operational;
+  if (!frame.is_data(set.sdo_request) || frame.size() != 8) return false;
+  // Client command specifiers of 7.2.4.3: upload, segment of an upload, abort, block upload.
+  const auto specifier = frame.data[0] >> 5U;
+  return specifier == 2 || specifier == 3 || specifier == 4 || specifier == 5;
+}
+
+/// As the reset has left it: one case that only looks needs no reset behind another such case.
+bool is_fresh(RunContext& run, scenario::Fresh wanted) {
+  if (!run.latest_reset || (wanted == scenario::Fresh::node && !run.latest_reset->of_node)) return false;
+  const auto& frames = run.recorder.capture().frames();
+  const auto restarted = is_boot_up_of(run.profile.node);
+  for (auto& seen = run.latest_reset->seen; seen < frames.size(); ++seen) {
+    const bool ours = frames[seen].direction == can::Direction::transmitted;
+    if (ours ? only_asks(frames[seen].frame, run.profile.node) : !restarted(frames[seen])) continue;
+    run.latest_reset.reset();
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 Result<void> enter_pre_operational(RunContext& run) {
   auto& session = run.session;
@@ -17,7 +47,8 @@ Result<void> enter_pre_operational(RunContext& run) {
   auto sent = session.command(canopen::NmtCommand::pre_operational);
   if (!sent) return sent;
   (void)session.take_state_changed();
-  return session.wait_until(session.now() + run.profile.nmt_time);
+  // T_NMT, or until a heartbeat shows the state.
+  return session.await_state();
 }
 
 Result<bool> reset(RunContext& run, canopen::NmtCommand command) {
@@ -27,13 +58,15 @@ Result<bool> reset(RunContext& run, canopen::NmtCommand command) {
   auto booted =
       run.recorder.find(from, is_boot_up_of(run.profile.node), run.recorder.now() + run.profile.boot_time);
   if (!booted) return std::unexpected(booted.error());
+  run.latest_reset.reset();
+  if (*booted) run.latest_reset = {**booted + 1, command == canopen::NmtCommand::reset_node};
   return booted->has_value();
 }
 
 Result<void> reach_baseline(RunContext& run, const scenario::Scenario& scenario) {
   if (auto idle = run.session.channel().make_idle(); !idle) return idle;
   if (!run.may(scenario::Risk::config)) return {};
-  if (scenario.fresh != scenario::Fresh::none) {
+  if (scenario.fresh != scenario::Fresh::none && !is_fresh(run, scenario.fresh)) {
     auto done =
         reset(run, scenario.fresh == scenario::Fresh::node ? canopen::NmtCommand::reset_node
                                                            : canopen::NmtCommand::reset_communication);

@@ -14,6 +14,8 @@ namespace {
 
 class Collect final : public Action {
  public:
+  static constexpr std::uint64_t most_awaited = 10'000;
+
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<Collect>();
     auto fields = value.fields("collect");
@@ -33,6 +35,11 @@ class Collect final : public Action {
       if (auto expression = parse_expression_at(overflow, context.names)) out->overflow_ = *expression;
     }
     out->times_of_day_ = fields.optional("time_of_day").boolean().value_or(false);
+    if (const auto enough = fields.optional("enough")) {
+      out->enough_ = enough.number(1, most_awaited).value_or(1);
+      if (out->answers_)
+        enough.error("frames are answers with per: what ends the step is the last frame sent");
+    }
     parse_after(fields, context, out->after_);
     return from && end ? std::move(out) : nullptr;
   }
@@ -47,7 +54,10 @@ class Collect final : public Action {
   bool acts() const override { return false; }
   Channels rests_on() const override { return source_.rests_on(); }
   std::string words(Session&) const override {
-    if (!answers_) return "collect " + source_.words() + " " + end_.words();
+    if (!answers_) {
+      return "collect " + source_.words() + " " + end_.words() +
+             (enough_ > 0 ? " or until " + std::to_string(enough_) + " have come" : "");
+    }
     return "collect " + source_.words() + " per " +
            (stimulus_.empty() ? "SYNC" : "frame on CAN-ID " + stimulus_.text()) + ", until " +
            end_.time.text() + " after the last";
@@ -86,7 +96,9 @@ class Collect final : public Action {
       from = **found + 1;
       if (!sent || !sent(frames[**found])) {
         hits.push_back(**found);
-        continue;
+        if (hits.size() != enough_) continue;
+        until = frames[**found].time;
+        break;
       }
       stimuli.push_back(frames[**found].time);
       if (frames[**found].direction == can::Direction::transmitted)
@@ -201,6 +213,7 @@ class Collect final : public Action {
   Expression stimulus_;  ///< CAN-ID; empty: that of SYNC
   Expression overflow_;  ///< of the counters in the frames; empty: they have none
   bool times_of_day_ = false;
+  std::uint64_t enough_ = 0;  ///< so many frames end the step; 0: its time does
 };
 
 constexpr Verb table[] = {
@@ -208,7 +221,7 @@ constexpr Verb table[] = {
      "from: CAN-ID or service\nfor: how long; with per: how long after the last frame that was sent\n"
      "until: instead of for, a label that was reached, or now: whatever the steps before took\nper: sync or a CAN-ID: frames are "
      "answers to what was sent there, by the device itself as well\ncounter: overflow value: the frames count 1 to this and 1 again\n"
-     "time_of_day: true: the frames tell the time\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind "
+     "time_of_day: true: the frames tell the time\nenough: number of frames that ends the step before its time\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind "
      "the last frame included), first, state, length (bytes of every frame); with counter: start (of the first frame), out_of_order; with "
      "time_of_day: malformed, drift; with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
      "two answers in frames sent), latency (the longest)",

@@ -144,6 +144,23 @@ TEST_CASE("counters and times of day are read from the frames that are collected
   CHECK(told.measured.at("drift") == 1'000'000'000);
 }
 
+TEST_CASE("a collection ends with the frame that is enough, and with its time where fewer come") {
+  const std::string step = "- collect: {from: 185h, for: 500 ms, enough: 3}\n";
+  FakeSession quick;
+  for (const auto time : {10, 20, 30, 40}) record(quick, time, 0x185);
+  const auto three = collected(quick, step);
+  CHECK(three.measured.at("count") == 3);
+  CHECK(three.measured.at("period") == 10'000'000);
+  // The time behind the last frame is no distance: nothing was waited for any more.
+  CHECK(three.measured.at("longest") == 10'000'000);
+
+  FakeSession slow;
+  for (const auto time : {10, 400}) record(slow, time, 0x185);
+  const auto two = collected(slow, step);
+  CHECK(two.measured.at("count") == 2);
+  CHECK(two.measured.at("longest") == 390'000'000);
+}
+
 TEST_CASE("a collection for answers needs something that was sent") {
   FakeSession session;
   record(session, 3, 0x185);
