@@ -29,6 +29,7 @@ std::span<const Defect> defects() {
                                        sdo_block_download_defects,
                                        sdo_channel_defects,
                                        sdo_length_defects,
+                                       sdo_turn_defects,
                                        dictionary_abort_defects,
                                        dictionary_defects,
                                        emergency_history_defects,
