@@ -30,6 +30,18 @@ StampRules& of_stamp(Parts& parts) { return parts.store.stamp.rules; }
 /// What was stored of a group goes when its defaults are restored.
 bool is_restored(const Images& former, const Images& images) { return images.size() < former.size(); }
 
+/// Only another value in this group is another configuration.
+Change sees_changes_in(Group group) {
+  return decides(of_stamp, &StampRules::same_configuration,
+                 [group](const auto& former, const Images& before, const Images& after) {
+                   const auto part = [group](const Images& images) {
+                     const auto found = images.find(group);
+                     return found == images.end() ? Images{} : Images{*found};
+                   };
+                   return former(part(before), part(after));
+                 });
+}
+
 /// "load" makes date and time of the configuration what 1020h begins with after a reset.
 Change stamp_becomes_default() {
   return checking_all(0x1011, [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
@@ -116,6 +128,17 @@ DefectTable storage_stamp_defects() {
        "1020h stays when it was written, lost by a reset, and another configuration is stored then",
        {"OD-1020-05"},
        renewed_before_a_reset()},
+      {"1020-survives-other-application",
+       "1020h stays when application parameters are stored or restored without it",
+       {"OD-1020-05"},
+       sees_changes_in(Group::communication)},
+      {"1020-survives-restored-application",
+       "1020h stays when the defaults of the application parameters are restored",
+       {"OD-1020-05"},
+       decides(of_stamp, &StampRules::same_configuration,
+               [](const auto& former, const Images& before, const Images& after) {
+                 return is_restored(before, after) || former(before, after);
+               })},
       {"1020-survives-restore",
        "Restoring the defaults leaves 1020h",
        {"STO-1020-04"},
