@@ -34,6 +34,14 @@ Change keeps_reserved_bits_of_time() {
   };
 }
 
+/// The lowest bit of a CAN-ID may be changed at any time.
+Change unlocks_lowest_bit(std::uint16_t index, std::uint8_t sub) {
+  return checking(index, sub, [index, sub](Parts& parts, const Check& former, ByteView bytes) {
+    const bool lowest = (parts.device.dictionary.number(index, sub) ^ conform::load_le(bytes)) == 1;
+    return lowest ? Accepted{} : former(bytes);
+  });
+}
+
 }  // namespace
 
 DefectTable cob_id_defects() {
@@ -147,6 +155,10 @@ DefectTable cob_id_defects() {
        "Bit 30 of 1014h can be set",
        {"OD-1014-04", "OD-1014-03"},
        decided(of_emergency, &CobIdRules::bit30_allowed, true)},
+      {"1014-lowest-bit-not-locked",
+       "The lowest bit of the CAN-ID of EMCY can be changed while EMCY is valid",
+       {"OD-1014-06"},
+       unlocks_lowest_bit(0x1014, 0)},
       {"1014-valid-bit-polarity-inverted",
        "EMCY is sent with bit 31 of 1014h set and not without",
        {"OD-1014-08", "EMCY-COB-03", "EMCY-FMT-01", "OD-1014-07"},

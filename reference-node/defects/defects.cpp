@@ -59,6 +59,7 @@ std::span<const Defect> defects() {
                                        objects_description_defects,
                                        objects_operating_system_defects,
                                        lss_defects,
+                                       lss_sequence_defects,
                                        pdo_traffic_defects,
                                        device_traffic_defects});
   return all;

@@ -130,6 +130,17 @@ void resolved_by_the_second_request(Parts& parts) {
   });
 }
 
+/// While a life time runs any other frame is an event; the next request resolves it.
+bool event_with_other_frames(Parts& parts, const Frame& frame) {
+  const ErrorCause event{0x8130, ErrorSource::guarding, 0};
+  if (is_request(parts, frame)) {
+    parts.device.errors.clear(event);
+  } else if (parts.guarding.next_wakeup()) {
+    parts.device.errors.raise(event, 0);
+  }
+  return false;
+}
+
 /// Once there was a heartbeat, guard requests are not answered any more.
 void dead_after_heartbeat(Parts& parts) {
   auto dead = std::make_shared<bool>(false);
@@ -313,6 +324,10 @@ DefectTable life_rows() {
        "A second life guarding event is not reported",
        {"EC-NG-10"},
        noticed_once},
+      {"life-guarding-event-with-other-frames",
+       "While a life time runs any other frame on the bus makes a life guarding event",
+       {"EC-NG-07"},
+       deaf_to(event_with_other_frames)},
       {"life-guarding-event-forgotten-by-writing-100d",
        "Writing 100Dh behind a life guarding event leaves its error for ever",
        {"EC-NG-10"},

@@ -204,6 +204,12 @@ DefectTable error_control_monitoring_defects() {
        "Of two lost nodes the first that is back ends the error",
        {"EC-HBC-07"},
        first_return_ends_all()},
+      {"hbc-deaf-in-stopped",
+       "Heartbeats that come in Stopped do not count",
+       {"EC-HBC-04"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return parts.device.state == NmtState::stopped && is_heartbeat(frame);
+       })},
       {"hbc-loss-forgotten-by-writing",
        "Writing 1016h behind a loss leaves its error for ever",
        {"EC-HBC-07"},
