@@ -60,6 +60,11 @@ Change goes_on_with_a_scan() {
   });
 }
 
+/// A slave without node-ID takes unknown commands for those of a scan.
+void takes_unknown_for_scan(Parts& parts, Frame& frame) {
+  if (is_request(frame) && frame.data[0] >= 0x60 && parts.device.node_id > 127) frame.data[0] = fastscan;
+}
+
 }  // namespace
 
 DefectTable lss_sequence_defects() {
@@ -80,6 +85,10 @@ DefectTable lss_sequence_defects() {
        "A fastscan that begins behind one that was given up goes on with that",
        {"LSS-FS-02"},
        goes_on_with_a_scan()},
+      {"lss-unknown-command-taken-for-fastscan",
+       "A slave without node-ID takes unknown commands for fastscan",
+       {"LSS-GEN-02"},
+       misreads(takes_unknown_for_scan)},
   };
 }
 
