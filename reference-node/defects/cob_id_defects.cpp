@@ -34,6 +34,27 @@ Change keeps_reserved_bits_of_time() {
   };
 }
 
+/// A restricted CAN-ID is taken with bit 31, which has no meaning in 1005h.
+Accepted takes_restricted_with_bit31(Parts&, const Check& former, ByteView bytes) {
+  const auto wanted = static_cast<std::uint32_t>(conform::load_le(bytes));
+  const bool taken = (wanted & 0xFFFFF800U) == 0x80000000U && restricted_can_id(wanted & 0x7FFU);
+  return taken ? Accepted{} : former(bytes);
+}
+
+/// TIME is taken on the CAN-ID that differs in the lowest bit as well.
+void compares_ten_bits_of_time(Parts& parts, Frame& frame) {
+  const std::uint64_t cob_id = parts.device.dictionary.number(0x1012, 0);
+  if (!frame.remote && !frame.extended && ((frame.id ^ cob_id) & 0x7FFU) == 1) frame.id ^= 1U;
+}
+
+/// The lowest bit of a CAN-ID may be changed at any time.
+Change unlocks_lowest_bit(std::uint16_t index, std::uint8_t sub) {
+  return checking(index, sub, [index, sub](Parts& parts, const Check& former, ByteView bytes) {
+    const bool lowest = (parts.device.dictionary.number(index, sub) ^ conform::load_le(bytes)) == 1;
+    return lowest ? Accepted{} : former(bytes);
+  });
+}
+
 }  // namespace
 
 DefectTable cob_id_defects() {
@@ -53,6 +74,14 @@ DefectTable cob_id_defects() {
        "1005h refuses with 0601 0000h instead of 0609 0030h",
        {"OD-1005-03", "OD-1005-04", "SYNC-COB-03", "SYNC-COB-04", "OD-CID-05", "OD-1005-12"},
        wrong_abort_at(mux(0x1005, 0), right, wrong)},
+      {"1005-restricted-accepted-with-bit31",
+       "1005h accepts restricted CAN-IDs together with bit 31",
+       {"CAN-RID-01", "OD-CID-03"},
+       checking(0x1005, 0, takes_restricted_with_bit31)},
+      {"1012-lowest-bit-not-compared",
+       "TIME is taken on a CAN-ID that differs in the lowest bit from that of 1012h",
+       {"TIME-CON-01"},
+       misreads(compares_ten_bits_of_time)},
       {"1005-change-refused",
        "1005h refuses another CAN-ID",
        {"OD-1005-06"},
@@ -147,6 +176,10 @@ DefectTable cob_id_defects() {
        "Bit 30 of 1014h can be set",
        {"OD-1014-04", "OD-1014-03"},
        decided(of_emergency, &CobIdRules::bit30_allowed, true)},
+      {"1014-lowest-bit-not-locked",
+       "The lowest bit of the CAN-ID of EMCY can be changed while EMCY is valid",
+       {"OD-1014-06"},
+       unlocks_lowest_bit(0x1014, 0)},
       {"1014-valid-bit-polarity-inverted",
        "EMCY is sent with bit 31 of 1014h set and not without",
        {"OD-1014-08", "EMCY-COB-03", "EMCY-FMT-01", "OD-1014-07"},

@@ -74,6 +74,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable sdo_block_download_defects();
 [[nodiscard]] DefectTable sdo_channel_defects();
 [[nodiscard]] DefectTable sdo_length_defects();
+[[nodiscard]] DefectTable sdo_turn_defects();
 [[nodiscard]] DefectTable dictionary_abort_defects();
 [[nodiscard]] DefectTable dictionary_defects();
 [[nodiscard]] DefectTable emergency_history_defects();
@@ -103,6 +104,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable objects_description_defects();
 [[nodiscard]] DefectTable objects_operating_system_defects();
 [[nodiscard]] DefectTable lss_defects();
+[[nodiscard]] DefectTable lss_sequence_defects();
 [[nodiscard]] DefectTable pdo_traffic_defects();
 [[nodiscard]] DefectTable device_traffic_defects();
 

@@ -29,6 +29,7 @@ std::span<const Defect> defects() {
                                        sdo_block_download_defects,
                                        sdo_channel_defects,
                                        sdo_length_defects,
+                                       sdo_turn_defects,
                                        dictionary_abort_defects,
                                        dictionary_defects,
                                        emergency_history_defects,
@@ -58,6 +59,7 @@ std::span<const Defect> defects() {
                                        objects_description_defects,
                                        objects_operating_system_defects,
                                        lss_defects,
+                                       lss_sequence_defects,
                                        pdo_traffic_defects,
                                        device_traffic_defects});
   return all;

@@ -2,6 +2,7 @@
 // Finer defects of EMCY and of the error register: one error of several, and what happens later than the
 // error.
 #include <array>
+#include <chrono>
 #include <memory>
 #include <optional>
 
@@ -31,6 +32,30 @@ Filter changes_message_of(std::uint16_t code, void (*change)(Frame&)) {
       if (conform::load_le(std::span(outgoing.frame.data).first(2)) == code) change(outgoing.frame);
     }
   };
+}
+
+/// An error that waits for the inhibit time when EMCY is made not valid is sent when that time is over.
+void sends_what_waits(Parts& parts) {
+  const auto waiting = std::make_shared<std::optional<std::uint16_t>>();
+  parts.device.errors.raise.replace([waiting](const auto& former, const ErrorCause& cause, auto detail) {
+    *waiting = cause.code;
+    former(cause, detail);
+  });
+  parts.device.outbox.add_filter([waiting](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.service == Service::emergency || context.service == Service::boot_up) waiting->reset();
+  });
+  after_writing(0x1014, 0, [waiting](Parts& node, const std::function<void()>& former) {
+    former();
+    const std::uint64_t cob_id = node.device.dictionary.number(0x1014, 0);
+    if ((cob_id & 0x80000000U) == 0 || !*waiting) return;
+    const std::uint16_t code = **waiting;
+    const Frame frame = conform::can::data_frame(
+        conform::CanId(static_cast<std::uint32_t>(cob_id & 0x7FFU)),
+        {static_cast<std::uint8_t>(code & 0xFFU), static_cast<std::uint8_t>(code >> 8U), 1, 0, 0, 0, 0, 0});
+    node.device.outbox.send(
+        FilterContext{Service::emergency, node.device.node_id, node.device.state, nullptr},
+        {{frame, std::chrono::milliseconds(node.device.dictionary.number(0x1015, 0) / 10)}}, node.device.now);
+  })(parts);
 }
 
 /// While an error is there, entering `state` reports it once more.
@@ -84,6 +109,10 @@ Change reported_once(ErrorSource source) {
 
 DefectTable emergency_course_defects() {
   return {
+      {"emcy-sent-when-switched-off-while-inhibited",
+       "An EMCY that waits for the inhibit time is sent although 1014h is not valid any more",
+       {"OD-1014-08"},
+       sends_what_waits},
       {"1001-reserved-bit6-set-by-one-error",
        "A temperature error sets the reserved bit 6 of 1001h",
        {"OD-1001-03"},

@@ -101,6 +101,46 @@ void noticed_once(Parts& parts) {
   });
 }
 
+/// Writing 100Ch or 100Dh forgets that an event was reported, so that no request resolves it.
+Change forgets_the_event_with(std::uint16_t index) {
+  return [index](Parts& parts) {
+    const auto writing = std::make_shared<bool>(false);
+    parts.device.errors.clear.replace([writing](const auto& former, const ErrorCause& cause) {
+      if (!*writing) former(cause);
+    });
+    after_writing(index, 0, [writing](Parts&, const std::function<void()>& former) {
+      *writing = true;
+      former();
+      *writing = false;
+    })(parts);
+  };
+}
+
+/// The first request behind an event changes nothing, the second resolves it.
+void resolved_by_the_second_request(Parts& parts) {
+  auto resolve = std::make_shared<std::function<void()>>();
+  parts.device.errors.clear.replace([resolve](const auto& former, const ErrorCause& cause) {
+    if (cause.source != ErrorSource::guarding) return former(cause);
+    *resolve = [former, cause] { former(cause); };
+  });
+  parts.device.inbox.add_filter([&parts, resolve](std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) {
+      if (is_request(parts, frame) && *resolve) std::exchange(*resolve, nullptr)();
+    }
+  });
+}
+
+/// While a life time runs any other frame is an event; the next request resolves it.
+bool event_with_other_frames(Parts& parts, const Frame& frame) {
+  const ErrorCause event{0x8130, ErrorSource::guarding, 0};
+  if (is_request(parts, frame)) {
+    parts.device.errors.clear(event);
+  } else if (parts.guarding.next_wakeup()) {
+    parts.device.errors.raise(event, 0);
+  }
+  return false;
+}
+
 /// Once there was a heartbeat, guard requests are not answered any more.
 void dead_after_heartbeat(Parts& parts) {
   auto dead = std::make_shared<bool>(false);
@@ -284,6 +324,22 @@ DefectTable life_rows() {
        "A second life guarding event is not reported",
        {"EC-NG-10"},
        noticed_once},
+      {"life-guarding-event-with-other-frames",
+       "While a life time runs any other frame on the bus makes a life guarding event",
+       {"EC-NG-07"},
+       deaf_to(event_with_other_frames)},
+      {"life-guarding-event-forgotten-by-writing-100d",
+       "Writing 100Dh behind a life guarding event leaves its error for ever",
+       {"EC-NG-10"},
+       forgets_the_event_with(0x100D)},
+      {"life-guarding-resolved-by-second-request",
+       "A life guarding event is resolved by the second guard request only",
+       {"EC-NG-10"},
+       resolved_by_the_second_request},
+      {"life-guarding-goes-on-over-reset",
+       "A life time that runs goes on over a reset",
+       {"EC-NG-08"},
+       decides(of_guarding, &GuardingRules::ends_with_reset, [](const auto&) { return false; })},
   };
 }
 

@@ -90,6 +90,21 @@ Change first_return_ends_all() {
   };
 }
 
+/// Writing an entry of 1016h forgets the loss that was reported, so that no heartbeat ends its error.
+Change forgets_losses_with_writing() {
+  return [](Parts& parts) {
+    const auto writing = std::make_shared<bool>(false);
+    parts.device.errors.clear.replace([writing](const auto& former, const ErrorCause& cause) {
+      if (!*writing) former(cause);
+    });
+    after_writing_all(0x1016, [writing](Parts&, const Written& former, std::uint8_t) {
+      *writing = true;
+      former();
+      *writing = false;
+    })(parts);
+  };
+}
+
 /// The heartbeat of one node counts for that with another bit 6 of its node-ID as well.
 void knows_nodes_by_six_bits(Parts&, std::vector<Frame>& frames) {
   const std::vector<Frame> received = frames;
@@ -189,6 +204,20 @@ DefectTable error_control_monitoring_defects() {
        "Of two lost nodes the first that is back ends the error",
        {"EC-HBC-07"},
        first_return_ends_all()},
+      {"hbc-deaf-in-stopped",
+       "Heartbeats that come in Stopped do not count",
+       {"EC-HBC-04"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return parts.device.state == NmtState::stopped && is_heartbeat(frame);
+       })},
+      {"hbc-loss-forgotten-by-writing",
+       "Writing 1016h behind a loss leaves its error for ever",
+       {"EC-HBC-07"},
+       forgets_losses_with_writing()},
+      {"hbc-goes-on-over-reset",
+       "A consumer heartbeat time that runs goes on over a reset",
+       {"EC-HBC-02"},
+       decides(of_consumer, &HeartbeatConsumerRules::ends_with_reset, [](const auto&) { return false; })},
       {"hbc-node-id-in-6-bits",
        "Bit 6 of the node-ID of a monitored node is not looked at",
        {"EC-HBC-09"},

@@ -85,6 +85,15 @@ void boots_up_on_pre_operational(Parts& parts) {
   };
 }
 
+/// NMT start in Operational is taken for a change of the state.
+void enters_operational_again(Parts& parts) {
+  deaf_to([](Parts& node, const Frame& frame) {
+    const bool again = node.device.state == NmtState::operational && is_command(frame, start);
+    if (again && frame.data[1] == node.device.node_id) node.nmt.on_change(NmtState::operational);
+    return false;
+  })(parts);
+}
+
 PowerOnRules& of_power_on(Parts& parts) { return parts.store.rules; }
 
 /// Of which groups a reset loads the power-on values; `right` is what the standard says.
@@ -137,6 +146,10 @@ DefectTable nmt_defects() {
        "The node enters Operational by itself after boot-up",
        {"NMT-BOOT-07"},
        Change([](Parts& parts) { parts.nmt.choices.self_starting = true; })},
+      {"started-again-in-operational",
+       "NMT start in Operational begins the event timers of TPDOs anew",
+       {"PDO-TX-09"},
+       Change(enters_operational_again)},
       {"reset-during-init-hangs",
        "A reset command during start-up ends the start-up for good",
        {"NMT-BOOT-09"},

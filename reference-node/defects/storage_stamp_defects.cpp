@@ -30,6 +30,18 @@ StampRules& of_stamp(Parts& parts) { return parts.store.stamp.rules; }
 /// What was stored of a group goes when its defaults are restored.
 bool is_restored(const Images& former, const Images& images) { return images.size() < former.size(); }
 
+/// Only another value in this group is another configuration.
+Change sees_changes_in(Group group) {
+  return decides(of_stamp, &StampRules::same_configuration,
+                 [group](const auto& former, const Images& before, const Images& after) {
+                   const auto part = [group](const Images& images) {
+                     const auto found = images.find(group);
+                     return found == images.end() ? Images{} : Images{*found};
+                   };
+                   return former(part(before), part(after));
+                 });
+}
+
 /// "load" makes date and time of the configuration what 1020h begins with after a reset.
 Change stamp_becomes_default() {
   return checking_all(0x1011, [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
@@ -40,6 +52,24 @@ Change stamp_becomes_default() {
     }
     return restored;
   });
+}
+
+/// Once date and time were written, no store command takes them out of the memory until the next reset.
+Change stored_stamp_saved_by_a_write() {
+  return [](Parts& parts) {
+    const auto written = std::make_shared<bool>(false);
+    after_writing_all(0x1020, [written](Parts&, const std::function<void()>& former, std::uint8_t) {
+      *written = true;
+      former();
+    })(parts);
+    parts.store.stamp.rules.same_configuration.replace(
+        [written](const auto& former, const Images& before, const Images& after) {
+          return *written || former(before, after);
+        });
+    parts.device.outbox.add_filter([written](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.service == Service::boot_up) *written = false;
+    });
+  };
 }
 
 /// That date and time were written counts, although a reset has taken back what was written.
@@ -116,6 +146,40 @@ DefectTable storage_stamp_defects() {
        "1020h stays when it was written, lost by a reset, and another configuration is stored then",
        {"OD-1020-05"},
        renewed_before_a_reset()},
+      {"1020-survives-other-application",
+       "1020h stays when application parameters are stored or restored without it",
+       {"OD-1020-05"},
+       sees_changes_in(Group::communication)},
+      {"1020-survives-first-stored-application",
+       "1020h stays when application parameters are stored for the first time",
+       {"OD-1020-05"},
+       decides(of_stamp, &StampRules::same_configuration,
+               [](const auto& former, const Images& before, const Images& after) {
+                 const bool first =
+                     after.contains(Group::application) && !before.contains(Group::application);
+                 return (first && before.contains(Group::communication)) || former(before, after);
+               })},
+      {"1020-saved-by-a-write-that-is-not-stored",
+       "1020h stays in the memory when it was written and application parameters alone are stored then",
+       {"OD-1020-05"},
+       stored_stamp_saved_by_a_write()},
+      {"1020-cleared-by-saving",
+       "1020h is 0 from each saving of the parameters until the next reset",
+       {"OD-1020-04"},
+       checking_all(0x1010,
+                    [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
+                      const Accepted stored = former(bytes);
+                      for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}})
+                        if (stored) parts.device.dictionary.set_number(0x1020, sub, 0);
+                      return stored;
+                    })},
+      {"1020-survives-restored-application",
+       "1020h stays when the defaults of the application parameters are restored",
+       {"OD-1020-05"},
+       decides(of_stamp, &StampRules::same_configuration,
+               [](const auto& former, const Images& before, const Images& after) {
+                 return is_restored(before, after) || former(before, after);
+               })},
       {"1020-survives-restore",
        "Restoring the defaults leaves 1020h",
        {"STO-1020-04"},

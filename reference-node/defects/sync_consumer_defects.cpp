@@ -164,6 +164,13 @@ Change expects_the_first() {
 
 DefectTable sync_consumer_defects() {
   return {
+      {"sync-counter-of-two-is-an-error",
+       "With an overflow value of 2 the counter of a SYNC is reported as a wrong length",
+       {"SYNC-CON-04", "SYNC-CON-05"},
+       decides(of_consumer, &SyncConsumerRules::length,
+               [](const auto& former, std::uint64_t overflow) {
+                 return overflow == 2 ? std::size_t{0} : former(overflow);
+               })},
       {"sync-dead-with-period",
        "SYNC is not taken while 1006h is not 0",
        {"SYNC-CON-01"},

@@ -43,6 +43,16 @@ Change has_period(Duration (*as)(Duration right)) {
                  [as](const auto& former, std::int64_t value) { return as(former(value)); });
 }
 
+/// Entering Operational begins production anew.
+void begins_anew_in_operational(Parts& parts) {
+  parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
+    former(from);
+    if (parts.device.state != NmtState::operational) return;
+    parts.sync_producer.on_reset();
+    parts.sync_producer.on_boot_up();
+  };
+}
+
 /// What is written to 1006h counts as long as it is not 0.
 void keeps_period(Parts& parts) {
   const auto last = std::make_shared<std::int64_t>(0);
@@ -121,6 +131,10 @@ Change never_works_in(NmtState state) {
 
 DefectTable switch_rows() {
   return {
+      {"sync-counter-anew-with-start",
+       "NMT start from Pre-operational begins the counter of SYNC anew",
+       {"SYNC-PRO-04"},
+       Change(begins_anew_in_operational)},
       {"sync-without-producer-bit",
        "SYNC is sent as soon as 1006h is not 0, whatever bit 30 of 1005h says",
        {"OD-1005-09", "SYNC-PRO-03"},

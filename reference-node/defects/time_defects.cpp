@@ -33,6 +33,29 @@ Change clock_starts_at(std::uint32_t start) {
                   }));
 }
 
+/// What was written last is there again after a reset.
+void written_time_survives_resets(Parts& parts) {
+  const auto last = std::make_shared<Bytes>();
+  checking(0x1013, 0, [last](Parts&, const Check& former, ByteView bytes) {
+    last->assign(bytes.begin(), bytes.end());
+    return former(bytes);
+  })(parts);
+  parts.device.outbox.add_filter([&parts, last](const FilterContext& context, std::vector<Outgoing>&) {
+    const Entry* entry = parts.device.dictionary.entry(0x1013, 0);
+    if (context.service == Service::boot_up && !last->empty() && entry != nullptr) [[maybe_unused]]
+      const Accepted set = entry->check(*last);
+  });
+}
+
+/// A time that is written is added to the one that is there.
+Change adds_written_time() {
+  return checking(0x1013, 0, [](Parts& parts, const Check& former, ByteView bytes) {
+    const Entry* entry = parts.device.dictionary.entry(0x1013, 0);
+    const Upload present = entry != nullptr && entry->read ? entry->read() : Upload(Bytes(4, 0));
+    return former(conform::to_le(conform::load_le(bytes) + conform::load_le(*present), bytes.size()));
+  });
+}
+
 TimeProducerRules& of_producer(Parts& parts) { return parts.time_producer.rules; }
 
 /// TIME tells another time than it is.
@@ -135,6 +158,14 @@ DefectTable clock_rows() {
        "1013h is read-only although it is declared as writable",
        {"OD-1013-03", "OD-1013-02", "SDO-DNL-21"},
        access(0x1013, 0, Access::ro)},
+      {"1013-survives-reset",
+       "The time that was written to 1013h is there again after a reset",
+       {"OD-1013-04"},
+       written_time_survives_resets},
+      {"1013-adds-what-is-written",
+       "What is written to 1013h is added to the time that it holds",
+       {"OD-1013-03"},
+       adds_written_time()},
       {"1013-write-ignored",
        "A time written to 1013h is confirmed and forgotten",
        {"OD-1013-03"},

@@ -49,7 +49,9 @@ void HeartbeatConsumer::on_written(std::uint8_t sub) {
   if (choices.reserved_bits_cleared) device_->dictionary.set_number(0x1016, sub, value_of(sub) & 0x00FFFFFFU);
 }
 
-void HeartbeatConsumer::on_reset() { watches_.assign(watches_.size(), {}); }
+void HeartbeatConsumer::on_reset() {
+  if (rules.ends_with_reset()) watches_.assign(watches_.size(), {});
+}
 
 void HeartbeatConsumer::on_heartbeat(std::uint8_t node, std::uint8_t state) {
   for (std::uint8_t sub = 1; sub <= entries(); ++sub) {

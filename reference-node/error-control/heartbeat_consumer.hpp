@@ -38,6 +38,8 @@ struct HeartbeatConsumerRules {
   /// The heartbeat time counts in milliseconds.
   Rule<Duration(std::int64_t value)> time{
       [](std::int64_t value) -> Duration { return std::chrono::milliseconds(value); }};
+  /// Behind a reset the monitoring waits for a heartbeat again.
+  Rule<bool()> ends_with_reset{[] { return true; }};
 };
 
 class HeartbeatConsumer {

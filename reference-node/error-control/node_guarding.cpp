@@ -59,7 +59,7 @@ bool NodeGuarding::on_remote(const Frame& frame) {
 void NodeGuarding::on_reset() {
   toggle_ = false;
   lost_ = false;
-  due_.reset();
+  if (rules.ends_with_reset()) due_.reset();
 }
 
 void NodeGuarding::on_time() {

@@ -27,6 +27,8 @@ struct GuardingRules {
   };
   /// The first request begins the watch; that it was configured does not.
   Rule<bool(bool requested)> begins_the_watch = [](bool requested) { return requested; };
+  /// Behind a reset the watch waits for a request again.
+  Rule<bool()> ends_with_reset = [] { return true; };
 };
 
 class NodeGuarding {

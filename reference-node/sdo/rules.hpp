@@ -51,6 +51,8 @@ struct SdoRules {
   Rule<bool(const SdoChannel&)> exists{[](const SdoChannel& channel) { return channel.valid(); }};
   /// An initiate request is served at any time: it ends a transfer that is open.
   Rule<bool(bool transfer_open)> may_begin{[](bool) { return true; }};
+  /// Also where the new one is over with its answer.
+  Rule<bool(bool block_transfer)> makes_way{[](bool) { return true; }};
   /// An abort ends the transfer, whichever side sends it and of whatever kind the transfer is (7.2.4.3.17).
   Rule<bool(SdoSide by, bool block_transfer)> abort_ends_transfer{[](SdoSide, bool) { return true; }};
   /// A transfer ends where SDO does not work (7.3.2.2.5), and with a reset.

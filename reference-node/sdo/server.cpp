@@ -81,7 +81,7 @@ SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
 std::optional<SdoReply> SdoServer::make_way() {
   if (!rules_->may_begin(busy())) return SdoReply();
   if (busy() && choices_->initiate_while_busy) return refuse(*choices_->initiate_while_busy);
-  reset();
+  if (rules_->makes_way(block_transfer())) reset();
   return std::nullopt;
 }
 
