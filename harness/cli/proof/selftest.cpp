@@ -2,6 +2,7 @@
 #include "cli/proof/selftest.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -117,6 +118,55 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>
   return defect;
 }
 
+/// A defect and a rule that it violates and was not caught by.
+struct OpenProof {
+  std::size_t defect;
+  std::string rule;
+};
+
+/// A rule may have stood behind another one of the same defect, which ended its cases: it is judged alone
+/// where no defect proves it in company.
+Result<void> judge_alone(const Bench& bench, const std::vector<std::string>& unproven, unsigned jobs,
+                         std::vector<DefectVerdict>& defects) {
+  std::vector<OpenProof> open;
+  for (std::size_t i = 0; i < defects.size(); ++i) {
+    for (const auto& rule : defects[i].violates) {
+      if (std::ranges::binary_search(unproven, rule)) open.push_back({i, rule});
+    }
+  }
+  std::vector<std::optional<Result<DefectVerdict>>> alone(open.size());
+  in_parallel(open.size(), jobs, [&](std::size_t i) {
+    DefectVerdict defect;
+    defect.id = defects[open[i].defect].id;
+    defect.violates = {open[i].rule};
+    for (const bool slow : {false, true}) {
+      if (!defect.killed_by.empty()) break;
+      if (auto done = expose(bench, defect, defect.violates, slow); !done) {
+        alone[i].emplace(std::unexpected(done.error()));
+        return;
+      }
+    }
+    alone[i].emplace(std::move(defect));
+  });
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (!*alone[i]) return std::unexpected(alone[i]->error());
+    DefectVerdict& defect = defects[open[i].defect];
+    std::ranges::copy((*alone[i])->killed_by, std::back_inserter(defect.killed_by));
+    std::ranges::copy((*alone[i])->proves, std::back_inserter(defect.proves));
+    std::ranges::sort(defect.proves);
+  }
+  return {};
+}
+
+std::vector<std::string> without_proof(const std::set<std::string>& judged,
+                                       const std::vector<DefectVerdict>& defects) {
+  std::set<std::string> proven;
+  for (const auto& defect : defects) proven.insert(defect.proves.begin(), defect.proves.end());
+  std::vector<std::string> out;
+  std::ranges::set_difference(judged, proven, std::back_inserter(out));
+  return out;
+}
+
 }  // namespace
 
 Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
@@ -126,7 +176,7 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   if (!conformant) return std::unexpected(conformant.error());
   out.conformant = std::move(conformant->result);
   const auto good = verdicts_of(out.conformant);
-  std::set<std::string> proven, judged, monitored;
+  std::set<std::string> judged, monitored;
   for (const auto& [key, verdict] : good) {
     if (verdict == Verdict::not_applicable) continue;
     judged.insert(key.first);
@@ -162,10 +212,13 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   }
   for (auto& verdict : verdicts) {
     if (!*verdict) return std::unexpected(verdict->error());
-    proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());
     out.defects.push_back(std::move(**verdict));
   }
-  std::ranges::set_difference(judged, proven, std::back_inserter(out.unproven));
+  if (auto done = judge_alone(bench, without_proof(judged, out.defects), options.jobs, out.defects); !done)
+    return std::unexpected(done.error());
+  out.unproven = without_proof(judged, out.defects);
+  std::set<std::string> proven;
+  for (const auto& defect : out.defects) proven.insert(defect.proves.begin(), defect.proves.end());
   out.proven.assign(proven.begin(), proven.end());
   return out;
 }
