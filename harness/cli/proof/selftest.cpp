@@ -82,9 +82,7 @@ Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::
   return {};
 }
 
-/// `monitored`: judged by a monitor, so that any frame of any scenario may show a violation.
-Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>& monitored,
-                                 const refnode::Defect& row, bool whole) {
+Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
   DefectVerdict defect;
   defect.id = row.id;
   defect.summary = row.summary;
@@ -104,11 +102,8 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>
       if (auto done = expose(bench, defect, defect.violates, slow); !done)
         return std::unexpected(done.error());
     }
-    // What one scenario leaves behind may show in the next, and a monitor may need the traffic of scenarios
-    // that judge something else.
-    whole = defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
-              return monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
-            });
+    // What one scenario leaves behind may show in the next.
+    whole = defect.killed_by.empty();
   }
   for (const bool slow : {false, true}) {
     if (!whole || (slow && !defect.killed_by.empty())) break;
@@ -118,43 +113,22 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>
   return defect;
 }
 
-/// A defect and a rule that it violates and was not caught by.
-struct OpenProof {
-  std::size_t defect;
-  std::string rule;
-};
-
-/// A rule may have stood behind another one of the same defect, which ended its cases: it is judged alone
-/// where no defect proves it in company.
-Result<void> judge_alone(const Bench& bench, const std::vector<std::string>& unproven, unsigned jobs,
-                         std::vector<DefectVerdict>& defects) {
-  std::vector<OpenProof> open;
-  for (std::size_t i = 0; i < defects.size(); ++i) {
-    for (const auto& rule : defects[i].violates) {
-      if (std::ranges::binary_search(unproven, rule)) open.push_back({i, rule});
-    }
-  }
-  std::vector<std::optional<Result<DefectVerdict>>> alone(open.size());
-  in_parallel(open.size(), jobs, [&](std::size_t i) {
-    DefectVerdict defect;
-    defect.id = defects[open[i].defect].id;
-    defect.violates = {open[i].rule};
+/// Tries again what no defect has proven. A rule may have stood behind another one of the same defect, which
+/// ended its cases: it is judged alone. A monitor may need the traffic of scenarios that judge something
+/// else.
+Result<void> prove(const Bench& bench, const std::set<std::string>& monitored,
+                   const std::vector<std::string>& unproven, DefectVerdict& defect) {
+  for (const auto& rule : defect.violates) {
+    if (!std::ranges::binary_search(unproven, rule)) continue;
+    const auto proven = [&] { return std::ranges::find(defect.proves, rule) != defect.proves.end(); };
     for (const bool slow : {false, true}) {
-      if (!defect.killed_by.empty()) break;
-      if (auto done = expose(bench, defect, defect.violates, slow); !done) {
-        alone[i].emplace(std::unexpected(done.error()));
-        return;
-      }
+      if (proven()) break;
+      if (auto done = expose(bench, defect, {rule}, slow); !done) return done;
     }
-    alone[i].emplace(std::move(defect));
-  });
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    if (!*alone[i]) return std::unexpected(alone[i]->error());
-    DefectVerdict& defect = defects[open[i].defect];
-    std::ranges::copy((*alone[i])->killed_by, std::back_inserter(defect.killed_by));
-    std::ranges::copy((*alone[i])->proves, std::back_inserter(defect.proves));
-    std::ranges::sort(defect.proves);
+    if (proven() || !monitored.contains(rule)) continue;
+    if (auto done = expose(bench, defect, {}, false); !done) return done;
   }
+  std::ranges::sort(defect.proves);
   return {};
 }
 
@@ -176,7 +150,7 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   if (!conformant) return std::unexpected(conformant.error());
   out.conformant = std::move(conformant->result);
   const auto good = verdicts_of(out.conformant);
-  std::set<std::string> judged, monitored;
+  std::set<std::string> judged, monitored;  // by a monitor: any frame of any scenario may show a violation
   for (const auto& [key, verdict] : good) {
     if (verdict == Verdict::not_applicable) continue;
     judged.insert(key.first);
@@ -190,9 +164,8 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   }
   // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
   std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
-  in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
-    verdicts[i].emplace(verdict_of(bench, monitored, *rows[i], options.whole));
-  });
+  in_parallel(rows.size(), options.jobs,
+              [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole)); });
   std::vector<std::optional<Result<Blame>>> blames(options.blame ? rows.size() : 0);
   in_parallel(blames.size(), options.jobs, [&](std::size_t i) {
     blames[i].emplace(*verdicts[i] ? blame_of(std::string(rows[i]->id), (**verdicts[i]).violates, bench)
@@ -214,8 +187,13 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
     if (!*verdict) return std::unexpected(verdict->error());
     out.defects.push_back(std::move(**verdict));
   }
-  if (auto done = judge_alone(bench, without_proof(judged, out.defects), options.jobs, out.defects); !done)
-    return std::unexpected(done.error());
+  const auto open = without_proof(judged, out.defects);
+  std::vector<Result<void>> tried(out.defects.size());
+  in_parallel(out.defects.size(), options.jobs,
+              [&](std::size_t i) { tried[i] = prove(bench, monitored, open, out.defects[i]); });
+  for (auto& done : tried) {
+    if (!done) return std::unexpected(done.error());
+  }
   out.unproven = without_proof(judged, out.defects);
   std::set<std::string> proven;
   for (const auto& defect : out.defects) proven.insert(defect.proves.begin(), defect.proves.end());
