@@ -7,10 +7,10 @@
 #include <set>
 #include <string>
 
+#include "base/in_parallel.hpp"
 #include "can/simulated_bus.hpp"
 #include "cli/proof/blame.hpp"
 #include "cli/proof/verdicts.hpp"
-#include "cli/proof/workers.hpp"
 #include "defects/defect.hpp"
 #include "node/node.hpp"
 
