@@ -28,6 +28,8 @@ Attribution::Attribution(const monitor::Facts& facts) : watch_(facts, rules_of_a
 void Attribution::follow(std::span<const can::CapturedFrame> frames) {
   for (; seen_ < frames.size(); ++seen_) {
     watch_.on_frame(frames[seen_], seen_);
+    if (watch_.counted() == counted_) continue;
+    counted_ = watch_.counted();
     for (std::size_t i = 0; i < violated_.size(); ++i) {
       const auto& one = *watch_.monitors()[i];
       for (std::size_t j = 0; j < violated_[i].size(); ++j) {

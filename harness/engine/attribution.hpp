@@ -34,6 +34,7 @@ class Attribution {
  private:
   monitor::Watch watch_;
   std::size_t seen_ = 0;
+  std::size_t counted_ = 0;                         ///< violations, as last looked at
   std::vector<std::vector<std::size_t>> violated_;  ///< per monitor and requirement, as last looked at
   std::map<std::size_t, std::vector<std::string>> broken_;  ///< by capture index
 };

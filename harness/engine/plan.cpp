@@ -74,6 +74,8 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
   std::vector<PlannedCase> out;
   for (const auto& file : suite.files) {
     for (const auto& scenario : file.scenarios) {
+      // Before its objects are looked for: of a few rules most scenarios decide none.
+      if (!options.selection.takes_any_of(scenario, catalogue)) continue;
       for (auto& planned : expand(scenario, dictionary, options)) {
         if (!options.selection.takes(scenario, planned.instance, catalogue)) continue;
         if (scenario.risk > options.allowed) {

@@ -78,6 +78,8 @@ class Monitor {
   [[nodiscard]] const Rule& rule() const { return rule_; }
   [[nodiscard]] const std::vector<Tally>& tallies() const { return tallies_; }
   [[nodiscard]] const std::vector<Violation>& violations() const { return violations_; }
+  /// How many there have been, the ones that are not kept included.
+  [[nodiscard]] std::size_t counted() const { return counted_; }
 
  protected:
   /// What can only be said when all has been seen.
@@ -92,12 +94,14 @@ class Monitor {
   /// True: tell() the violation. False: it is counted only.
   [[nodiscard]] bool bad(std::size_t requirement) {
     auto& tally = tallies_[requirement];
+    ++counted_;
     ++tally.judged;
     return ++tally.violated - tally.if_alone <= most_kept;
   }
   /// The same of a frame that may be another node's, if there is one. True: tell() it with `if_alone`.
   [[nodiscard]] bool bad_if_alone(std::size_t requirement) {
     auto& tally = tallies_[requirement];
+    ++counted_;
     ++tally.judged;
     ++tally.violated;
     return ++tally.if_alone <= most_kept;
@@ -123,6 +127,7 @@ class Monitor {
   const Rule& rule_;
   std::vector<Tally> tallies_;
   std::vector<Violation> violations_;
+  std::size_t counted_ = 0;
   bool waits_ = false;  ///< some silence waits for a sign of life
 };
 

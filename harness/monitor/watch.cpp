@@ -123,7 +123,11 @@ Watch::Watch(const Facts& facts, std::span<const Rule* const> chosen) : follower
 void Watch::on_frame(const can::CapturedFrame& captured, std::size_t index) {
   const auto& seen = follower_.follow(captured, index);
   if (seen.subject == Observation::Subject::other) return;
-  for (auto* monitor : concerned_[static_cast<std::size_t>(seen.subject)]) monitor->on_frame(seen, follower_);
+  for (auto* monitor : concerned_[static_cast<std::size_t>(seen.subject)]) {
+    const auto before = monitor->counted();
+    monitor->on_frame(seen, follower_);
+    counted_ += monitor->counted() - before;
+  }
   if (seen.from_device()) {
     for (const auto& monitor : monitors_) monitor->alive();
   }
@@ -132,7 +136,11 @@ void Watch::on_frame(const can::CapturedFrame& captured, std::size_t index) {
 
 void Watch::on_loss() {
   follower_.lose_track();
-  for (const auto& monitor : monitors_) monitor->on_loss();
+  for (const auto& monitor : monitors_) {
+    const auto before = monitor->counted();
+    monitor->on_loss();
+    counted_ += monitor->counted() - before;
+  }
 }
 
 void Watch::end() {

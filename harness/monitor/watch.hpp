@@ -38,10 +38,13 @@ class Watch {
   /// No frame follows.
   void end();
   [[nodiscard]] const std::vector<std::unique_ptr<Monitor>>& monitors() const { return monitors_; }
+  /// How many violations all of them have counted so far.
+  [[nodiscard]] std::size_t counted() const { return counted_; }
 
  private:
   Follower follower_;
   std::vector<std::unique_ptr<Monitor>> monitors_;
+  std::size_t counted_ = 0;
   std::array<std::vector<Monitor*>, Observation::subjects> concerned_;  ///< by the subject of a frame
 };
 

@@ -113,10 +113,13 @@ Result<void> Catalogue::add_folder(const std::string& folder, const std::string&
                                    std::vector<std::string>& problems, bool colour) {
   auto files = yaml_files_below(folder, "requirements");
   if (!files) return std::unexpected(files.error());
-  for (const auto& below : *files) {
-    const auto file = prefix + below;
+  std::vector<yaml::NamedFile> named;
+  for (const auto& below : *files) named.push_back({.path = folder + "/" + below, .name = prefix + below});
+  auto documents = yaml::load_files(named);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    const auto& file = named[i].name;
     const auto first_of_file = requirements_.size();
-    auto document = yaml::load_file(folder + "/" + below, file);
+    auto& document = documents[i];
     if (!document) return std::unexpected(document.error());
     auto& diagnostics = document->diagnostics;
     if (document->root) {
@@ -131,7 +134,7 @@ Result<void> Catalogue::add_folder(const std::string& folder, const std::string&
           diagnostics.error({requirement.line, 1}, 1, "requirement id '" + name + "' is given twice",
                             "also in " + other.file + ":" + std::to_string(other.line));
         }
-        requirement.path = folder + "/" + below;
+        requirement.path = named[i].path;
         requirements_.push_back(std::move(requirement));
       }
     }

@@ -293,10 +293,16 @@ Result<Suite> load_suite(const std::string& root, const std::vector<std::string>
 
 Result<void> add_to_suite(Suite& suite, const Folder& folder, const std::vector<std::string>& files,
                           const Catalogue& catalogue, bool colour) {
+  std::vector<yaml::NamedFile> named;
   for (const auto& file : files) {
-    const auto path = file.starts_with('/') || folder.path.empty() ? file : folder.path + "/" + file;
-    const auto shown = folder.shown.empty() ? file : folder.shown + "/" + file;
-    auto document = yaml::load_file(path, shown);
+    named.push_back({.path = file.starts_with('/') || folder.path.empty() ? file : folder.path + "/" + file,
+                     .name = folder.shown.empty() ? file : folder.shown + "/" + file});
+  }
+  auto documents = yaml::load_files(named);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& file = files[i];
+    const auto& shown = named[i].name;
+    auto& document = documents[i];
     if (!document) return std::unexpected(document.error());
     if (document->root) {
       auto loaded = load_scenarios(*document->root, document->diagnostics, file, catalogue);

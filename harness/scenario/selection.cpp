@@ -45,6 +45,10 @@ bool Selection::takes(const Scenario& scenario, std::string_view instance, const
   return wants_one_of(scenario.requirements, catalogue);
 }
 
+bool Selection::takes_any_of(const Scenario& scenario, const Catalogue& catalogue) const {
+  return wants_one_of(scenario.requirements, catalogue);
+}
+
 bool Selection::takes_monitor(std::string_view id, const std::vector<std::string>& decides,
                               const Catalogue& catalogue) const {
   const auto hit = [id](const std::string& pattern) { return matches_pattern(pattern, id); };

@@ -20,6 +20,8 @@ struct Selection {
 
   [[nodiscard]] bool takes(const Scenario& scenario, std::string_view instance,
                            const Catalogue& catalogue) const;
+  /// False: takes() is false for every instance of the scenario.
+  [[nodiscard]] bool takes_any_of(const Scenario& scenario, const Catalogue& catalogue) const;
   /// Monitors ("monitor/sdo-toggle") watch whatever runs: patterns choose among them only when one is about
   /// them.
   [[nodiscard]] bool takes_monitor(std::string_view id, const std::vector<std::string>& decides,

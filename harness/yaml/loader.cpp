@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 
 #include "base/check.hpp"
 #include "base/files.hpp"
+#include "base/in_parallel.hpp"
 #include "base/text.hpp"
 #include "yaml/syntax_error.hpp"
 #include "yaml/text_check.hpp"
@@ -377,6 +379,15 @@ Result<Document> load_file(const std::string& path, std::string name) {
   Document document{.source = *source, .diagnostics = Diagnostics(*source), .root = std::nullopt};
   document.root = load(*document.source, document.diagnostics);
   return document;
+}
+
+std::vector<Result<Document>> load_files(const std::vector<NamedFile>& files) {
+  std::vector<std::optional<Result<Document>>> loaded(files.size());
+  in_parallel(files.size(), 0,
+              [&](std::size_t i) { loaded[i].emplace(load_file(files[i].path, files[i].name)); });
+  std::vector<Result<Document>> out;
+  for (auto& each : loaded) out.push_back(std::move(*each));
+  return out;
 }
 
 }  // namespace conform::yaml

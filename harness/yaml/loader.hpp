@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "yaml/diagnostic.hpp"
@@ -37,6 +38,13 @@ struct Document {
 
 /// read_source() and load(). The Error is about the file as a whole; what is in it is in `diagnostics`.
 [[nodiscard]] Result<Document> load_file(const std::string& path, std::string name = {});
+
+/// Such a file and what messages call it; an empty name means `path`.
+struct NamedFile {
+  std::string path, name;
+};
+/// The same for many, which are read on all cores.
+[[nodiscard]] std::vector<Result<Document>> load_files(const std::vector<NamedFile>& files);
 
 /// Reports a plain scalar on which YAML readers disagree (yes, 010, 12:30, 2.10, ...); true when it is
 /// harmless. load() has applied it to every key and value.

@@ -55,6 +55,14 @@ Change unlocks_lowest_bit(std::uint16_t index, std::uint8_t sub) {
   });
 }
 
+/// The restricted ranges above those of the PDOs are taken to begin and to end one CAN-ID further out.
+Change restricts_neighbours(CobIdPart part) {
+  return decides(part, &CobIdRules::restricted, [](const auto& former, std::uint32_t id) {
+    constexpr std::uint32_t behind_pdos = 0x580;
+    return former(id) || (id >= behind_pdos && (former(id - 1) || former(id + 1)));
+  });
+}
+
 }  // namespace
 
 DefectTable cob_id_defects() {
@@ -236,6 +244,17 @@ DefectTable cob_id_defects() {
        "1400h:01 accepts restricted CAN-IDs",
        {"CAN-RID-04", "OD-CID-03"},
        decided(of_rpdo, &CobIdRules::restricted, false)},
+      {"1400-neighbours-of-restricted-ids-refused",
+       "1400h:01 refuses the CAN-IDs next to restricted ones",
+       {"CAN-RID-07"},
+       restricts_neighbours(of_rpdo)},
+      {"1400-bit30-refused",
+       "1400h:01 refuses a change of bit 30 with 0601 0000h",
+       {"OD-1400-14"},
+       refuses(0x1400, 1, wrong,
+               [](std::uint64_t present, std::uint64_t wanted) {
+                 return ((present ^ wanted) & 0x40000000U) != 0;
+               })},
       {"rpdo1-default-without-node-id",
        "The default of 1400h:01 lacks the node-ID",
        {"OD-1400-04", "PDO-DEF-01"},
@@ -288,6 +307,10 @@ DefectTable cob_id_defects() {
        "Remote frames are answered with bit 30 set and not without",
        {"OD-1800-14", "PDO-TX-21", "PDO-TX-19"},
        inverted(of_tpdo, &CobIdRules::remote_allowed)},
+      {"1800-neighbours-of-restricted-ids-refused",
+       "1800h:01 refuses the CAN-IDs next to restricted ones",
+       {"CAN-RID-07"},
+       restricts_neighbours(of_tpdo)},
       {"tpdo1-default-without-node-id",
        "The default of 1800h:01 lacks the node-ID",
        {"OD-1800-04", "PDO-DEF-02"},

@@ -125,6 +125,15 @@ DefectTable identity_rows() {
        "The vendor-ID is not that of the device description",
        {"OD-1018-08"},
        preset(0x1018, 1, 0x00005AFF)},
+      {"1018-serial-counts-resets",
+       "The serial number is another one after each reset",
+       {"OD-1018-09"},
+       Change([](Parts& parts) {
+         parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>&) {
+           ObjectDictionary& od = parts.device.dictionary;
+           if (context.service == Service::boot_up) od.set_number(0x1018, 4, od.number(0x1018, 4) + 1);
+         });
+       })},
       {"1018-product-differs",
        "The product code is not that of the device description",
        {"OD-1018-08"},

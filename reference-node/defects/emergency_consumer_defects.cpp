@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the EMCY consumer (1028h).
+#include <vector>
+
 #include "defects/cob_ids.hpp"
 #include "defects/tools.hpp"
 
@@ -11,6 +13,21 @@ namespace {
 
 constexpr DataType u16 = DataType::unsigned16;
 constexpr DataType u32 = DataType::unsigned32;
+
+bool is_emergency_of_another(const Parts& parts, const Frame& frame) {
+  return frame.id > 0x80 && frame.id <= 0xFF && frame.id != 0x80U + parts.device.node_id && !frame.extended &&
+         !frame.remote;
+}
+
+/// Every EMCY that comes is sent again as one of this node.
+void passes_on(Parts& parts, std::vector<Frame>& frames) {
+  for (Frame frame : frames) {
+    if (!is_emergency_of_another(parts, frame)) continue;
+    frame.id = 0x80U + parts.device.node_id;
+    frame.dlc = 8;
+    parts.device.send(Service::emergency, frame);
+  }
+}
 
 }  // namespace
 
@@ -65,6 +82,10 @@ DefectTable emergency_consumer_defects() {
        "Writing 1028h:01 and 1028h:02 is confirmed and forgotten",
        {"OD-1028-07"},
        both(not_stored(0x1028, 1), not_stored(0x1028, 2))},
+      {"emcy-of-others-passed-on",
+       "An EMCY of another node is sent again as one of this node",
+       {"EMCY-CON-02"},
+       Reading(passes_on)},
       {"1028-const-writable",
        "1028h:04 can be written although it is constant",
        {"OD-1028-08", "OD-ACC-02"},

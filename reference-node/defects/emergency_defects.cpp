@@ -93,6 +93,32 @@ Change lost_while_inhibited() {
   };
 }
 
+void inhibits_with_zero(Parts& parts) {
+  const auto written = std::make_shared<bool>(false);
+  after_writing(0x1015, 0, [written](Parts& node, const std::function<void()>& former) {
+    *written = node.device.dictionary.number(0x1015, 0) == 0;
+    former();
+  })(parts);
+  parts.device.outbox.add_filter([written](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.service == Service::boot_up) *written = false;
+  });
+  parts.emergency.rules.inhibit_time.replace([written](const auto& former, std::int64_t value) -> Duration {
+    constexpr Duration left_over = std::chrono::milliseconds(400);
+    return *written && value == 0 ? left_over : former(value);
+  });
+}
+
+/// A remote frame with the CAN-ID of EMCY gets the present error register in an EMCY.
+void answers_remote_frames(Parts& parts, std::vector<Frame>& frames) {
+  const auto cob_id = static_cast<std::uint32_t>(parts.device.dictionary.number(0x1014, 0));
+  for (const Frame& frame : frames) {
+    if (!frame.remote || frame.extended || frame.id != cob_id) continue;
+    parts.device.send(Service::emergency,
+                      conform::can::data_frame(conform::CanId(cob_id),
+                                               {0, 0, parts.emergency.error_register(), 0, 0, 0, 0, 0}));
+  }
+}
+
 }  // namespace
 
 DefectTable emergency_defects() {
@@ -208,6 +234,14 @@ DefectTable emergency_defects() {
        "1015h counts in 10 us",
        {"OD-1015-03", "EMCY-INH-01"},
        inhibit_time([](std::int64_t value) -> Duration { return std::chrono::microseconds(value * 10); })},
+      {"1015-written-zero-inhibits",
+       "When 0 is written to 1015h an EMCY inhibits the next for 400 ms, until a reset",
+       {"EMCY-INH-02"},
+       Change(inhibits_with_zero)},
+      {"emcy-answers-remote-frame",
+       "A remote frame with the CAN-ID of EMCY is answered",
+       {"EMCY-COB-06"},
+       Reading(answers_remote_frames)},
       {"emcy-lost-while-inhibited",
        "Errors that come during the inhibit time of 1015h are never reported",
        {"EMCY-INH-01"},

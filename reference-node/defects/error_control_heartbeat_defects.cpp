@@ -112,6 +112,36 @@ void never_resolves(Parts& parts) {
   });
 }
 
+void longer_period_waits(Parts& parts) {
+  const auto waits = std::make_shared<bool>(false);
+  checking(0x1017, 0, [waits](Parts& node, const Check& former, ByteView bytes) {
+    const std::uint64_t present = node.device.dictionary.number(0x1017, 0);
+    *waits = present != 0 && conform::load_le(bytes) > present;
+    return former(bytes);
+  })(parts);
+  after_writing(0x1017, 0, [waits](Parts&, const Written& former) {
+    if (!*waits) former();
+  })(parts);
+}
+
+/// An NMT command begins the period anew, also one that changes nothing.
+void restarted_by_commands(Parts& parts, std::vector<Frame>& frames) {
+  for (const Frame& frame : frames) {
+    const bool command = frame.id == 0 && !frame.extended && !frame.remote && frame.size() == 2;
+    if (command && (frame.data[1] == 0 || frame.data[1] == parts.device.node_id)) parts.producer.on_boot_up();
+  }
+}
+
+/// The boot-up of a monitored node is an error of its own, and the node's heartbeat is missed all the same.
+void tells_boot_up_twice(Parts& parts, std::vector<Frame>& frames) {
+  for (const Frame& frame : frames) {
+    if (!is_heartbeat(frame) || frame.data[0] != 0 || !runs(parts, frame)) continue;
+    const ErrorCause restart{0x8130, ErrorSource::heartbeat, producer_of(frame)};
+    parts.device.errors.raise(restart, producer_of(frame));
+    parts.device.errors.clear(restart);
+  }
+}
+
 }  // namespace
 
 DefectTable error_control_heartbeat_defects() {
@@ -128,6 +158,14 @@ DefectTable error_control_heartbeat_defects() {
        "A change of 1017h takes effect with the next reset only",
        {"OD-1017-05", "OD-1017-07", "EC-HBP-02", "EC-HBP-03"},
        after_writing(0x1017, 0, [](Parts&, const Written&) {})},
+      {"1017-longer-period-needs-reset",
+       "A longer period in 1017h takes effect with the next reset only",
+       {"EC-HBP-03"},
+       Change(longer_period_waits)},
+      {"nmt-command-restarts-heartbeat",
+       "Every NMT command begins the period of the heartbeat anew",
+       {"EC-HBP-10"},
+       Reading(restarted_by_commands)},
       {"1017-zero-does-not-stop",
        "Writing 0 to 1017h does not stop the heartbeat",
        {"OD-1017-06", "EC-HBP-04"},
@@ -277,6 +315,10 @@ DefectTable error_control_heartbeat_defects() {
        "Returning heartbeats do not end the error",
        {"EC-HBC-07", "OD-1001-06", "EMCY-SEQ-02"},
        Change(never_resolves)},
+      {"hbc-boot-up-told-twice",
+       "The boot-up of a monitored node is reported, and the loss of its heartbeat as well",
+       {"EC-HBC-12"},
+       Reading(tells_boot_up_twice)},
       {"hbc-node-id-not-checked",
        "Heartbeats of any node feed the monitoring",
        {"EC-HBC-09"},

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <deque>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include "defects/hooks.hpp"
@@ -116,6 +117,38 @@ Reading loses_commands_under_load() {
   };
 }
 
+/// Of the resets communication since the last reset node.
+void starts_up_slowly_at_the_tenth(Parts& parts) {
+  const auto resets = std::make_shared<int>(0);
+  parts.nmt.rules.start_up_time.replace([resets](const auto& former, Reset reset) -> Duration {
+    constexpr Duration more = std::chrono::milliseconds(2000);
+    *resets = reset == Reset::node ? 0 : *resets + 1;
+    return *resets == 10 ? former(reset) + more : former(reset);
+  });
+}
+
+/// Of commands back to back no more than two are kept.
+Reading keeps_two_commands() {
+  return [taken = std::deque<BusTime>()](Parts& parts, std::vector<Frame>& frames) mutable {
+    constexpr Duration until_obeyed = std::chrono::milliseconds(5);
+    constexpr std::size_t most = 2;
+    std::erase_if(taken, [&](BusTime at) { return parts.device.now - at >= until_obeyed; });
+    if (std::ranges::none_of(frames, [](const Frame& frame) { return is_command(frame); })) return;
+    if (taken.size() < most) {
+      taken.push_back(parts.device.now);
+    } else {
+      std::erase_if(frames, [](const Frame& frame) { return is_command(frame); });
+    }
+  };
+}
+
+/// What comes on a CAN-ID for which `when` holds is a command, too.
+Change takes_for_command(bool (*when)(std::uint32_t id)) {
+  return misreads([when](Parts&, Frame& frame) {
+    if (!frame.extended && !frame.remote && frame.size() == 2 && when(frame.id)) frame.id = 0;
+  });
+}
+
 }  // namespace
 
 DefectTable nmt_defects() {
@@ -154,6 +187,10 @@ DefectTable nmt_defects() {
        "A reset command during start-up ends the start-up for good",
        {"NMT-BOOT-09"},
        Change(hangs_when_reset_during_start_up)},
+      {"tenth-start-up-slow",
+       "The tenth reset communication after a reset node takes 2 s",
+       {"NMT-BOOT-08"},
+       Change(starts_up_slowly_at_the_tenth)},
       {"restarts-by-itself",
        "The node restarts every 20 s",
        {"NMT-BOOT-10"},
@@ -269,6 +306,18 @@ DefectTable nmt_defects() {
        "Commands that follow 24 other frames within 50 ms are lost",
        {"NMT-FSA-28"},
        loses_commands_under_load()},
+      {"nmt-queue-too-short",
+       "Of commands back to back only the first two are obeyed",
+       {"NMT-FSA-20"},
+       keeps_two_commands()},
+      {"nmt-can-id-cut-to-8-bits",
+       "Only the lower eight bits of the CAN-ID say whether a frame is a command",
+       {"NMT-FSA-27"},
+       takes_for_command([](std::uint32_t id) { return (id & 0xFFU) == 0; })},
+      {"nmt-can-id-bit-0-masked",
+       "Commands are taken from CAN-ID 001h as well",
+       {"NMT-FSA-27"},
+       takes_for_command([](std::uint32_t id) { return id == 1; })},
       {"time-consumed-in-stopped",
        "TIME is taken in Stopped",
        {"NMT-SVC-03"},

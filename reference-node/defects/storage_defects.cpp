@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of storing (1010h) and restoring (1011h) parameters.
 #include <algorithm>
+#include <chrono>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
@@ -99,6 +105,55 @@ Change defaults_at_once() {
   });
 }
 
+/// Half a signature is confirmed like a whole one.
+Filter confirms_half_a_signature(std::uint16_t index) {
+  return [index](const FilterContext& context, std::vector<Outgoing>& frames) {
+    const SdoExchange* sdo = context.sdo;
+    if (sdo == nullptr || sdo->index() != index || sdo->step != SdoStep::download_initiate) return;
+    if (sdo->aborted != abort_code::length_too_low) return;
+    for (Outgoing& outgoing : frames) {
+      outgoing.frame.data[0] = 0x60;
+      std::ranges::fill(std::span(outgoing.frame.data).subspan(4), std::uint8_t{0});
+    }
+  };
+}
+
+/// The memory needs some time after the confirmation, and a reset before that leaves nothing of what was
+/// stored.
+void confirms_before_it_has_stored(Parts& parts) {
+  struct Memory {
+    std::optional<BusTime> begun;
+    bool lost = false;
+  };
+  const auto memory = std::make_shared<Memory>();
+  checking_all(0x1010, [memory](Parts& node, const Check& former, std::uint8_t, ByteView bytes) {
+    Accepted stored = former(bytes);
+    if (stored) *memory = {node.device.now, false};
+    return stored;
+  })(parts);
+  parts.store.rules.stored_values.replace(
+      [memory, &parts](const auto& former, const Images& images, Group group) {
+        constexpr Duration needed = std::chrono::milliseconds(30);
+        if (memory->begun) memory->lost = parts.device.now - *memory->begun < needed;
+        memory->begun.reset();
+        return !memory->lost && former(images, group);
+      });
+}
+
+/// With the reset that makes the defaults valid 1014h loses the node-ID.
+void restores_without_node_id(Parts& parts) {
+  const auto restored = std::make_shared<bool>(false);
+  checking(0x1011, 1, [restored](Parts&, const Check& former, ByteView bytes) {
+    const Accepted done = former(bytes);
+    *restored = done.has_value();
+    return done;
+  })(parts);
+  parts.device.outbox.add_filter([restored, &parts](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.service == Service::boot_up && std::exchange(*restored, false))
+      parts.device.dictionary.set_number(0x1014, 0, 0x80);
+  });
+}
+
 }  // namespace
 
 DefectTable storage_defects() {
@@ -165,6 +220,23 @@ DefectTable storage_defects() {
        {"OD-1010-10", "OD-RST-04", "STO-1010-04", "STO-1010-05", "STO-1010-13"},
        decides(of_power_on, &PowerOnRules::stored_values,
                [](const auto&, const Images&, Group) { return false; })},
+      {"1010-confirmed-before-it-has-stored",
+       "\"save\" is confirmed 30 ms before the parameters are stored, and a reset in between loses them",
+       {"OD-1010-15", "OD-1010-10", "OD-RST-04", "STO-1010-13"},
+       Change(confirms_before_it_has_stored)},
+      {"1010-half-a-signature-confirmed",
+       "1010h confirms a signature of two bytes",
+       {"OD-1010-20"},
+       confirms_half_a_signature(0x1010)},
+      {"1010-sub2-is-u16", "1010h:02 has two bytes", {"OD-1010-05"}, type(0x1010, 2, DataType::unsigned16)},
+      {"1010-no-response-in-operational",
+       "\"save\" gets no answer in Operational",
+       {"STO-1010-12"},
+       Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+         const SdoExchange* sdo = context.sdo;
+         if (sdo == nullptr || sdo->index() != 0x1010 || context.state != NmtState::operational) return;
+         if (sdo->step == SdoStep::download_initiate && !sdo->aborted) frames.clear();
+       })},
       {"1010-sub2-saves-nothing",
        "1010h:02 confirms without storing",
        {"OD-1010-11", "STO-1010-07"},
@@ -251,6 +323,15 @@ DefectTable storage_defects() {
        "\"load\" makes the defaults valid at once",
        {"OD-1011-11", "STO-1011-04"},
        defaults_at_once()},
+      {"1011-half-a-signature-confirmed",
+       "1011h confirms a signature of two bytes",
+       {"OD-1011-17"},
+       confirms_half_a_signature(0x1011)},
+      {"1011-sub2-is-u16", "1011h:02 has two bytes", {"OD-1011-05"}, type(0x1011, 2, DataType::unsigned16)},
+      {"1011-cob-id-without-node-id",
+       "After \"load\" and a reset 1014h is 80h, without the node-ID",
+       {"STO-1011-09"},
+       Change(restores_without_node_id)},
       {"1011-sub2-without-effect",
        "1011h:02 confirms without restoring",
        {"OD-1011-12", "STO-1011-05"},

@@ -145,6 +145,4 @@ void TransmitPdo::on_time() {
   }
 }
 
-std::optional<BusTime> TransmitPdo::next_wakeup() const { return earliest({timer_, inhibited_until_}); }
-
 }  // namespace refnode

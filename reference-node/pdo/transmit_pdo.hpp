@@ -72,7 +72,11 @@ class TransmitPdo {
   bool on_remote(const Frame& frame);
   void on_state_change();
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const {
+    auto first = timer_;
+    keep_earlier(first, inhibited_until_);
+    return first;
+  }
 
  private:
   [[nodiscard]] Bytes content() const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects that a device need not have: identity, names, descriptions, operating system, modules.
+#include <algorithm>
 #include <initializer_list>
+#include <string_view>
 #include <vector>
 
 #include "variants/tools.hpp"
@@ -34,6 +36,18 @@ void no_modules(Parts& parts) {
 void empty_description(Parts& parts) {
   if (Entry* entry = parts.device.dictionary.entry(0x1021, 0))
     entry->read = []() -> Upload { return refuse(abort_code::no_data); };
+}
+
+/// Only the head of the description: of the standard objects.
+void short_description(Parts& parts) {
+  Entry* entry = parts.device.dictionary.entry(0x1021, 0);
+  if (entry == nullptr) return;
+  entry->read = [whole = entry->read]() -> Upload {
+    Upload text = whole();
+    constexpr std::string_view next = "[ManufacturerObjects]";
+    if (text) text->erase(std::ranges::search(*text, next).begin(), text->end());
+    return text;
+  };
 }
 
 /// The prompt reads as 00h when there is nothing to read.
@@ -102,6 +116,8 @@ VariantTable objects_variants() {
       {"1021-absent", "no device description inside", "7.5.2.24: optional", absent({0x1021, 0x1022}), "1021"},
       {"1021-empty", "no device description has been stored yet", "OD-1021-01: an empty store",
        empty_description, "1021"},
+      {"1021-short", "the device description inside tells of the standard objects alone",
+       "OD-1021-01: what it says is the maker's", short_description, "1021"},
       {"1022-own-format", "the device description in a format of the manufacturer", "OD-1022-02: 80h to FFh",
        preset(0x1022, 0, 0x80)},
       {"os-absent", "no operating system", "7.5.2.26 to 7.5.2.29: optional",

@@ -24,6 +24,10 @@ std::string markdown(const KillMatrix& matrix) {
     out += fmt::format("| `{}` | {} | {} |\n", defect.id, defect.summary,
                        defect.proves.empty() ? "**nothing**" : join(defect.proves, ", "));
   }
+  if (matrix.unproven.empty()) {
+    out += "\n## Unproven requirements (0)\n\nA defect proves each requirement that the suite judges.\n";
+    return out;
+  }
   out += fmt::format(
       "\n## Unproven requirements ({})\n\nJudged by the suite, but no defect proves the judgement yet:\n\n",
       matrix.unproven.size());

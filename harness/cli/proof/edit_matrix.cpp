@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/proof/edit_matrix.hpp"
+#include "base/in_parallel.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -7,7 +8,6 @@
 #include <utility>
 
 #include "cli/proof/verdicts.hpp"
-#include "cli/proof/workers.hpp"
 #include "defects/edits.hpp"
 #include "node/node.hpp"
 

@@ -2,14 +2,15 @@
 #include "cli/proof/selftest.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "base/in_parallel.hpp"
 #include "can/simulated_bus.hpp"
 #include "cli/proof/blame.hpp"
 #include "cli/proof/verdicts.hpp"
-#include "cli/proof/workers.hpp"
 #include "defects/defect.hpp"
 #include "node/node.hpp"
 
@@ -81,9 +82,7 @@ Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::
   return {};
 }
 
-/// `monitored`: judged by a monitor, so that any frame of any scenario may show a violation.
-Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>& monitored,
-                                 const refnode::Defect& row, bool whole) {
+Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
   DefectVerdict defect;
   defect.id = row.id;
   defect.summary = row.summary;
@@ -103,11 +102,8 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>
       if (auto done = expose(bench, defect, defect.violates, slow); !done)
         return std::unexpected(done.error());
     }
-    // What one scenario leaves behind may show in the next, and a monitor may need the traffic of scenarios
-    // that judge something else.
-    whole = defect.killed_by.empty() || std::ranges::any_of(defect.violates, [&](const std::string& id) {
-              return monitored.contains(id) && std::ranges::find(defect.proves, id) == defect.proves.end();
-            });
+    // What one scenario leaves behind may show in the next.
+    whole = defect.killed_by.empty();
   }
   for (const bool slow : {false, true}) {
     if (!whole || (slow && !defect.killed_by.empty())) break;
@@ -115,6 +111,34 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const std::set<std::string>
   }
   std::ranges::sort(defect.proves);
   return defect;
+}
+
+/// Tries again what no defect has proven. A rule may have stood behind another one of the same defect, which
+/// ended its cases: it is judged alone. A monitor may need the traffic of scenarios that judge something
+/// else.
+Result<void> prove(const Bench& bench, const std::set<std::string>& monitored,
+                   const std::vector<std::string>& unproven, DefectVerdict& defect) {
+  for (const auto& rule : defect.violates) {
+    if (!std::ranges::binary_search(unproven, rule)) continue;
+    const auto proven = [&] { return std::ranges::find(defect.proves, rule) != defect.proves.end(); };
+    for (const bool slow : {false, true}) {
+      if (proven()) break;
+      if (auto done = expose(bench, defect, {rule}, slow); !done) return done;
+    }
+    if (proven() || !monitored.contains(rule)) continue;
+    if (auto done = expose(bench, defect, {}, false); !done) return done;
+  }
+  std::ranges::sort(defect.proves);
+  return {};
+}
+
+std::vector<std::string> without_proof(const std::set<std::string>& judged,
+                                       const std::vector<DefectVerdict>& defects) {
+  std::set<std::string> proven;
+  for (const auto& defect : defects) proven.insert(defect.proves.begin(), defect.proves.end());
+  std::vector<std::string> out;
+  std::ranges::set_difference(judged, proven, std::back_inserter(out));
+  return out;
 }
 
 }  // namespace
@@ -126,7 +150,7 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   if (!conformant) return std::unexpected(conformant.error());
   out.conformant = std::move(conformant->result);
   const auto good = verdicts_of(out.conformant);
-  std::set<std::string> proven, judged, monitored;
+  std::set<std::string> judged, monitored;  // by a monitor: any frame of any scenario may show a violation
   for (const auto& [key, verdict] : good) {
     if (verdict == Verdict::not_applicable) continue;
     judged.insert(key.first);
@@ -140,9 +164,8 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   }
   // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
   std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
-  in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
-    verdicts[i].emplace(verdict_of(bench, monitored, *rows[i], options.whole));
-  });
+  in_parallel(rows.size(), options.jobs,
+              [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole)); });
   std::vector<std::optional<Result<Blame>>> blames(options.blame ? rows.size() : 0);
   in_parallel(blames.size(), options.jobs, [&](std::size_t i) {
     blames[i].emplace(*verdicts[i] ? blame_of(std::string(rows[i]->id), (**verdicts[i]).violates, bench)
@@ -162,10 +185,18 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   }
   for (auto& verdict : verdicts) {
     if (!*verdict) return std::unexpected(verdict->error());
-    proven.insert((*verdict)->proves.begin(), (*verdict)->proves.end());
     out.defects.push_back(std::move(**verdict));
   }
-  std::ranges::set_difference(judged, proven, std::back_inserter(out.unproven));
+  const auto open = without_proof(judged, out.defects);
+  std::vector<Result<void>> tried(out.defects.size());
+  in_parallel(out.defects.size(), options.jobs,
+              [&](std::size_t i) { tried[i] = prove(bench, monitored, open, out.defects[i]); });
+  for (auto& done : tried) {
+    if (!done) return std::unexpected(done.error());
+  }
+  out.unproven = without_proof(judged, out.defects);
+  std::set<std::string> proven;
+  for (const auto& defect : out.defects) proven.insert(defect.proves.begin(), defect.proves.end());
   out.proven.assign(proven.begin(), proven.end());
   return out;
 }

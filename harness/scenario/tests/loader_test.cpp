@@ -152,6 +152,8 @@ TEST_CASE("A selection joins patterns, requirements and exclusions") {
   CHECK_FALSE(takes({{}, {}, {"cia301/nmt"}}));
   CHECK(takes({{}, {}, {"*[02h]"}}, "01h"));
   CHECK_FALSE(takes({{}, {}, {"*[02h]"}}, "02h"));
+  CHECK(Selection{{}, {"RULE-*"}, {}}.takes_any_of(one, known));
+  CHECK_FALSE(Selection{{}, {"RULE-02"}, {}}.takes_any_of(one, known));
 }
 
 }  // namespace

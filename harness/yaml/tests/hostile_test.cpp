@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -156,6 +157,26 @@ TEST_CASE("Mistakes inside a file are no error of the file") {
   REQUIRE(document);
   CHECK_FALSE(document->root);
   CHECK(document->diagnostics.has_errors());
+}
+
+TEST_CASE("Many files come back in their order, each with its own mistakes") {
+  const Folder folder;
+  std::vector<NamedFile> files;
+  for (int i = 0; i < 40; ++i) {
+    const auto name = std::to_string(i) + ".yaml";
+    files.push_back({folder.write(name, i == 7 ? "a: [\n" : "a: " + std::to_string(i) + "\n"), name});
+  }
+  files[9].path = (folder.path / "missing.yaml").string();
+  const auto documents = load_files(files);
+  REQUIRE(documents.size() == files.size());
+  for (std::size_t i = 0; i < documents.size(); ++i) {
+    INFO(i);
+    CHECK(documents[i].has_value() == (i != 9));
+    if (!documents[i]) continue;
+    CHECK(documents[i]->source->name() == files[i].name);
+    CHECK(documents[i]->diagnostics.has_errors() == (i == 7));
+    if (i != 7) CHECK(documents[i]->root->find("a")->text() == std::to_string(i));
+  }
 }
 
 TEST_CASE("What is no regular file, or too large a one, is refused at once") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many independent runs on all cores.
+// Many independent pieces of work on all cores.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace conform::cli {
+namespace conform {
 
 /// Calls work(0) to work(count - 1), each once, on `jobs` threads (0: as many as the machine has cores).
 /// Every call must have all it changes to itself.
@@ -17,11 +17,12 @@ inline void in_parallel(std::size_t count, unsigned jobs, const std::function<vo
   std::atomic<std::size_t> next = 0;
   std::vector<std::jthread> workers;
   if (jobs == 0) jobs = std::max(1U, std::thread::hardware_concurrency());
-  for (unsigned job = 0; job < jobs; ++job) {
-    workers.emplace_back([&] {
-      for (auto i = next++; i < count; i = next++) work(i);
-    });
-  }
+  const auto take = [&] {
+    for (auto i = next++; i < count; i = next++) work(i);
+  };
+  // The caller is one of them, and the only one where there is little to do.
+  for (std::size_t job = 1; job < std::min<std::size_t>(jobs, count); ++job) workers.emplace_back(take);
+  take();
 }
 
-}  // namespace conform::cli
+}  // namespace conform
