@@ -39,7 +39,8 @@ Result<void> enter_pre_operational(RunContext& run) {
   auto& session = run.session;
   if (!session.take_state_changed()) return {};
   // A device that is still booting would not hear the command, nor answer what comes next.
-  if (const auto reset = session.take_reset()) {
+  const auto reset = session.take_reset();
+  if (reset) {
     auto booted = run.recorder.find(*reset + 1, is_boot_up_of(run.profile.node),
                                     run.recorder.capture().frames()[*reset].time + run.profile.boot_time);
     if (!booted) return std::unexpected(booted.error());
@@ -47,8 +48,9 @@ Result<void> enter_pre_operational(RunContext& run) {
   auto sent = session.command(canopen::NmtCommand::pre_operational);
   if (!sent) return sent;
   (void)session.take_state_changed();
-  // T_NMT, or until a heartbeat shows the state.
-  return session.await_state();
+  // What follows a boot-up, an EMCY 0000h perhaps, is not to come into the case: a heartbeat that shows the
+  // state ends the wait for T_NMT behind other commands only.
+  return reset ? session.wait_until(session.now() + run.profile.nmt_time) : session.await_state();
 }
 
 Result<bool> reset(RunContext& run, canopen::NmtCommand command) {

@@ -122,6 +122,20 @@ TEST_CASE("a case begins as soon as a heartbeat shows Pre-operational, and after
   CHECK(pause(150ms) >= 100ms);
 }
 
+TEST_CASE("behind a reset a case begins after T_NMT, whatever a heartbeat shows") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  Teller teller(20ms);
+  bus.attach(teller, "heartbeats of the device");
+  const auto out = play(bus, device, fresh_case("a", "node"));
+  std::optional<BusTime> booted;
+  for (const auto& captured : out.capture.frames()) {
+    if (captured.frame.is_data(CanId(0x701)) && captured.frame.data[0] == 0x00) booted = captured.time;
+  }
+  REQUIRE(booted);
+  CHECK(out.only().begin - *booted >= 100ms);
+}
+
 TEST_CASE("in Stopped nobody is asked for an old value that is known") {
   ScriptedDevice device;
   std::vector<std::uint8_t> asked_in_stopped;
