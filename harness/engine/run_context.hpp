@@ -2,6 +2,7 @@
 // What all phases of a run share: what was asked for, the device, the bus, and the result so far.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,6 +40,12 @@ struct RunContext {
   RunSession session;
   Attribution attribution;
   result::RunResult out;
+  /// The latest reset of the engine itself that ended with a boot-up message.
+  struct Reset {
+    std::size_t boot_up;  ///< capture index
+    bool of_node;
+  };
+  std::optional<Reset> latest_reset;
 
   [[nodiscard]] bool may(scenario::Risk risk) const { return risk <= options.plan.allowed; }
   /// For the summary.

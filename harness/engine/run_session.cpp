@@ -95,6 +95,9 @@ Result<void> RunSession::will_change(Multiplexer object) {
   if (found == nullptr && (program || channel_.is_open())) return {};
   // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
   if (channel_.is_open() && before_write_.contains(object)) return {};
+  // In Stopped nobody answers (CiA 301, 7.3.2.2.4): a look would be waited for in vain, and forget what is
+  // known.
+  if (stopped_ && before_write_.contains(object)) return {};
   auto before = peek(object);
   if (!before) return std::unexpected(before.error());
   if (before->kind != steps::SdoAnswer::Kind::confirmed) {
