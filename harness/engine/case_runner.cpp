@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
+#include "engine/walk_values.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {
@@ -196,9 +197,8 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
         values.push_back(steps::Value::of_object(object));
       continue;
     }
-    for (const auto& range : canopen::restricted_ranges()) {
-      for (auto id = range.first; id <= range.last; ++id) values.push_back(steps::Value::of_number(id));
-    }
+    for (const auto id : restricted_can_ids(session_.node(), session_.tries_all_objects()))
+      values.push_back(steps::Value::of_number(id));
   }
   if (values.empty()) {
     std::string what = "value for $" + walk.name;
