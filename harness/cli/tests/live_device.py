@@ -45,4 +45,4 @@ def command(*arguments):
 
 
 def run(*arguments):
-    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=1200)
+    return subprocess.run(command(*arguments), capture_output=True, text=True, timeout=700)
