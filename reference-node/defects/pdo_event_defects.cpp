@@ -63,10 +63,28 @@ Change sends_by_timer(std::uint8_t type) {
                  });
 }
 
+/// The end of the inhibit time sends the TPDO again.
+void end_of_inhibit_time_is_an_event(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo || frames.empty()) return;
+    const Outgoing sent = frames.front();
+    for (std::uint16_t index = 0x1800; index < 0x1A00; ++index) {
+      const ObjectDictionary& od = parts.device.dictionary;
+      const bool its = (od.number(index, 1, 0x80000000) & 0x800007FFU) == sent.frame.id;
+      const microseconds inhibit(its ? static_cast<std::int64_t>(od.number(index, 3)) * 100 : 0);
+      if (inhibit > microseconds::zero()) frames.push_back({sent.frame, sent.delay + inhibit});
+    }
+  });
+}
+
 }  // namespace
 
 DefectTable pdo_event_defects() {
   return {
+      {"tpdo-sent-at-end-of-inhibit-time",
+       "The end of the inhibit time sends a TPDO again, without an event",
+       {"PDO-TX-09"},
+       Change(end_of_inhibit_time_is_an_event)},
       {"tpdo-type-ffh-never-on-change",
        "A change sends no TPDO of type FFh",
        {"PDO-TX-08"},
