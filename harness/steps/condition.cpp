@@ -199,6 +199,7 @@ Result<TreePtr> parse_atom(TokenReader& in) {
   static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
                                        {{"the", "write", "was", "refused"}, Kind::refused},
                                        {{"store", "fault", "is", "known"}, Kind::store_fault},
+                                       {{"power", "switch", "is", "known"}, Kind::power_switch},
                                        {{"block", "upload", "is", "offered"}, Kind::block_upload},
                                        {{"block", "download", "is", "offered"}, Kind::block_download},
                                        {{"all", "objects", "are", "tried"}, Kind::sweep},
@@ -338,6 +339,7 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
   if (node.kind == Kind::described) return facts.is_described();
   if (node.kind == Kind::refused) return facts.write_was_refused();
   if (node.kind == Kind::store_fault) return facts.store_fault_known();
+  if (node.kind == Kind::power_switch) return facts.power_switch_known();
   if (node.kind == Kind::block_upload) return facts.offers_block_transfer(true);
   if (node.kind == Kind::block_download) return facts.offers_block_transfer(false);
   if (node.kind == Kind::sweep) return facts.tries_all_objects();
@@ -453,6 +455,7 @@ std::vector<std::string_view> condition_forms() {
           "error trigger is known",
           "2 error triggers are known",
           "store fault is known",
+          "power switch is known",
           "factory defaults are active",
           "interface can send RTR",
           "device description is given",

@@ -53,6 +53,8 @@ class Facts : public Scope {
   [[nodiscard]] virtual Result<std::vector<device::ErrorTrigger>> error_triggers() = 0;
   /// Whether the profile says how storing is made to fail.
   [[nodiscard]] virtual bool store_fault_known() const { return false; }
+  /// Whether the power of the device can be switched without a hand.
+  [[nodiscard]] virtual bool power_switch_known() const { return false; }
   /// Whether nothing is stored in the device, so that the values after a reset are the defaults.
   [[nodiscard]] virtual bool factory_defaults() const { return false; }
   [[nodiscard]] virtual bool can_send_remote_frames() const = 0;

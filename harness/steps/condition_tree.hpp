@@ -31,6 +31,7 @@ struct Condition::Tree {
     sweep,
     alone,
     store_fault,
+    power_switch,
     block_upload,
     block_download,  // about device and bench
     equal,

@@ -202,6 +202,11 @@ Why about_bench(const Tree& node, Facts& facts, bool held) {
     case Kind::store_fault:
       return told("a store fault is known", "no way to make storing fail is known",
                   {{"profile", "store_fault: in the profile, if the device can simulate one"}});
+    case Kind::power_switch:
+      return told("the power of the device can be switched",
+                  "no way to switch the power of the device is known",
+                  {{"profile", "power_cycle: a command that switches the power of the device off and on, in "
+                               "the profile"}});
     case Kind::block_upload:
       return told("block upload is offered", "block upload is not offered" + behind(Asked::block_upload));
     case Kind::block_download:
@@ -222,7 +227,7 @@ bool is_free(const Tree& node) {
     return std::ranges::all_of(node.parts, [](const auto& part) { return is_free(*part); });
   return node.kind == Kind::feature || node.kind == Kind::triggers || node.kind == Kind::remote ||
          node.kind == Kind::factory || node.kind == Kind::described || node.kind == Kind::store_fault ||
-         node.kind == Kind::sweep;
+         node.kind == Kind::power_switch || node.kind == Kind::sweep;
 }
 
 /// The parts that decided: of 'A and B and C' the first false one, and those behind it that are false as well

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verbs of NMT and error control: commands, resets, boot-up, produced heartbeats.
+#include <algorithm>
+
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/nmt.hpp"
@@ -31,8 +33,9 @@ Result<Actual> await_boot_up(Session& session, const Window& window, Duration wi
   session.consume(**found);
   out.kind = Actual::Kind::matched;
   out.decisive = *found;
-  out.detail = "boot-up message after " +
-               to_string(std::chrono::round<std::chrono::microseconds>(captured.time - window.anchor));
+  // With its power the device may have started before the switch was done.
+  out.detail = "boot-up message after " + to_string(std::chrono::round<std::chrono::microseconds>(
+                                              std::max(Duration(0), captured.time - window.anchor)));
   return out;
 }
 
@@ -95,6 +98,22 @@ class Reset final : public Action {
 
  private:
   NmtCommand command_ = NmtCommand::reset_node;
+};
+
+class PowerCycle final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    if (!value.one_of({"once"})) return nullptr;
+    return std::make_unique<PowerCycle>();
+  }
+  Need need() const override { return {Tier::config, "switch the power of the device"}; }
+  std::string words(Session&) const override { return "power off and on, and wait for the boot-up message"; }
+  Channels rests_on() const override { return {channel::boot_up}; }
+  bool label_is_on_request() const override { return false; }
+  Result<Actual> run(Session& session) const override {
+    if (auto done = session.power_cycle(); !done) return std::unexpected(done.error());
+    return await_boot_up(session, session.window(), session.profile().boot_time);
+  }
 };
 
 class BootUp final : public Action {
@@ -248,6 +267,9 @@ constexpr Verb table[] = {
      "(word): start, stop, pre-operational, reset node, reset communication", "- nmt: start", &Nmt::parse},
     {"reset", "Reset the device and wait for its boot-up message.", "(word): node, communication",
      "- reset: communication", &Reset::parse},
+    {"power_cycle",
+     "Switch the power of the device off and on (power_cycle of the device profile) and wait for the boot-up message.",
+     "(word): once", "- power_cycle: once", &PowerCycle::parse},
     {"boot_up", "Wait for the boot-up message.",
      "within: time (default: boot time of the profile)\nexactly: once",
      "- nmt: reset node\n- boot_up: {within: $profile.boot_time, exactly: once}\n  checks: NMT-BOOT-01",

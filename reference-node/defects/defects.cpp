@@ -39,6 +39,7 @@ std::span<const Defect> defects() {
                                        error_control_monitoring_defects,
                                        cob_id_defects,
                                        storage_defects,
+                                       storage_memory_defects,
                                        pdo_receive_defects,
                                        pdo_transmit_defects,
                                        pdo_receive_traffic_defects,
