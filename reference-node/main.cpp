@@ -16,6 +16,7 @@
 #include "eds/read.hpp"
 #include "node/eds_text.hpp"
 #include "node/powered_node.hpp"
+#include "parts/parts.hpp"
 #include "storage/memory.hpp"
 #include "twin/twin.hpp"
 #include "variants/variant.hpp"
@@ -101,6 +102,7 @@ int main(int argc, char** argv) {
   std::string storage_file;
   std::string description_file;
   int node_id = 1;
+  std::uint32_t serial = 1;
   refnode::Options options;
   bool list = false;
   bool list_legal = false;
@@ -119,6 +121,7 @@ int main(int argc, char** argv) {
       "written is warned of");
   app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
   app.add_option("--variant", options.variants, "legal variant to switch on; may be repeated");
+  auto* serial_option = app.add_option("--serial", serial, "serial number, 1018h:04, instead of 1");
   app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
   app.add_flag("--list-defects", list, "print all defects and what they violate");
   app.add_flag("--list-variants", list_legal, "print all legal variants and why they are legal");
@@ -157,6 +160,12 @@ int main(int argc, char** argv) {
     auto storage = refnode::FileStorage::open(storage_file);
     if (!storage) return complain(storage.error(), exit_environment);
     options.storage = *storage;
+  }
+  if (!serial_option->empty()) {
+    options.adjust = [serial](refnode::Parts& parts) {
+      if (refnode::Entry* entry = parts.device.dictionary.entry(0x1018, 4))
+        entry->value = entry->default_value = conform::to_le(serial, 4);
+    };
   }
   std::string behaviour =
       options.defects.empty() ? "conformant" : "with " + conform::join(options.defects, ", ");

@@ -21,7 +21,7 @@ struct RunOptions {
   PlanOptions plan;
   bool strict = false;  ///< recommended and optional rules fail as well
   /// Takes the power of the device away and gives it back, where a scenario wants it, and when the device
-  /// does not come back by a reset. Empty: by hand only. An error ends the run.
+  /// does not come back by a reset. Empty: by hand only. Its error is none of the device.
   std::function<Result<void>()> power_cycle;
   /// false: only where a scenario wants it. A simulated device that is dead is to be seen so.
   bool power_revives = true;

@@ -51,6 +51,11 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
   [[nodiscard]] bool power_switch_known() const override { return static_cast<bool>(power_switch_); }
+  [[nodiscard]] bool is_told(std::string_view what) const override {
+    return what == "bit rates" ? !profile_.device_info.bit_rates.empty() : profile_.told(what).has_value();
+  }
+  [[nodiscard]] std::optional<std::uint32_t> bus_bit_rate() const override;
+  [[nodiscard]] bool bus_bit_rate_is_told() const override;
   /// What the run itself could not put back may come back with each reset where the device stores by itself.
   [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults && !left_changed_; }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }

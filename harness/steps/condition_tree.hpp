@@ -32,6 +32,9 @@ struct Condition::Tree {
     alone,
     store_fault,
     power_switch,
+    told,
+    bus_rate,
+    bus_rate_told,
     block_upload,
     block_download,  // about device and bench
     equal,

@@ -106,5 +106,6 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable lss_defects();
 [[nodiscard]] DefectTable pdo_traffic_defects();
 [[nodiscard]] DefectTable device_traffic_defects();
+[[nodiscard]] DefectTable device_load_defects();
 
 }  // namespace refnode

@@ -60,7 +60,8 @@ std::span<const Defect> defects() {
                                        objects_operating_system_defects,
                                        lss_defects,
                                        pdo_traffic_defects,
-                                       device_traffic_defects});
+                                       device_traffic_defects,
+                                       device_load_defects});
   return all;
 }
 

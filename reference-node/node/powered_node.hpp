@@ -3,7 +3,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "node/node.hpp"
 
@@ -16,7 +19,10 @@ class PoweredNode final : public conform::can::Participant {
   /// Fails as Node::create() does. Without `storage` the memory lives as long as this object.
   [[nodiscard]] static conform::Result<std::unique_ptr<PoweredNode>> create(Options options);
 
-  /// Power on. Attached once more it has been off in between.
+  /// How long the power is off: so long that nobody takes the start for a part of the one before.
+  static constexpr conform::Duration off_time = std::chrono::milliseconds(600);
+
+  /// Power on. Attached once more it has been off in between, and is for the off time from now on.
   void attach(Sender sender, conform::BusTime now) override;
   void on_frame(const conform::can::Frame& frame, conform::BusTime now) override;
   void on_transmitted(conform::BusTime now) override;
@@ -31,6 +37,7 @@ class PoweredNode final : public conform::can::Participant {
  private:
   PoweredNode(Options options, std::unique_ptr<Node> node)
       : options_(std::move(options)), node_(std::move(node)) {}
+  void switch_off(conform::BusTime now);
   void start(conform::BusTime now);
 
   static_assert(std::atomic<bool>::is_always_lock_free);
@@ -38,6 +45,7 @@ class PoweredNode final : public conform::can::Participant {
   std::unique_ptr<Node> node_;
   Sender sender_;
   bool was_on_ = false;
+  std::optional<conform::BusTime> on_at_;  ///< while the power is off: when it comes back
   std::atomic<bool> switch_wanted_{false};
 };
 

@@ -78,8 +78,8 @@ TEST_CASE("Conditions about device and bench are phrases") {
        {"device claims sync producer", "error trigger is known", "an error trigger is known",
         "2 error triggers are known", "not device claims emcy", "not interface can send RTR",
         "not factory defaults are active", "not device description is given", "not all objects are tried",
-        "not store fault is known", "not power switch is known", "not block upload is offered", "not block download is offered",
-        "nobody else is heard on the bus"}) {
+        "not store fault is known", "not power switch is known", "not block upload is offered",
+        "not block download is offered", "nobody else is heard on the bus"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -92,6 +92,9 @@ TEST_CASE("Conditions about device and bench are phrases") {
   CHECK(answer("nobody else is heard on the bus", session) == "no");
   session.device_profile.store_fault.emplace();
   CHECK(answer("store fault is known", session) == "yes");
+  CHECK(answer("description tells lss", session) == "no");
+  session.device_profile.device_info.lss = false;
+  CHECK(answer("description tells lss", session) == "yes");
   session.power_switch = true;
   CHECK(answer("power switch is known", session) == "yes");
 }

@@ -82,6 +82,9 @@ class FakeSession final : public Session {
     return std::vector<device::ErrorTrigger>(triggers);
   }
   [[nodiscard]] bool store_fault_known() const override { return device_profile.store_fault.has_value(); }
+  [[nodiscard]] bool is_told(std::string_view what) const override {
+    return device_profile.told(what).has_value();
+  }
   [[nodiscard]] bool power_switch_known() const override { return power_switch; }
   [[nodiscard]] bool factory_defaults() const override { return factory; }
   [[nodiscard]] bool can_send_remote_frames() const override { return remote; }

@@ -59,7 +59,8 @@ TEST_CASE("Without power what was not stored is lost, and the node boots up once
   bus.unplug(*node);
   CHECK(heard(bus, 100ms).empty());
   bus.attach(*node);
-  const auto started = heard(bus, 50ms);
+  CHECK(heard(bus, 500ms).empty());
+  const auto started = heard(bus, 200ms);
   REQUIRE(started.size() == 1);
   CHECK(started.front().id == 0x705);
   CHECK(heartbeat_time(bus) == 0xC8);
@@ -72,7 +73,7 @@ TEST_CASE("The switch works while the node runs") {
   heard(bus, 100ms);
   set_heartbeat_time(bus, 0xC8);
   node->switch_power();
-  const auto started = heard(bus, 50ms);
+  const auto started = heard(bus, 1100ms);
   REQUIRE(started.size() == 1);
   CHECK(started.front().data[0] == 0);
   CHECK(heartbeat_time(bus) == 0);
@@ -89,6 +90,6 @@ TEST_CASE("What is only in the working memory is gone with the power") {
   heard(bus, 50ms);
   CHECK(heartbeat_time(bus) == 0xC8);
   node->switch_power();
-  heard(bus, 50ms);
+  heard(bus, 1100ms);
   CHECK(heartbeat_time(bus) == 0);
 }
