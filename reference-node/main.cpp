@@ -15,7 +15,8 @@
 #include "eds/eds.hpp"
 #include "eds/read.hpp"
 #include "node/eds_text.hpp"
-#include "node/node.hpp"
+#include "node/powered_node.hpp"
+#include "parts/parts.hpp"
 #include "storage/memory.hpp"
 #include "twin/twin.hpp"
 #include "variants/variant.hpp"
@@ -26,9 +27,16 @@ constexpr int exit_usage = 2;
 constexpr int exit_environment = 3;
 
 conform::can::StopFlag* stop_flag = nullptr;
+refnode::PoweredNode* powered = nullptr;
 
 extern "C" void on_signal(int) {
   if (stop_flag != nullptr) stop_flag->request();
+}
+
+extern "C" void on_power_signal(int) {
+  if (powered == nullptr || stop_flag == nullptr) return;
+  powered->switch_power();
+  stop_flag->wake();
 }
 
 /// Says that the node is on the bus, at the moment the loop attaches it; everything else goes straight
@@ -88,19 +96,24 @@ int complain(const conform::Error& error, int code) {
 int main(int argc, char** argv) {
   CLI::App app{
       "A conformant CANopen device (CiA 301) on a CAN interface, with defects on request: the reference node, "
-      "or with --eds the twin of any device."};
+      "or with --eds the twin of any device. SIGUSR1 switches its power off and on: what was not stored is "
+      "lost. It ends with SIGINT or SIGTERM."};
   std::string interface_name;
   std::string storage_file;
   std::string description_file;
   int node_id = 1;
+  std::uint32_t serial = 1;
   refnode::Options options;
   bool list = false;
   bool list_legal = false;
   bool print_eds = false;
   app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0");
   const auto* node_option =
-      app.add_option("-n,--node", node_id, "node-ID, 1 to 127; without it that of the DCF given by --eds")
-          ->check(CLI::Range(1, 127))
+      app.add_option(
+             "-n,--node", node_id,
+             "node-ID, 1 to 127, or 255: none, it waits for one by LSS; without it that of the DCF given by "
+             "--eds")
+          ->check(CLI::Range(1, 127) | CLI::IsMember({255}))
           ->capture_default_str();
   auto* description_option = app.add_option(
       "--eds", description_file,
@@ -108,6 +121,7 @@ int main(int argc, char** argv) {
       "written is warned of");
   app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
   app.add_option("--variant", options.variants, "legal variant to switch on; may be repeated");
+  auto* serial_option = app.add_option("--serial", serial, "serial number, 1018h:04, instead of 1");
   app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
   app.add_flag("--list-defects", list, "print all defects and what they violate");
   app.add_flag("--list-variants", list_legal, "print all legal variants and why they are legal");
@@ -147,25 +161,35 @@ int main(int argc, char** argv) {
     if (!storage) return complain(storage.error(), exit_environment);
     options.storage = *storage;
   }
+  if (!serial_option->empty()) {
+    options.adjust = [serial](refnode::Parts& parts) {
+      if (refnode::Entry* entry = parts.device.dictionary.entry(0x1018, 4))
+        entry->value = entry->default_value = conform::to_le(serial, 4);
+    };
+  }
   std::string behaviour =
       options.defects.empty() ? "conformant" : "with " + conform::join(options.defects, ", ");
   if (!options.variants.empty()) behaviour += ", as " + conform::join(options.variants, ", ");
-  const auto node = refnode::Node::create(options);
+  const auto node = refnode::PoweredNode::create(options);
   if (!node) return complain(node.error(), exit_usage);
   if (options.description) {
-    print_remarks((*node)->remarks(), description_file);
+    print_remarks((*node)->node().remarks(), description_file);
     behaviour.insert(0, "twin of " + description_file + ", ");
   }
 
   conform::can::StopFlag stop;
   stop_flag = &stop;
+  powered = node->get();
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  std::signal(SIGUSR1, on_power_signal);
   Announced announced(**node,
                       fmt::format("canopen-refnode: node {} on {}, {}", node_id, interface_name, behaviour));
   const auto done = conform::can::run_on_interface(announced, interface_name, stop);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGUSR1, SIG_IGN);
+  powered = nullptr;
   stop_flag = nullptr;
   return done ? 0 : complain(done.error(), exit_environment);
 }

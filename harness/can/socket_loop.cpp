@@ -2,6 +2,7 @@
 #include "can/socket_loop.hpp"
 
 #include <sys/eventfd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -23,12 +24,27 @@ constexpr Duration longest_wait = std::chrono::seconds(1);
 StopFlag::StopFlag() : descriptor_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
 
 void StopFlag::request() noexcept {
-  const int saved = errno;
   requested_.store(true, std::memory_order_relaxed);
+  ring();
+}
+
+void StopFlag::wake() noexcept {
+  woken_.store(true, std::memory_order_relaxed);
+  ring();
+}
+
+void StopFlag::ring() noexcept {
+  const int saved = errno;
   const std::uint64_t one = 1;
   // Fails only when the counter is full, and then the descriptor is readable anyway.
   [[maybe_unused]] const auto written = ::write(descriptor_.get(), &one, sizeof one);
   errno = saved;
+}
+
+void StopFlag::heard() const noexcept {
+  if (!woken_.exchange(false, std::memory_order_relaxed)) return;
+  std::uint64_t rings = 0;
+  [[maybe_unused]] const auto count = ::read(descriptor_.get(), &rings, sizeof rings);
 }
 
 Result<LoopStatistics> run_participant(Participant& participant, Transport& transport, const StopFlag& stop) {
@@ -49,6 +65,7 @@ Result<LoopStatistics> run_participant(Participant& participant, Transport& tran
 
   bool stamped = false;
   while (!stop.requested()) {
+    stop.heard();
     // The stamp of a frame that has just come is as good as the clock, and reading it costs nothing.
     if (!stamped) current = std::max(current, transport.now());
     stamped = false;

@@ -13,19 +13,26 @@
 
 namespace conform::can {
 
-/// A request to stop that a signal handler may make and that wakes up a waiting loop.
+/// A request to stop, or to come round, that a signal handler may make and that wakes up a waiting loop.
 class StopFlag {
  public:
   StopFlag();
   /// Async-signal-safe.
   void request() noexcept;
   [[nodiscard]] bool requested() const noexcept { return requested_.load(std::memory_order_relaxed); }
-  /// Readable once stopping was requested.
+  /// Async-signal-safe: the loop asks the participant for its next wake-up now, and goes on.
+  void wake() noexcept;
+  /// The loop has come round.
+  void heard() const noexcept;
+  /// Readable once stopping or coming round was requested.
   [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
 
  private:
+  void ring() noexcept;
+
   static_assert(std::atomic<bool>::is_always_lock_free);
   std::atomic<bool> requested_{false};
+  mutable std::atomic<bool> woken_{false};
   Descriptor descriptor_;
 };
 

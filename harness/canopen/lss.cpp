@@ -143,4 +143,13 @@ std::string describe_lss_error(std::uint8_t specifier, std::uint8_t error, std::
   return fmt::format("{} (reserved)", error);
 }
 
+std::optional<std::uint8_t> lss_bit_rate_index(std::uint32_t kbit_per_second) {
+  constexpr std::uint32_t reserved = 0;
+  constexpr std::array<std::uint32_t, 9> table = {1000, 800, 500, 250, 125, reserved, 50, 20, 10};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (table[i] != reserved && table[i] == kbit_per_second) return static_cast<std::uint8_t>(i);
+  }
+  return std::nullopt;
+}
+
 }  // namespace conform::canopen

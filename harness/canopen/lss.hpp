@@ -52,6 +52,9 @@ inline constexpr std::uint8_t lss_parts = 4;
 /// The answer to 11h of a device that has no node-ID, and the node-ID that takes it away.
 inline constexpr std::uint8_t lss_no_node_id = 0xFF;
 
+/// Where a bit rate in kbit/s stands in table 0 of configure bit timing (CiA 305); nullopt: nowhere.
+[[nodiscard]] std::optional<std::uint8_t> lss_bit_rate_index(std::uint32_t kbit_per_second);
+
 /// A request without parameters, or with one or two bytes of them.
 [[nodiscard]] can::Frame encode_lss(LssCommand command, std::uint8_t first = 0, std::uint8_t second = 0);
 /// A request with a number of four bytes.

@@ -229,6 +229,24 @@ int dispatch(int argc, char** argv) {
   scan_sub->add_option("-o,--output", scan.output, "Write the draft to this file (default: standard output)")
       ->type_name("FILE");
 
+  LssScanCommand lss_scan;
+  auto* lss_scan_sub = app.add_subcommand(
+      "lss-scan", "Find LSS slaves without node-ID by fastscan (CiA 305), and give them node-IDs");
+  lss_scan_sub->add_option("-i,--interface", lss_scan.interface, "CAN interface, for example can0")
+      ->type_name("NAME");
+  lss_scan_sub->add_option("--simulate", lss_scan.simulate, "So many reference nodes on a simulated bus")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NUMBER");
+  lss_scan_sub
+      ->add_option("--assign", lss_scan.assign,
+                   "Give them node-IDs from this one on, until the next reset (default: none)")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  lss_scan_sub
+      ->add_option("--timeout", lss_scan.timeout_ms, "Milliseconds that an answer may take (default 100)")
+      ->check(CLI::Range(1, 10000).description(""))
+      ->type_name("MS");
+
   LintCommand lint;
   auto* lint_sub = app.add_subcommand("lint", "Check scenario files, without a bus");
   lint_sub->add_option("files", lint.files, "Files, and folders of own suites (default: the whole suites)")
@@ -346,6 +364,7 @@ int dispatch(int argc, char** argv) {
   if (eds_sub->parsed()) return eds.run();
   if (list_sub->parsed()) return list_command(list);
   if (scan_sub->parsed()) return scan_command(scan);
+  if (lss_scan_sub->parsed()) return lss_scan_command(lss_scan);
   if (explain_sub->parsed()) return explain_command(explain);
   if (selftest_sub->parsed()) return selftest_command(selftest);
   return bench_command(bench);

@@ -219,7 +219,16 @@ class Describer {
       if (const auto allowed = eds::flag_of(field); allowed && type <= 0x001B)
         out_.placeholders.emplace(Index(static_cast<std::uint16_t>(type)), *allowed);
     }
-    if (eds::flag_of(file_.device_info.lss_supported).value_or(false)) out_.claims.emplace("lss");
+    const auto& info = file_.device_info;
+    if (eds::flag_of(info.lss_supported).value_or(false)) out_.claims.emplace("lss");
+    out_.info.lss = eds::flag_of(info.lss_supported);
+    out_.info.rpdos = eds::number_of(info.nr_of_rx_pdo);
+    out_.info.tpdos = eds::number_of(info.nr_of_tx_pdo);
+    for (const auto& [rate, field] : info.baud_rates) {
+      if (eds::flag_of(field).value_or(false) && rate <= 1000)
+        out_.info.bit_rates.push_back(static_cast<std::uint32_t>(rate));
+    }
+    std::ranges::sort(out_.info.bit_rates);
   }
 
   [[nodiscard]] std::string place(eds::Position at) const {
@@ -250,6 +259,11 @@ void add_description(Profile& profile, Description description) {
     if (!std::ranges::binary_search(listed, entry.mux)) profile.objects.push_back(std::move(entry));
   }
   for (const auto& [type, allowed] : description.placeholders) profile.placeholders.emplace(type, allowed);
+  auto& info = profile.device_info;
+  if (!info.rpdos) info.rpdos = description.info.rpdos;
+  if (!info.tpdos) info.tpdos = description.info.tpdos;
+  if (!info.lss) info.lss = description.info.lss;
+  if (info.bit_rates.empty()) info.bit_rates = std::move(description.info.bit_rates);
   profile.described_in = description.file;
   profile.described_places = std::move(description.places);
   for (const auto& feature : description.claims) {

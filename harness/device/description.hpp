@@ -30,6 +30,7 @@ struct Description {
   DescribedPlaces places;
   std::set<std::string, std::less<>> claims;  ///< features that follow from what is described
   std::map<Index, bool> placeholders;         ///< [DummyUsage]
+  DeviceInfo info;                            ///< [DeviceInfo]
   std::optional<NodeId> node;                 ///< of a DCF
   std::vector<UnusedText> unused;             ///< at most `most_unused`, the others counted
   std::size_t unused_left_out = 0;

@@ -162,4 +162,11 @@ Result<ProfileDocument> load_profile_file(const std::string& path) {
   return out;
 }
 
+std::optional<std::uint64_t> Profile::told(std::string_view key) const {
+  if (key == "rpdos") return device_info.rpdos;
+  if (key == "tpdos") return device_info.tpdos;
+  if (key == "lss" && device_info.lss) return *device_info.lss ? 1 : 0;
+  return std::nullopt;
+}
+
 }  // namespace conform::device

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -19,6 +20,10 @@
 #include "device/dictionary.hpp"
 #include "yaml/diagnostic.hpp"
 #include "yaml/loader.hpp"
+
+namespace conform::eds {
+struct EdsFile;
+}  // namespace conform::eds
 
 namespace conform::device {
 
@@ -72,6 +77,14 @@ struct Identity {
   std::optional<std::uint32_t> vendor, product, revision, serial;
 };
 
+/// What the description says of the device as a whole ([DeviceInfo] of an EDS); what it does not say is not
+/// compared.
+struct DeviceInfo {
+  std::optional<std::uint64_t> rpdos, tpdos;  ///< how many there are
+  std::optional<bool> lss;
+  std::vector<std::uint32_t> bit_rates;  ///< kbit/s, ascending; empty: not said
+};
+
 /// A deviation the user accepts by name, with the reason that reports print.
 struct KnownDeviation {
   std::string requirement;  ///< "OD-1014-06"
@@ -112,6 +125,9 @@ struct Profile {
   bool factory_defaults = false;  ///< nothing is stored: values after a reset are the defaults
   std::string described_in;       ///< file of the device description, as the user wrote it; empty: none
   DescribedPlaces described_places;
+  /// The file that was given; empty: none.
+  std::shared_ptr<const eds::EdsFile> description;
+  DeviceInfo device_info;
   Identity identity;
   std::vector<KnownDeviation> deviations;
 
@@ -122,6 +138,8 @@ struct Profile {
   /// Where the device description tells of the entry, "device.eds:120", or that it does not, "device.eds,
   /// without 2001h:00". There must be one.
   [[nodiscard]] std::string place_of(Multiplexer mux) const;
+  /// What `device_info` says, by the key of the file: "rpdos", "tpdos", "lss" (0 or 1).
+  [[nodiscard]] std::optional<std::uint64_t> told(std::string_view key) const;
   /// T_BOOT, T_SDO, T_NVM, T_NMT, T_QUIET, T_SRVTO, T_BLK, T_LSS by name, as conversations write them; also
   /// the keys of the file ("boot_time").
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;

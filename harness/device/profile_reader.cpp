@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "canopen/lss.hpp"
 #include "device/profile.hpp"
 #include "device/profile_fields.hpp"
 #include "device/standard_objects.hpp"
@@ -143,6 +144,7 @@ class Reader {
     profile_.power_cycle = fields_.optional("power_cycle").text().value_or("");
     profile_.factory_defaults = fields_.optional("factory_defaults").boolean().value_or(false);
     read_identity();
+    read_device_info();
     read_deviations();
     fields_.finish();
     return std::move(profile_);
@@ -418,6 +420,27 @@ class Reader {
                          .product = number("product"),
                          .revision = number("revision"),
                          .serial = number("serial")};
+    fields.finish();
+  }
+
+  void read_device_info() {
+    constexpr std::uint64_t most_pdos = 512;
+    Fields fields = fields_.optional("device_info").fields("device info");
+    auto& info = profile_.device_info;
+    info.rpdos = fields.optional("rpdos").number(0, most_pdos);
+    info.tpdos = fields.optional("tpdos").number(0, most_pdos);
+    info.lss = fields.optional("lss").boolean();
+    for (const Field& item : fields.optional("bit_rates").items()) {
+      const auto rate = item.number(1, 1000);
+      if (!rate) continue;
+      if (!canopen::lss_bit_rate_index(static_cast<std::uint32_t>(*rate))) {
+        item.error(fmt::format("{} kbit/s is no bit rate of CiA 301", *rate),
+                   "1000, 800, 500, 250, 125, 50, 20 or 10");
+      } else {
+        info.bit_rates.push_back(static_cast<std::uint32_t>(*rate));
+      }
+    }
+    std::ranges::sort(info.bit_rates);
     fields.finish();
   }
 

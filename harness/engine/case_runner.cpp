@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/lss.hpp"
 #include "engine/walk_values.hpp"
 #include "scenario/query.hpp"
 
@@ -190,6 +191,13 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
     }
   }
   for (const auto& set : walk.sets) {
+    if (set == "described bit rates") {
+      for (const auto rate : session_.profile().device_info.bit_rates) {
+        if (const auto index = canopen::lss_bit_rate_index(rate))
+          values.push_back(steps::Value::of_number(*index));
+      }
+      continue;
+    }
     if (set != "restricted CAN-IDs") {
       const auto query = scenario::Query::parse(set);
       if (!query) return cannot_go_on(step, query.error());

@@ -35,6 +35,7 @@ class Run {
         putting_back_(run_),
         errors_(run_),
         runner_(run_.session, catalogue, run_.attribution, options.strict, run_.may(scenario::Risk::config)) {
+    run_.session.set_power_switch(life_.power_switch());
   }
 
   result::RunResult execute(can::Capture& capture) {

@@ -20,9 +20,11 @@ namespace conform::engine {
 struct RunOptions {
   PlanOptions plan;
   bool strict = false;  ///< recommended and optional rules fail as well
-  /// Takes the power of the device away and gives it back, when it does not come back by a reset. Empty: by
-  /// hand only.
+  /// Takes the power of the device away and gives it back, where a scenario wants it, and when the device
+  /// does not come back by a reset. Empty: by hand only. Its error is none of the device.
   std::function<Result<void>()> power_cycle;
+  /// false: only where a scenario wants it. A simulated device that is dead is to be seen so.
+  bool power_revives = true;
   const std::atomic<int>* stop = nullptr;  ///< a signal number ends the run in good order
   Observer* observer = nullptr;            ///< who is told what happens; lives longer than the run
 };

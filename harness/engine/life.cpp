@@ -11,19 +11,29 @@ namespace conform::engine {
 
 using result::CaseResult;
 
+std::function<Result<void>()> Life::power_switch() {
+  if (!run_.options.power_cycle) return {};
+  return [this]() -> Result<void> {
+    const auto& frames = run_.recorder.capture().frames();
+    (void)restarts_.follow(frames);
+    run_.attribution.follow(frames);
+    if (auto done = run_.options.power_cycle(); !done) return done;
+    // The start that comes now is the harness's doing.
+    restarts_.lose_track();
+    run_.attribution.lose_track();
+    losses_.push_back({frames.size(), frames.size()});
+    return {};
+  };
+}
+
 Means Life::means() {
   Means out{.may_command = run_.may(scenario::Risk::config)};
-  if (out.may_command && run_.options.power_cycle) {
-    out.power_cycle = [this]() -> Result<void> {
-      (void)restarts_.follow(run_.recorder.capture().frames());
-      auto done = run_.options.power_cycle();
-      if (!done) return done;
-      run_.note("the power of the device was switched, because it did not come back by a reset");
-      // The start that comes now is the harness's doing.
-      restarts_.lose_track();
-      const auto frames = run_.recorder.capture().size();
-      losses_.push_back({frames, frames});
-      return {};
+  const auto switch_power = power_switch();
+  if (out.may_command && run_.options.power_revives && switch_power) {
+    out.power_cycle = [this, switch_power]() -> Result<void> {
+      auto done = switch_power();
+      if (done) run_.note("the power of the device was switched, because it did not come back by a reset");
+      return done;
     };
   }
   return out;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,9 @@ class Life {
 
   /// What may be done to a device that does not answer.
   [[nodiscard]] Means means();
+  /// Switches the power of the device off and on; the start that follows is nobody's fault. Empty where only
+  /// a hand can do it.
+  [[nodiscard]] std::function<Result<void>()> power_switch();
   /// Two devices with one node-ID would be blamed for each other. `listen`: for a second answer.
   [[nodiscard]] Result<void> make_sure_it_is_alone(Duration listen);
   /// A start that nobody asked for leaves the device in its power-on state; or a second device has joined.

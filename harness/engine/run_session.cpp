@@ -310,6 +310,24 @@ void RunSession::label(const steps::Step& step, const steps::Actual& actual) {
   }
 }
 
+Result<void> RunSession::power_cycle() {
+  if (!power_switch_) return Session::power_cycle();
+  if (auto allowed = guard_.needs({steps::Tier::config, "switch the power of the device"}); !allowed)
+    return allowed;
+  const auto first = recorder_.capture().size();
+  if (auto done = power_switch_(); !done) {
+    auto error = done.error();
+    error.what = "the power of the device could not be switched: " + error.what;
+    return std::unexpected(std::move(error));
+  }
+  // What was sent to it before, and what it was told, is gone with the power.
+  stimulus_open_ = false;
+  ordered_.reset();
+  device_restarted();
+  window_ = {first, recorder_.now()};
+  return {};
+}
+
 void RunSession::device_was_reset(bool) {
   channel_.forget_silences();
   guarded_ = false;

@@ -3,6 +3,7 @@
 // changed.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -49,6 +50,12 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool claims(std::string_view feature) const override;
   [[nodiscard]] Result<std::vector<device::ErrorTrigger>> error_triggers() override;
   [[nodiscard]] bool store_fault_known() const override { return profile_.store_fault.has_value(); }
+  [[nodiscard]] bool power_switch_known() const override { return static_cast<bool>(power_switch_); }
+  [[nodiscard]] bool is_told(std::string_view what) const override {
+    return what == "bit rates" ? !profile_.device_info.bit_rates.empty() : profile_.told(what).has_value();
+  }
+  [[nodiscard]] std::optional<std::uint32_t> bus_bit_rate() const override;
+  [[nodiscard]] bool bus_bit_rate_is_told() const override;
   /// What the run itself could not put back may come back with each reset where the device stores by itself.
   [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults && !left_changed_; }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
@@ -100,9 +107,14 @@ class RunSession final : public steps::Session {
   void set(std::string name, steps::Value value) override { names_[std::move(name)] = std::move(value); }
   [[nodiscard]] Result<void> produce(steps::Production production) override;
   void stop_producing(std::string_view label) override { recorder_.stop_producing(label); }
+  [[nodiscard]] Result<void> power_cycle() override;
   void device_was_reset(bool application_too) override;
 
   // For the engine
+  /// How scenarios switch the power of the device; empty: by hand only.
+  void set_power_switch(std::function<Result<void>()> power_switch) {
+    power_switch_ = std::move(power_switch);
+  }
   /// The highest tier of this run.
   void allow(scenario::Risk risk) { guard_.allow(risk); }
   /// A download that prepares what a case needs, whatever the risk of its scenario; put back after it.
@@ -169,6 +181,7 @@ class RunSession final : public steps::Session {
   device::Profile profile_;  ///< T_SDO and T_QUIET grow with the slowest answer
   device::Dictionary dictionary_;
   TierGuard guard_;
+  std::function<Result<void>()> power_switch_;
   SdoChannel channel_;
   Others others_;
   std::map<std::string, steps::Value, std::less<>> names_;

@@ -43,9 +43,22 @@ const steps::Value* RunSession::find(std::string_view name) const {
   const auto found = names_.find(name);
   if (found != names_.end()) return &found->second;
   if (!name.starts_with("profile.")) return nullptr;
+  if (const auto told = profile_.told(name.substr(8)))
+    return &profile_names_.insert_or_assign(std::string(name), steps::Value::of_number(*told)).first->second;
   const auto time = profile_.duration(name.substr(8));
   if (!time) return nullptr;
   return &profile_names_.insert_or_assign(std::string(name), steps::Value::of_duration(*time)).first->second;
+}
+
+std::optional<std::uint32_t> RunSession::bus_bit_rate() const {
+  const auto rate = recorder_.transport().info().bit_rate;
+  return rate > 0 ? std::optional(static_cast<std::uint32_t>(rate)) : std::nullopt;
+}
+
+bool RunSession::bus_bit_rate_is_told() const {
+  const auto rate = bus_bit_rate();
+  return rate && std::ranges::find(profile_.device_info.bit_rates, *rate / 1000) !=
+                     profile_.device_info.bit_rates.end();
 }
 
 Result<steps::Value> RunSession::current() {

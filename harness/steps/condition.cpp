@@ -177,6 +177,20 @@ Result<TreePtr> parse_atom(TokenReader& in) {
     return fail("unknown feature '" + feature + "'", {},
                 near.empty() ? "" : "did you mean '" + std::string(near) + "'?");
   }
+  if (in.peek() == "description" && in.peek(1) == "tells") {
+    in.take();
+    in.take();
+    node->kind = Kind::told;
+    for (const std::string_view what : {"rpdos", "tpdos", "lss", "bit rates"}) {
+      const bool two_words = what == "bit rates";
+      if (two_words ? in.peek() != "bit" || in.peek(1) != "rates" : in.peek() != what) continue;
+      in.take();
+      if (two_words) in.take();
+      node->word = what;
+      return node;
+    }
+    return fail("'description tells' must be followed by rpdos, tpdos, lss or bit rates");
+  }
   if (in.peek() == "interface" && in.peek(1) == "can") {
     in.take();
     in.take();
@@ -199,6 +213,9 @@ Result<TreePtr> parse_atom(TokenReader& in) {
   static constexpr Phrase phrases[] = {{{"device", "description", "is", "given"}, Kind::described},
                                        {{"the", "write", "was", "refused"}, Kind::refused},
                                        {{"store", "fault", "is", "known"}, Kind::store_fault},
+                                       {{"power", "switch", "is", "known"}, Kind::power_switch},
+                                       {{"bus", "bit", "rate", "is", "known"}, Kind::bus_rate},
+                                       {{"bus", "bit", "rate", "is", "described"}, Kind::bus_rate_told},
                                        {{"block", "upload", "is", "offered"}, Kind::block_upload},
                                        {{"block", "download", "is", "offered"}, Kind::block_download},
                                        {{"all", "objects", "are", "tried"}, Kind::sweep},
@@ -338,6 +355,10 @@ Result<bool> evaluate_tree(const Condition::Tree& node, Facts& facts) {
   if (node.kind == Kind::described) return facts.is_described();
   if (node.kind == Kind::refused) return facts.write_was_refused();
   if (node.kind == Kind::store_fault) return facts.store_fault_known();
+  if (node.kind == Kind::power_switch) return facts.power_switch_known();
+  if (node.kind == Kind::told) return facts.is_told(node.word);
+  if (node.kind == Kind::bus_rate) return facts.bus_bit_rate().has_value();
+  if (node.kind == Kind::bus_rate_told) return facts.bus_bit_rate_is_told();
   if (node.kind == Kind::block_upload) return facts.offers_block_transfer(true);
   if (node.kind == Kind::block_download) return facts.offers_block_transfer(false);
   if (node.kind == Kind::sweep) return facts.tries_all_objects();
@@ -453,6 +474,11 @@ std::vector<std::string_view> condition_forms() {
           "error trigger is known",
           "2 error triggers are known",
           "store fault is known",
+          "power switch is known",
+          "description tells rpdos",
+          "description tells bit rates",
+          "bus bit rate is known",
+          "bus bit rate is described",
           "factory defaults are active",
           "interface can send RTR",
           "device description is given",

@@ -53,6 +53,15 @@ class Facts : public Scope {
   [[nodiscard]] virtual Result<std::vector<device::ErrorTrigger>> error_triggers() = 0;
   /// Whether the profile says how storing is made to fail.
   [[nodiscard]] virtual bool store_fault_known() const { return false; }
+  /// Whether the power of the device can be switched without a hand.
+  [[nodiscard]] virtual bool power_switch_known() const { return false; }
+  /// Whether the description says how many PDOs there are ("rpdos", "tpdos"), whether there is LSS ("lss"),
+  /// and which bit rates ("bit rates").
+  [[nodiscard]] virtual bool is_told(std::string_view /*what*/) const { return false; }
+  /// Of the bus, in bit/s; nullopt: the interface does not tell.
+  [[nodiscard]] virtual std::optional<std::uint32_t> bus_bit_rate() const { return std::nullopt; }
+  /// Whether the description has the bit rate of the bus.
+  [[nodiscard]] virtual bool bus_bit_rate_is_told() const { return false; }
   /// Whether nothing is stored in the device, so that the values after a reset are the defaults.
   [[nodiscard]] virtual bool factory_defaults() const { return false; }
   [[nodiscard]] virtual bool can_send_remote_frames() const = 0;

@@ -31,6 +31,10 @@ struct Condition::Tree {
     sweep,
     alone,
     store_fault,
+    power_switch,
+    told,
+    bus_rate,
+    bus_rate_told,
     block_upload,
     block_download,  // about device and bench
     equal,

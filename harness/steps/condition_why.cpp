@@ -202,6 +202,24 @@ Why about_bench(const Tree& node, Facts& facts, bool held) {
     case Kind::store_fault:
       return told("a store fault is known", "no way to make storing fail is known",
                   {{"profile", "store_fault: in the profile, if the device can simulate one"}});
+    case Kind::power_switch:
+      return told("the power of the device can be switched",
+                  "no way to switch the power of the device is known",
+                  {{"profile", "power_cycle: a command that switches the power of the device off and on, in "
+                               "the profile"}});
+    case Kind::told: {
+      const auto missing = node.word == "lss"         ? std::string("whether there is LSS")
+                           : node.word == "bit rates" ? std::string("which bit rates there are")
+                           : node.word == "rpdos"     ? std::string("how many RPDOs there are")
+                                                      : std::string("how many TPDOs there are");
+      return told("the description tells " + missing, "no description tells " + missing,
+                  {{"description", "the EDS of the device (--eds), or device_info: in the profile"}});
+    }
+    case Kind::bus_rate:
+      return told("the bit rate of the bus is known", "the interface does not tell its bit rate");
+    case Kind::bus_rate_told:
+      return told("the description has the bit rate of the bus",
+                  "the description does not have the bit rate of the bus");
     case Kind::block_upload:
       return told("block upload is offered", "block upload is not offered" + behind(Asked::block_upload));
     case Kind::block_download:
@@ -222,7 +240,8 @@ bool is_free(const Tree& node) {
     return std::ranges::all_of(node.parts, [](const auto& part) { return is_free(*part); });
   return node.kind == Kind::feature || node.kind == Kind::triggers || node.kind == Kind::remote ||
          node.kind == Kind::factory || node.kind == Kind::described || node.kind == Kind::store_fault ||
-         node.kind == Kind::sweep;
+         node.kind == Kind::power_switch || node.kind == Kind::told || node.kind == Kind::bus_rate ||
+         node.kind == Kind::bus_rate_told || node.kind == Kind::sweep;
 }
 
 /// The parts that decided: of 'A and B and C' the first false one, and those behind it that are false as well

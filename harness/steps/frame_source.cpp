@@ -80,6 +80,12 @@ Result<Session::Match> Source::match(Session& session) const {
   } else {
     const auto number = id.number(session);
     if (!number) return std::unexpected(number.error());
+    if (*number > 0x7FFU) {
+      return [wanted = *number](const can::CapturedFrame& c) {
+        return c.direction == can::Direction::received && c.frame.extended && !c.frame.remote &&
+               !c.frame.error && c.frame.id == wanted;
+      };
+    }
     can_id = CanId(static_cast<std::uint32_t>(*number));
   }
   // Not the end of one: EMCY 0000h.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verbs of NMT and error control: commands, resets, boot-up, produced heartbeats.
+#include <algorithm>
+
 #include "base/text.hpp"
+#include "can/frame_time.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/nmt.hpp"
 #include "steps/verb_tables.hpp"
@@ -31,8 +34,9 @@ Result<Actual> await_boot_up(Session& session, const Window& window, Duration wi
   session.consume(**found);
   out.kind = Actual::Kind::matched;
   out.decisive = *found;
-  out.detail = "boot-up message after " +
-               to_string(std::chrono::round<std::chrono::microseconds>(captured.time - window.anchor));
+  // With its power the device may have started before the switch was done.
+  out.detail = "boot-up message after " + to_string(std::chrono::round<std::chrono::microseconds>(
+                                              std::max(Duration(0), captured.time - window.anchor)));
   return out;
 }
 
@@ -97,6 +101,22 @@ class Reset final : public Action {
   NmtCommand command_ = NmtCommand::reset_node;
 };
 
+class PowerCycle final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    if (!value.one_of({"once"})) return nullptr;
+    return std::make_unique<PowerCycle>();
+  }
+  Need need() const override { return {Tier::config, "switch the power of the device"}; }
+  std::string words(Session&) const override { return "power off and on, and wait for the boot-up message"; }
+  Channels rests_on() const override { return {channel::boot_up}; }
+  bool label_is_on_request() const override { return false; }
+  Result<Actual> run(Session& session) const override {
+    if (auto done = session.power_cycle(); !done) return std::unexpected(done.error());
+    return await_boot_up(session, session.window(), session.profile().boot_time);
+  }
+};
+
 class BootUp final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
@@ -147,8 +167,12 @@ class Produce final : public Action {
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<Produce>();
     auto fields = value.fields("produce");
-    const auto what = fields.exactly_one_of({"heartbeat", "guard"});
+    const auto what = fields.exactly_one_of({"heartbeat", "guard", "load"});
     if (!what) return nullptr;
+    if (fields.has("load")) {
+      out->load_ = what.number(1, 90).value_or(0);
+      return out->load_ == 0 ? nullptr : std::move(out);
+    }
     if (fields.has("guard")) {
       out->guards_ = true;
       auto inner = what.fields("guard");
@@ -173,14 +197,26 @@ class Produce final : public Action {
     return out->node_ == 0 ? nullptr : std::move(out);
   }
   Need need() const override {
+    if (load_ > 0) return {Tier::motion, "load the bus"};
     return guards_ ? Need{Tier::config, "send remote frames"} : Need{Tier::motion, "play other nodes"};
   }
   std::string words(Session&) const override {
     if (guards_) return "produce guard requests every " + every_.text();
+    if (load_ > 0) return "load the bus by " + std::to_string(load_) + " % with frames that nobody uses";
     return "produce heartbeat of node " + std::to_string(node_) +
            (cyclic_ ? " every " + every_.text() : ", once");
   }
   Result<Actual> run(Session& session) const override {
+    if (load_ > 0) {
+      // Of the lowest priority that is left: what the device sends goes first.
+      const auto frame = can::data_frame(CanId(0x7DF), {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55});
+      const auto one = can::bit_time(can::frame_bits(frame) + can::intermission_bits,
+                                     session.bus_bit_rate().value_or(slow_bus));
+      if (auto begun = session.produce({"load", frame, one * 100 / static_cast<Duration::rep>(load_), {}});
+          !begun)
+        return std::unexpected(begun.error());
+      return Actual{};
+    }
     if (guards_) {
       const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
       auto begun = session.produce({"guard", request, every_.resolve(session.profile()), {}});
@@ -213,7 +249,11 @@ class Produce final : public Action {
   }
 
  private:
-  bool guards_ = false;  ///< the device under test, by remote frames
+  /// Where the interface does not tell its bit rate.
+  static constexpr std::uint32_t slow_bus = 125'000;
+
+  std::uint64_t load_ = 0;  ///< percent
+  bool guards_ = false;     ///< the device under test, by remote frames
   std::uint64_t node_ = 0;
   canopen::NmtState state_ = canopen::NmtState::operational;
   TimeReference every_;
@@ -225,13 +265,14 @@ class Stop final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
     auto out = std::make_unique<Stop>();
-    const auto what = value.one_of({"heartbeat", "guard"});
+    const auto what = value.one_of({"heartbeat", "guard", "load"});
     if (!what) return nullptr;
     out->what_ = *what;
     return out;
   }
   bool acts() const override { return false; }
   std::string words(Session&) const override {
+    if (what_ == "load") return "stop loading the bus";
     return what_ == "guard" ? "stop producing guard requests" : "stop producing heartbeats";
   }
   Result<Actual> run(Session& session) const override {
@@ -248,14 +289,19 @@ constexpr Verb table[] = {
      "(word): start, stop, pre-operational, reset node, reset communication", "- nmt: start", &Nmt::parse},
     {"reset", "Reset the device and wait for its boot-up message.", "(word): node, communication",
      "- reset: communication", &Reset::parse},
+    {"power_cycle",
+     "Switch the power of the device off and on (power_cycle of the device profile) and wait for the boot-up message.",
+     "(word): once", "- power_cycle: once", &PowerCycle::parse},
     {"boot_up", "Wait for the boot-up message.",
      "within: time (default: boot time of the profile)\nexactly: once",
      "- nmt: reset node\n- boot_up: {within: $profile.boot_time, exactly: once}\n  checks: NMT-BOOT-01",
      &BootUp::parse},
-    {"produce", "Send heartbeats of another node, or guard requests, once or beside the following steps.",
-     "heartbeat: {node, state, every, count}\nguard: {every}, to the device under test",
+    {"produce",
+     "Send heartbeats of another node, guard requests, or frames that load the bus, once or beside the following steps.",
+     "heartbeat: {node, state, every, count}\nguard: {every}, to the device under test\nload: percent of the bus, up to 90, by frames of eight bytes that nobody uses (7DFh)",
      "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}", &Produce::parse},
-    {"stop", "End what `produce` began.", "(word): heartbeat, guard", "- stop: heartbeat", &Stop::parse},
+    {"stop", "End what `produce` began.", "(word): heartbeat, guard, load", "- stop: heartbeat",
+     &Stop::parse},
 };
 
 }  // namespace

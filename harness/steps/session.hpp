@@ -146,6 +146,13 @@ class Session : public Facts {
   [[nodiscard]] virtual Result<void> produce(Production production) = 0;
   virtual void stop_producing(std::string_view label) = 0;
 
+  /// Takes the power of the device away and gives it back, as the user has said how. The device may have
+  /// started before this returns; a window of the running step begins before it. Error of the environment:
+  /// the power could not be switched.
+  [[nodiscard]] virtual Result<void> power_cycle() {
+    return fail_scenario("no way to switch the power of the device is known");
+  }
+
   /// Forgets what a reset of the device undoes (labels of moved COB-IDs for the decoder, probed access).
   virtual void device_was_reset(bool application_too) = 0;
 };

@@ -25,7 +25,7 @@ std::optional<Walk> parse_walk(const yaml::Field& value, ParseContext& context) 
   for (const auto& item : values.items_or_one()) {
     const auto text = item.text();
     if (!text) continue;
-    if (*text == "restricted CAN-IDs") {
+    if (*text == "restricted CAN-IDs" || *text == "described bit rates") {
       walk.sets.push_back(*text);
     } else if (context.check_query && (text->starts_with("entries") || text->starts_with("objects"))) {
       if (auto fine = context.check_query(*text); !fine) item.error(fine.error().what, fine.error().hint);

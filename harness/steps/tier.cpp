@@ -20,6 +20,7 @@ constexpr TierRow table[] = {
     {Tier::config,
      "SDO downloads to the entries that the profile names under safe_objects, errors and store_fault"},
     {Tier::config, "SDO requests that break the protocol, on 600h + N"},
+    {Tier::config, "switching the power of the device by power_cycle of the profile"},
     {Tier::config, "NMT stop, enter Pre-operational and both resets, in two bytes, the second of them N"},
     {Tier::config,
      "remote frames on the CAN-IDs of the device's own pre-defined services: 80h, 180h, 280h, 380h, 480h, 580h, 600h and 700h + N (guarding)"},

@@ -20,6 +20,7 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> flow_verbs();
 [[nodiscard]] std::span<const Verb> conversation_verbs();
 [[nodiscard]] std::span<const Verb> segment_verbs();
+[[nodiscard]] std::span<const Verb> description_verbs();
 [[nodiscard]] std::span<const Verb> noise_verbs();
 [[nodiscard]] std::span<const Verb> guard_verbs();
 

@@ -11,7 +11,7 @@ std::span<const Verb> verbs() {
     std::vector<Verb> out;
     for (const auto table : {sdo_verbs(), interleave_verbs(), segment_verbs(), conversation_verbs(),
                              nmt_verbs(), frame_verbs(), collect_verbs(), noise_verbs(), guard_verbs(),
-                             error_verbs(), pdo_verbs(), lss_verbs(), flow_verbs()}) {
+                             error_verbs(), pdo_verbs(), lss_verbs(), description_verbs(), flow_verbs()}) {
       out.insert(out.end(), table.begin(), table.end());
     }
     return out;

@@ -85,6 +85,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable error_control_monitoring_defects();
 [[nodiscard]] DefectTable cob_id_defects();
 [[nodiscard]] DefectTable storage_defects();
+[[nodiscard]] DefectTable storage_memory_defects();
 [[nodiscard]] DefectTable pdo_receive_defects();
 [[nodiscard]] DefectTable pdo_transmit_defects();
 [[nodiscard]] DefectTable pdo_receive_traffic_defects();
@@ -107,5 +108,6 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable lss_sequence_defects();
 [[nodiscard]] DefectTable pdo_traffic_defects();
 [[nodiscard]] DefectTable device_traffic_defects();
+[[nodiscard]] DefectTable device_load_defects();
 
 }  // namespace refnode

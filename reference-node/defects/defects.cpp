@@ -40,6 +40,7 @@ std::span<const Defect> defects() {
                                        error_control_monitoring_defects,
                                        cob_id_defects,
                                        storage_defects,
+                                       storage_memory_defects,
                                        pdo_receive_defects,
                                        pdo_transmit_defects,
                                        pdo_receive_traffic_defects,
@@ -61,7 +62,8 @@ std::span<const Defect> defects() {
                                        lss_defects,
                                        lss_sequence_defects,
                                        pdo_traffic_defects,
-                                       device_traffic_defects});
+                                       device_traffic_defects,
+                                       device_load_defects});
   return all;
 }
 

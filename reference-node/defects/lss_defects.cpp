@@ -309,6 +309,18 @@ DefectTable lss_defects() {
        Change([](Parts& parts) {
          if (Entry* entry = parts.device.dictionary.entry(0x1014, 0)) entry->adds_node_id = false;
        })},
+      {"lss-bit-rate-125-refused",
+       "The bit rate of 125 kbit/s is refused",
+       {"LSS-BT-01"},
+       bit_rate_allowed([](bool right, std::uint8_t, std::uint8_t index) { return right && index != 4; })},
+      {"lss-slow-bit-rates-refused",
+       "Of the table of bit rates the entries behind the reserved one are refused",
+       {"LSS-BT-01"},
+       bit_rate_allowed([](bool right, std::uint8_t, std::uint8_t index) { return right && index < 5; })},
+      {"lss-silent",
+       "The device does not know LSS although its description says so",
+       {"EDS-VSD-10", "LSS-SS-01"},
+       deaf_to([](Parts&, const Frame& frame) { return frame.id == request_id; })},
       {"lss-bit-rate-index-5-accepted",
        "The reserved entry 5 of the table of bit rates is accepted",
        {"LSS-BT-02"},

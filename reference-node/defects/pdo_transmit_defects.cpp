@@ -118,7 +118,7 @@ DefectTable pdo_transmit_defects() {
                [](const auto&, const PdoParameters&) { return true; })},
       {"1800-tpdo-in-pre-operational",
        "TPDOs are sent in Pre-operational",
-       {"OD-1800-28", "PDO-TX-02", "NMT-FSA-21"},
+       {"OD-1800-28", "PDO-TX-02", "NMT-FSA-21", "CAN-TRF-01"},
        works_also(Service::tpdo, NmtState::pre_operational)},
       {"1a00-count-is-u32", "1A00h:00 has four bytes", {"OD-1A00-01", "OD-GEN-10"}, type(0x1A00, 0, u32)},
       {"1a00-entry-field-order-wrong",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <vector>
@@ -51,8 +52,8 @@ SimpleBootUpSlave=1
 Granularity=8
 DynamicChannelsSupported=0
 GroupMessaging=0
-NrOfRXPDO=4
-NrOfTXPDO=4
+NrOfRXPDO={}
+NrOfTXPDO={}
 LSS_Supported=1
 
 [DummyUsage]
@@ -84,11 +85,10 @@ std::int64_t signed_value(const Entry& entry) {
   return static_cast<std::int64_t>(conform::load_le(entry.default_value) << unused) >> unused;
 }
 
-// `second` is the same entry of a node whose node-ID is one higher than that of the first, which is 1.
-std::string default_text(const Entry& first, const Entry& second) {
+std::string default_text(const Entry& first, std::uint8_t node_id) {
   const std::uint64_t value = conform::load_le(first.default_value);
   if (is_unsigned_integer(first.type)) {
-    if (first.default_value != second.default_value) return fmt::format("$NODEID+{:#x}", value - 1);
+    if (first.adds_node_id) return fmt::format("$NODEID+{:#x}", value - node_id);
     return fmt::format("{:#x}", value);
   }
   if (is_signed_integer(first.type)) return std::to_string(signed_value(first));
@@ -107,14 +107,14 @@ unsigned flags(std::uint16_t index, std::uint8_t sub, const Entry& entry) {
   return entry.command ? 1 : 0;
 }
 
-std::string entry_text(std::uint16_t index, std::uint8_t sub, const Entry& entry, const Entry& other) {
+std::string entry_text(std::uint16_t index, std::uint8_t sub, const Entry& entry, std::uint8_t node_id) {
   constexpr unsigned variable = 0x7;
   constexpr unsigned domain = 0x2;
   const bool changes = entry.read != nullptr;  // what is read is not what was configured
   std::string text = fmt::format("ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n",
                                  entry.name, entry.type == DataType::domain ? domain : variable,
                                  static_cast<unsigned>(entry.type), access_name(entry));
-  text += fmt::format("DefaultValue={}\n", changes ? std::string() : default_text(entry, other));
+  text += fmt::format("DefaultValue={}\n", changes ? std::string() : default_text(entry, node_id));
   text += fmt::format("PDOMapping={}\n", entry.rx_mappable || entry.tx_mappable ? 1 : 0);
   if (entry.type != DataType::boolean) {
     if (entry.low) text += fmt::format("LowLimit={}\n", *entry.low);
@@ -125,16 +125,16 @@ std::string entry_text(std::uint16_t index, std::uint8_t sub, const Entry& entry
   return text + "\n";
 }
 
-std::string object_text(std::uint16_t index, const Object& object, const Object& other) {
+std::string object_text(std::uint16_t index, const Object& object, std::uint8_t node_id) {
   if (object.kind == ObjectKind::variable) {
-    return fmt::format("[{:04X}]\n", index) + entry_text(index, 0, object.entries.at(0), other.entries.at(0));
+    if (!object.entries.contains(0)) return {};
+    return fmt::format("[{:04X}]\n", index) + entry_text(index, 0, object.entries.at(0), node_id);
   }
   std::string text =
       fmt::format("[{:04X}]\nParameterName={}\nObjectType={:#x}\nSubNumber={:#x}\n\n", index, object.name,
                   object.kind == ObjectKind::array ? 0x8U : 0x9U, object.entries.size());
   for (const auto& [sub, entry] : object.entries) {
-    text +=
-        fmt::format("[{:04X}sub{:X}]\n", index, sub) + entry_text(index, sub, entry, other.entries.at(sub));
+    text += fmt::format("[{:04X}sub{:X}]\n", index, sub) + entry_text(index, sub, entry, node_id);
   }
   return text;
 }
@@ -161,20 +161,25 @@ std::string module_text() {
 
 std::string eds_text() {
   const auto one = Node::create({1, {}, {}, {}});
-  const auto two = Node::create({2, {}, {}, {}});
-  CONFORM_CHECK(one.has_value() && two.has_value());
-  const ObjectDictionary& dictionary = (*one)->dictionary();
+  CONFORM_CHECK(one.has_value());
+  return eds_text((*one)->dictionary(), 1);
+}
 
+std::string eds_text(const ObjectDictionary& dictionary, std::uint8_t node_id) {
   std::vector<std::uint16_t> mandatory, optional, manufacturer;
   std::string objects;
   for (const auto& [index, object] : dictionary.objects()) {
     const bool required = index == 0x1000 || index == 0x1001 || index == 0x1018;
     const bool own = index >= 0x2000 && index <= 0x5FFF;
     (required ? mandatory : own ? manufacturer : optional).push_back(index);
-    objects += object_text(index, object, (*two)->dictionary().objects().at(index));
+    objects += object_text(index, object, node_id);
   }
+  const auto pdos = [&dictionary](std::uint16_t first, std::uint16_t last) {
+    const auto& all = dictionary.objects();
+    return std::distance(all.lower_bound(first), all.upper_bound(last));
+  };
   return fmt::format(header, dictionary.number(0x1018, 1), dictionary.number(0x1018, 2),
-                     dictionary.number(0x1018, 3)) +
+                     dictionary.number(0x1018, 3), pdos(0x1400, 0x15FF), pdos(0x1800, 0x19FF)) +
          list_text("MandatoryObjects", mandatory) + list_text("OptionalObjects", optional) +
          list_text("ManufacturerObjects", manufacturer) + module_text() + objects;
 }

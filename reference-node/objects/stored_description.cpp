@@ -11,12 +11,12 @@ constexpr std::uint64_t plain_text = 0x00;  // 01h-7Fh are reserved, 80h-FFh the
 
 }  // namespace
 
-void add_stored_description(Device& device, std::string (*text)()) {
+void add_stored_description(Device& device,
+                            std::string (*text)(const ObjectDictionary&, std::uint8_t node_id)) {
   ObjectDictionary& od = device.dictionary;
   od.add_variable(0x1021, bytes_entry("Store EDS", DataType::domain, Access::ro, {})).read =
-      [text]() -> Upload {
-    // Made once, at the first upload: it is that of the conformant node and so the same for all nodes.
-    static const std::string made = text();
+      [&device, text]() -> Upload {
+    const std::string made = text(device.dictionary, device.node_id);
     return Bytes(made.begin(), made.end());
   };
   od.add_variable(0x1022, integer_entry("Store format", DataType::unsigned16, Access::ro, plain_text));

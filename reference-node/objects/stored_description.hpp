@@ -9,6 +9,7 @@
 namespace refnode {
 
 /// `text` gives what 1021h holds.
-void add_stored_description(Device& device, std::string (*text)());
+void add_stored_description(Device& device,
+                            std::string (*text)(const ObjectDictionary&, std::uint8_t node_id));
 
 }  // namespace refnode

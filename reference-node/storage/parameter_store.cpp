@@ -46,7 +46,7 @@ PowerOnRules::PowerOnRules()
       stored_values([](const Images& images, Group group) { return images.contains(group); }) {}
 
 ParameterStore::ParameterStore(Device& device, std::shared_ptr<Storage> storage)
-    : stamp(device), device_(&device), storage_(std::move(storage)) {}
+    : stamp(device), memory(std::move(storage)), device_(&device) {}
 
 void ParameterStore::add_objects() {
   stamp.add_objects();
@@ -121,10 +121,10 @@ void ParameterStore::on_time() {
 }
 
 Accepted ParameterStore::store(const std::vector<Group>& groups) {
-  Images images = storage_->images();
+  Images images = memory->images();
   for (const Group group : groups) images[group] = image_of(group, images[group]);
   const bool with_stamp = std::ranges::find(groups, Group::communication) != groups.end();
-  const bool outdated = stamp.before_storing(storage_->images(), images, with_stamp);
+  const bool outdated = stamp.before_storing(memory->images(), images, with_stamp);
   if (auto kept = keep(std::move(images)); !kept) return kept;
   stamp.after_storing(outdated, with_stamp);
   return {};
@@ -154,7 +154,7 @@ Entry* ParameterStore::storage_fault() const {
 Accepted ParameterStore::keep(Images images) {
   const Entry* armed = storage_fault();
   if (armed != nullptr && armed->number() != 0) return refuse(abort_code::hardware_error);
-  if (!storage_->replace(std::move(images))) return refuse(abort_code::hardware_error);
+  if (!memory->replace(std::move(images))) return refuse(abort_code::hardware_error);
   return {};
 }
 
@@ -170,16 +170,16 @@ Accepted ParameterStore::save(std::uint8_t sub, ByteView signature) {
 // The stored values go at once, the present ones stay until the reset that makes the defaults valid.
 Accepted ParameterStore::restore(std::uint8_t sub, ByteView signature) {
   if (!is_signature("load", signature)) return refuse(choices.wrong_signature);
-  Images images = storage_->images();
+  Images images = memory->images();
   for (const Group group : groups_of(sub)) images.erase(group);
-  stamp.before_restoring(storage_->images(), images);
+  stamp.before_restoring(memory->images(), images);
   if (auto kept = keep(std::move(images)); !kept) return kept;
   for (const Group group : groups_of(sub)) restored_.insert(group);
   return {};
 }
 
 bool ParameterStore::store_layer_setting(std::uint8_t node_id, std::optional<std::uint8_t> bit_rate) {
-  Images images = storage_->images();
+  Images images = memory->images();
   Image& image = images[Group::layer_setting];
   image[node_id_setting] = {node_id};
   if (bit_rate) image[bit_rate_setting] = {*bit_rate};
@@ -187,8 +187,8 @@ bool ParameterStore::store_layer_setting(std::uint8_t node_id, std::optional<std
 }
 
 std::optional<std::uint8_t> ParameterStore::stored_node_id() const {
-  const auto group = storage_->images().find(Group::layer_setting);
-  if (group == storage_->images().end()) return std::nullopt;
+  const auto group = memory->images().find(Group::layer_setting);
+  if (group == memory->images().end()) return std::nullopt;
   const auto value = group->second.find(node_id_setting);
   if (value == group->second.end() || value->second.size() != 1) return std::nullopt;
   return value->second.front();
@@ -206,7 +206,7 @@ void ParameterStore::load_power_on_values(bool whole_node) {
 
 void ParameterStore::load(Group group) {
   static const Image nothing;
-  const Images& images = storage_->images();
+  const Images& images = memory->images();
   const Image& stored = rules.stored_values(images, group) ? images.at(group) : nothing;
   for (auto& [index, object] : device_->dictionary.objects()) {
     if (group_of(conform::Index(index)) != group) continue;

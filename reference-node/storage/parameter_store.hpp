@@ -40,6 +40,7 @@ class ParameterStore {
   StoreChoices choices;
   PowerOnRules rules;
   ConfigurationStamp stamp;
+  std::shared_ptr<Storage> memory;  ///< what is kept without power
 
   /// 1010h and 1011h, and 2F20h that makes them fail.
   void add_objects();
@@ -73,7 +74,6 @@ class ParameterStore {
   void store_soon(Multiplexer mux);
 
   Device* device_;
-  std::shared_ptr<Storage> storage_;
   std::optional<BusTime> store_at_;  ///< something of them has been written; a reset forgets it
   std::set<Group> restored_;  ///< their defaults wait for the reset: not stored without a command until then
 };

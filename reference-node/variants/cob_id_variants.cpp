@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Refusals of the COB-ID parameters, of which CiA 301 names hardly any code.
+#include <cstdint>
+#include <vector>
+
 #include "variants/tools.hpp"
 
 namespace refnode {
@@ -25,6 +28,25 @@ How lock_code(AbortCode code) {
 
 How restricted_code(AbortCode code) {
   return everywhere([code](CobIdChoices& c) { c.restricted = code; });
+}
+
+/// COB-IDs of TPDOs take bit 29, and their frames have 29 bits then.
+void extended_tpdos(Parts& node) {
+  constexpr std::uint32_t frame_bit = 0x2000'0000;
+  node.pdos.tpdo.parameters.cob_id_rules.frame_bit_allowed.replace(
+      [](const auto&, std::uint32_t) { return true; });
+  node.device.outbox.add_filter([&node](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo) return;
+    for (Outgoing& each : frames) {
+      for (std::uint16_t index = 0x1800; index <= 0x19FF; ++index) {
+        const auto value = static_cast<std::uint32_t>(node.device.dictionary.number(index, 1));
+        if ((value & frame_bit) == 0 || (value & 0x7FFU) != each.frame.id) continue;
+        each.frame.extended = true;
+        each.frame.id = value & 0x1FFF'FFFFU;
+        break;
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -78,6 +100,11 @@ VariantTable cob_id_variants() {
        {"lock-code"},
        {},
        {"fixed cob-ids"}},
+      {.id = "tpdo-29-bit",
+       .summary = "TPDOs can have 29-bit identifiers",
+       .legal = "OD-1800-13, CAN-EXT-01: bit 29 is taken, and the frames have 29 bits",
+       .how = extended_tpdos,
+       .lacks = {"base frames only"}},
       {.id = "pdo-only-valid-bit-0800-0000",
        .summary = "the same, refused as a general error",
        .legal = "OD-1400-12, OD-1800-12",

@@ -73,6 +73,14 @@ struct ScanCommand {
 };
 [[nodiscard]] int scan_command(const ScanCommand& options);
 
+struct LssScanCommand {
+  std::string interface;
+  std::uint32_t simulate = 0;           ///< so many reference nodes without node-ID
+  std::optional<std::uint32_t> assign;  ///< the first node-ID to give; absent: none is given
+  std::uint32_t timeout_ms = 100;       ///< how long an answer may take
+};
+[[nodiscard]] int lss_scan_command(const LssScanCommand& options);
+
 struct JudgeCommand {
   std::string capture;  ///< pcapng or candump log
   std::vector<std::string> select;

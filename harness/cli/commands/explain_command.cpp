@@ -132,7 +132,7 @@ std::string explain_verb(const steps::Verb& verb) {
 
 constexpr steps::Verb over = {
     "over", "Walk over values inside one step and tell the offenders in one finding.",
-    "NAME: a list of values and ranges, restricted CAN-IDs (a sample of them; all with --all-objects), or a query (entries with ...)\nsteps: beside it, what is done with each value",
+    "NAME: a list of values and ranges, restricted CAN-IDs (a sample of them; all with --all-objects), described bit rates (their places in the table of LSS), or a query (entries with ...)\nsteps: beside it, what is done with each value",
     "- over: {id: restricted CAN-IDs}\n  steps:\n    - download: {object: 1014h:00, value: 8000 0000h | $id}\n      checks: CAN-RID-01\n"
     "      expect: abort 0609 0030h",
     nullptr};

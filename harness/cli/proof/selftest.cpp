@@ -12,7 +12,7 @@
 #include "cli/proof/blame.hpp"
 #include "cli/proof/verdicts.hpp"
 #include "defects/defect.hpp"
-#include "node/node.hpp"
+#include "node/powered_node.hpp"
 
 namespace conform::cli {
 
@@ -21,16 +21,22 @@ using result::Verdict;
 Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                               const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                               engine::RunOptions options, std::uint64_t seed) {
-  auto node = refnode::Node::create({.node_id = profile.node.value(),
-                                     .defects = switches.defects,
-                                     .variants = switches.variants,
-                                     .description = switches.description});
+  auto node = refnode::PoweredNode::create({.node_id = profile.node.value(),
+                                            .defects = switches.defects,
+                                            .variants = switches.variants,
+                                            .description = switches.description});
   if (!node) return std::unexpected(node.error());
   can::SimulatedBus::Options bus_options;
   bus_options.seed = seed;
   can::SimulatedBus bus(bus_options);
   bus.attach(**node, "reference node");
   options.plan.seed = seed;
+  options.power_revives = false;
+  options.power_cycle = [&bus, &node]() -> Result<void> {
+    bus.unplug(**node);
+    bus.attach(**node, "reference node");
+    return {};
+  };
   device::Profile claimed = profile;
   for (const auto& id : switches.defects) {
     const refnode::Defect* defect = refnode::find_defect(id);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "variants/variant.hpp"
 
@@ -60,6 +61,13 @@ device::Profile profile_of_variants(const device::Profile& reference,
     for (const auto word : variant->lacks) out.claims.erase(std::string(word));
     for (const auto word : variant->gains) out.claims.insert(std::string(word));
   }
+  out.device_info.lss = out.claimed("lss");
+  const auto between = [&dictionary](std::uint16_t first, std::uint16_t last) {
+    const auto& objects = dictionary.objects();
+    return static_cast<std::uint64_t>(std::distance(objects.lower_bound(first), objects.upper_bound(last)));
+  };
+  out.device_info.rpdos = between(0x1400, 0x15FF);
+  out.device_info.tpdos = between(0x1800, 0x19FF);
   // Nothing is mapped variably without PDOs.
   if (!out.claimed("rpdo") && !out.claimed("tpdo")) out.claims.erase("variable mapping");
   out.boot_time = std::chrono::seconds(5);

@@ -64,6 +64,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     if (out.profile.name.empty() && !file->device_info.product_name.empty())
       out.profile.name = printable(file->device_info.product_name.text);
     out.description = std::make_shared<const eds::EdsFile>(std::move(*file));
+    out.profile.description = out.description;
     device::add_description(out.profile, std::move(*description));
   }
   if (auto done = device::complete_writes(out.profile); !done) {

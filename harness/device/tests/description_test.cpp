@@ -252,3 +252,25 @@ TEST_CASE("A DCF names the node-ID") {
   CHECK(described("[DeviceComissioning]\nNodeID=0x10\n" + variable("1000", "7", "ro"), "a.dcf").node ==
         NodeId(16));
 }
+
+TEST_CASE("[DeviceInfo] tells how many PDOs there are, whether there is LSS, and the bit rates") {
+  const auto info = described("[DeviceInfo]\nNrOfRXPDO=2\nNrOfTXPDO=0x3\nLSS_Supported=0\nBaudRate_500=1\n"
+                              "BaudRate_250=0\nBaudRate_125=1\n")
+                        .info;
+  CHECK(info.rpdos == 2U);
+  CHECK(info.tpdos == 3U);
+  CHECK(info.lss == false);
+  CHECK(info.bit_rates == std::vector<std::uint32_t>{125, 500});
+  const auto nothing = described("[DeviceInfo]\nVendorName=a\n").info;
+  CHECK_FALSE(nothing.rpdos.has_value());
+  CHECK_FALSE(nothing.lss.has_value());
+  CHECK(nothing.bit_rates.empty());
+}
+
+TEST_CASE("What the profile says of the whole device goes before the description") {
+  Profile profile;
+  profile.device_info.rpdos = 1;
+  add_description(profile, described("[DeviceInfo]\nNrOfRXPDO=2\nNrOfTXPDO=3\n"));
+  CHECK(profile.told("rpdos") == 1U);
+  CHECK(profile.told("tpdos") == 3U);
+}

@@ -91,6 +91,7 @@ untouchable: [1F50h:01]
 power_cycle: relay 3 cycle
 factory_defaults: true
 identity: {vendor: 5AFEh, serial: 17}
+device_info: {rpdos: 4, lss: false, bit_rates: [500, 125]}
 known_deviations:
   - {requirement: OD-1014-06, reason: fixed in 2.0}
   - {requirement: OD-1014-06, case: cia301/1014/a, reason: other}
@@ -134,6 +135,10 @@ known_deviations:
   CHECK(profile.factory_defaults);
   CHECK(profile.identity.vendor == 0x5AFEU);
   CHECK_FALSE(profile.identity.product.has_value());
+  CHECK(profile.told("rpdos") == 4U);
+  CHECK(profile.told("lss") == 0U);
+  CHECK_FALSE(profile.told("tpdos").has_value());
+  CHECK(profile.device_info.bit_rates == std::vector<std::uint32_t>{125, 500});
   CHECK(profile.deviations.size() == 2);
 }
 
@@ -193,6 +198,12 @@ TEST_CASE("Of the data types up to UNSIGNED32 those that are not listed as place
   CHECK_FALSE(profile.placeholders.at(Index(0x0001)));
   CHECK_FALSE(profile.placeholders.contains(Index(0x0008)));
   CHECK(good(head).placeholders.empty());
+}
+
+TEST_CASE("A bit rate that CiA 301 does not have is a mistake") {
+  const auto loaded = load("format: 1\nname: a\nnode: 1\ndevice_info: {bit_rates: [100]}\n");
+  CHECK_FALSE(loaded.usable);
+  CHECK(loaded.messages.find("100 kbit/s is no bit rate of CiA 301") != std::string::npos);
 }
 
 TEST_CASE("All mistakes of a profile are reported at their places") {
@@ -304,7 +315,8 @@ TEST_CASE("The schema for editors knows every feature and key") {
        {"boot_time",      "sdo_timeout",   "store_timeout", "nmt_time",         "quiet_time",
         "server_timeout", "block_timeout", "lss_timeout",   "claims",           "not_claimed",
         "objects",        "errors",        "safe_objects",  "untouchable",      "factory_defaults",
-        "wired",          "placeholders",  "identity",      "known_deviations", "store_fault"}) {
+        "wired",          "placeholders",  "identity",      "known_deviations", "store_fault",
+        "device_info"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }

@@ -209,6 +209,57 @@ TEST_CASE("a device that does not come back by a reset gets its power switched, 
   CHECK_FALSE(is_noted(out, "although nobody told it to"));
 }
 
+namespace {
+const std::string switches_power = R"(
+  - id: a
+    title: t
+    when: power switch is known
+    risk: config
+    steps:
+      - power_cycle: once
+        checks: T-MUST
+        expect: ok
+      - upload: {object: 1018h:01}
+        checks: T-MUST
+)";
+}  // namespace
+
+TEST_CASE("a scenario switches the power, and the start that follows is nobody's fault") {
+  for (const bool starts : {true, false}) {
+    ScriptedDevice device;
+    can::SimulatedBus bus;
+    RunOptions options;
+    options.power_cycle = [&]() -> Result<void> {
+      if (starts) device.send(boot_up);
+      return {};
+    };
+    const auto out = play(bus, device, switches_power, options);
+    CHECK_FALSE(out.run.aborted.has_value());
+    CHECK(out.verdict_of("T-MUST") == (starts ? Verdict::pass : Verdict::fail));
+    CHECK_FALSE(is_noted(out, "although nobody told it to"));
+  }
+}
+
+TEST_CASE("without a power switch a scenario that needs one is not applicable, with the reason") {
+  ScriptedDevice device;
+  const auto out = play(device, switches_power);
+  CHECK(out.run.cases[0].verdict == Verdict::not_applicable);
+  CHECK_THAT(out.run.cases[0].reason, Catch::Contains("no way to switch the power of the device is known"));
+}
+
+TEST_CASE("a power switch that fails judges nothing, and says why") {
+  ScriptedDevice device;
+  can::SimulatedBus bus;
+  RunOptions options;
+  options.power_cycle = []() -> Result<void> { return fail("the command failed with exit code 1: relay"); };
+  const auto out = play(bus, device, switches_power, options);
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK_THAT(out.run.cases[0].reason,
+             Catch::Contains("the power of the device could not be switched: the command failed"));
+  CHECK(out.run.counts().fail == 0);
+  CHECK(result::exit_code(out.run) == 3);
+}
+
 TEST_CASE("two devices with one node-ID are recognised before anything is judged") {
   for (const bool same_kind : {false, true}) {
     ScriptedDevice device, twin;

@@ -78,8 +78,8 @@ TEST_CASE("Conditions about device and bench are phrases") {
        {"device claims sync producer", "error trigger is known", "an error trigger is known",
         "2 error triggers are known", "not device claims emcy", "not interface can send RTR",
         "not factory defaults are active", "not device description is given", "not all objects are tried",
-        "not store fault is known", "not block upload is offered", "not block download is offered",
-        "nobody else is heard on the bus"}) {
+        "not store fault is known", "not power switch is known", "not block upload is offered",
+        "not block download is offered", "nobody else is heard on the bus"}) {
     CAPTURE(text);
     CHECK(answer(text, session) == "yes");
   }
@@ -92,6 +92,11 @@ TEST_CASE("Conditions about device and bench are phrases") {
   CHECK(answer("nobody else is heard on the bus", session) == "no");
   session.device_profile.store_fault.emplace();
   CHECK(answer("store fault is known", session) == "yes");
+  CHECK(answer("description tells lss", session) == "no");
+  session.device_profile.device_info.lss = false;
+  CHECK(answer("description tells lss", session) == "yes");
+  session.power_switch = true;
+  CHECK(answer("power switch is known", session) == "yes");
 }
 
 TEST_CASE("A condition that is false names the part, the entry and the value that made it so") {
@@ -141,6 +146,8 @@ TEST_CASE("A condition that is false for want of something says what the user co
         "profile: store_fault: in the profile, if the device can simulate one; ");
   CHECK(wants("device claims only node on the bus or device description is given") ==
         "claim: the claim 'only node on the bus', if it is so; description: the EDS of the device (--eds); ");
+  CHECK(wants("power switch is known") ==
+        "profile: power_cycle: a command that switches the power of the device off and on, in the profile; ");
   // Where the device itself lacks something nothing can be given.
   CHECK(wants("1010h is present and device claims mpdo").empty());
   CHECK(wants("1010h is present").empty());

@@ -22,7 +22,7 @@ class FakeSession final : public Session {
   std::map<Multiplexer, Bytes> defaults, low_limits, high_limits;
   std::size_t triggers = 0;
   std::string others;  ///< what somebody else sent
-  bool described = false, sweeps = false, factory = false, remote = false;
+  bool described = false, sweeps = false, factory = false, remote = false, power_switch = false;
   Result<Value> current_value = fail("no entry");
   device::Profile device_profile = device::default_profile(NodeId(5));
   device::Dictionary known;
@@ -82,6 +82,10 @@ class FakeSession final : public Session {
     return std::vector<device::ErrorTrigger>(triggers);
   }
   [[nodiscard]] bool store_fault_known() const override { return device_profile.store_fault.has_value(); }
+  [[nodiscard]] bool is_told(std::string_view what) const override {
+    return device_profile.told(what).has_value();
+  }
+  [[nodiscard]] bool power_switch_known() const override { return power_switch; }
   [[nodiscard]] bool factory_defaults() const override { return factory; }
   [[nodiscard]] bool can_send_remote_frames() const override { return remote; }
   [[nodiscard]] bool is_described() const override { return described; }

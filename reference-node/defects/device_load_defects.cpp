@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of the device as a whole on its bus: under load, with any node-ID, with frames of others on its
+// own CAN-IDs, and with 29-bit identifiers.
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "defects/cob_ids.hpp"
+#include "defects/hooks.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Whether more than `many` frames have come within `time`.
+class Load {
+ public:
+  Load(std::size_t many, Duration time) : many_(many), time_(time) {}
+  bool takes(BusTime now) {
+    came_.push_back(now);
+    while (came_.front() + time_ < now) came_.pop_front();
+    return came_.size() > many_;
+  }
+  void forget() { came_.clear(); }
+
+ private:
+  std::size_t many_;
+  Duration time_;
+  std::deque<BusTime> came_;
+};
+
+/// A buffer of so many frames, which is worked off by and by, runs over: the watchdog resets the node.
+Change restarts_when_flooded() {
+  return [load = Load(40, 20ms)](Parts& parts, std::vector<Frame>&) mutable {
+    if (!load.takes(parts.device.now)) return;
+    load.forget();
+    parts.nmt.start_reset(Reset::node);
+  };
+}
+
+/// Each frame on the bus, whoever it is for, holds up the heartbeat.
+Change heartbeat_waits_for_a_quiet_bus() {
+  return [](Parts& parts) {
+    const auto busy_until = std::make_shared<BusTime>();
+    parts.device.inbox.add_filter([&parts, busy_until, load = Load(60, 20ms)](std::vector<Frame>&) mutable {
+      if (load.takes(parts.device.now)) *busy_until = parts.device.now + 500ms;
+    });
+    parts.device.outbox.add_filter(
+        [&parts, busy_until](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service == Service::heartbeat && parts.device.now < *busy_until) frames.clear();
+        });
+  };
+}
+
+/// The CAN-IDs of what the node sends are made with six bits of the node-ID.
+Change node_id_of_six_bits() {
+  return Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    for (Outgoing& each : frames) {
+      const bool of_node =
+          context.node_id >= 64 && !each.frame.extended && (each.frame.id & 0x7FU) == context.node_id;
+      if (of_node) each.frame.id &= ~0x40U;
+    }
+  });
+}
+
+/// The highest node-ID is taken for none.
+Change deaf_with_the_highest_node_id() {
+  return deaf_to([](Parts& parts, const Frame& frame) {
+    return parts.device.node_id == 127 && frame.id >= 0x580 && frame.id <= 0x67F;
+  });
+}
+
+bool has_own_id(const Parts& parts, const Frame& frame, std::uint32_t base) {
+  return !frame.extended && !frame.remote && frame.id == base + parts.device.node_id;
+}
+
+Change stops_when_its_heartbeat_is_heard() {
+  return misreads([](Parts& parts, Frame& frame) {
+    if (has_own_id(parts, frame, 0x700) && parts.device.state != NmtState::initialising)
+      parts.nmt.enter(NmtState::stopped);
+  });
+}
+
+Change server_hangs_on_its_own_response() {
+  return [](Parts& parts) {
+    deaf_to([hangs = false](Parts& whole, const Frame& frame) mutable {
+      if (has_own_id(whole, frame, 0x580)) hangs = true;
+      if (frame.id == 0x000) hangs = false;
+      return hangs && has_own_id(whole, frame, 0x600);
+    })(parts);
+  };
+}
+
+constexpr std::uint32_t frame_bit = 0x2000'0000;
+
+Change takes_frame_bit_of_tpdos() { return decided(of_tpdo, &CobIdRules::frame_bit_allowed, true); }
+
+/// TPDOs whose COB-ID has bit 29 are sent with 29 bits, of which the upper ones are 0.
+Change cuts_extended_ids() {
+  return [](Parts& parts) {
+    parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::tpdo) return;
+      for (Outgoing& each : frames) {
+        for (std::uint16_t index = 0x1800; index < 0x1804; ++index) {
+          const auto value = parts.device.dictionary.number(index, 1);
+          if ((value & frame_bit) != 0 && (value & 0x7FFU) == each.frame.id) each.frame.extended = true;
+        }
+      }
+    });
+  };
+}
+
+}  // namespace
+
+DefectTable device_load_defects() {
+  return {
+      {"restarts-when-flooded",
+       "More than 40 frames within 20 ms, whoever they are for, make the device restart",
+       {"CAN-LOAD-02", "CAN-LOAD-01"},
+       restarts_when_flooded()},
+      {"heartbeat-waits-for-a-quiet-bus",
+       "While the bus is busy the device sends no heartbeat",
+       {"CAN-LOAD-01"},
+       heartbeat_waits_for_a_quiet_bus()},
+      {"node-id-of-six-bits",
+       "With a node-ID from 64 on the device sends with the CAN-IDs of a lower one",
+       {"CAN-ID-01", "LSS-CN-04"},
+       node_id_of_six_bits()},
+      {"node-id-127-without-sdo",
+       "With node-ID 127 the SDO server is deaf",
+       {"CAN-ID-01"},
+       deaf_with_the_highest_node_id()},
+      {"own-heartbeat-heard-stops",
+       "A frame with the CAN-ID of its own heartbeat stops the device",
+       {"CAN-ID-02"},
+       stops_when_its_heartbeat_is_heard()},
+      {"own-response-heard-hangs-sdo",
+       "A frame with the CAN-ID of its own SDO response makes the SDO server hang until the next NMT command",
+       {"CAN-ID-02"},
+       server_hangs_on_its_own_response()},
+      {.id = "tpdo-29-bit-sent-with-11",
+       .summary = "A TPDO whose COB-ID took bit 29 is sent in frames with 11 bits",
+       .violates = {"CAN-EXT-01", "OD-1800-13"},
+       .how = takes_frame_bit_of_tpdos(),
+       .lacks = {"base frames only"}},
+      {.id = "tpdo-29-bit-id-cut",
+       .summary = "A TPDO whose COB-ID took bit 29 is sent with the lower 11 bits of its CAN-ID",
+       .violates = {"CAN-EXT-01"},
+       .how = together(takes_frame_bit_of_tpdos(), cuts_extended_ids()),
+       .lacks = {"base frames only"}},
+  };
+}
+
+}  // namespace refnode
