@@ -14,6 +14,15 @@ struct Reason {
 };
 
 constexpr auto reasons = std::to_array<Reason>({
+    {"1403-missing",
+     "an object that the description counts and another one that it names are two demands of it"},
+    {"1804-undescribed",
+     "a TPDO too many is found by counting, and by what a TPDO must have, wherever it comes from"},
+    {"lss-silent", "that there is no LSS breaks the rules of LSS, and what the description says"},
+    {"restarts-when-flooded",
+     "whichever burst of frames comes first makes it restart, whatever its case is about"},
+    {"node-id-of-six-bits",
+     "the node-ID of one LSS scenario is above 63: what the device sends there is wrong for LSS, too"},
     {"mux-stale-subindex",
      "what a response about another sub-index spoils is seen in PDO set-ups and a heartbeat "
      "test, which read nothing wrong themselves"},
