@@ -145,6 +145,7 @@ constexpr auto ground_table = std::to_array<Ground>({
      "EC-NG-15 OD-1029-10",
      "EC-NG-01"},
     {"EC-NG-03 EC-NG-10 EC-NG-12 EC-NG-14", "EC-NG-02"},
+    {"EC-NG-10", "EC-NG-07"},
     {"EC-NG-08", "EC-NG-04"},
     {"EC-HBP-12", "EC-NG-11"},
     {"OD-1029-10", "EC-NG-07 EC-NG-10 EC-NG-12"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects that a device need not have: identity, names, descriptions, operating system, modules.
 #include <algorithm>
+#include <cctype>
 #include <initializer_list>
 #include <string_view>
 #include <vector>
@@ -38,15 +39,38 @@ void empty_description(Parts& parts) {
     entry->read = []() -> Upload { return refuse(abort_code::no_data); };
 }
 
-/// Only the head of the description: of the standard objects.
+/// [1000], [1018sub1] ...: what a description says of one object or entry.
+bool is_object(std::string_view section) {
+  constexpr std::size_t digits = 4;
+  return section.size() > digits && std::ranges::all_of(section.substr(1, digits), [](unsigned char letter) {
+           return std::isxdigit(letter) != 0;
+         });
+}
+
+bool is_mandatory(std::string_view section) {
+  constexpr std::string_view indices[] = {"[1000", "[1001", "[1018"};
+  return std::ranges::any_of(indices, [&](auto index) { return section.starts_with(index); });
+}
+
+/// A description of the mandatory objects, without the lists of others.
 void short_description(Parts& parts) {
   Entry* entry = parts.device.dictionary.entry(0x1021, 0);
   if (entry == nullptr) return;
   entry->read = [whole = entry->read]() -> Upload {
-    Upload text = whole();
-    constexpr std::string_view next = "[ManufacturerObjects]";
-    if (text) text->erase(std::ranges::search(*text, next).begin(), text->end());
-    return text;
+    const Upload text = whole();
+    if (!text) return text;
+    const std::string_view all(reinterpret_cast<const char*>(text->data()), text->size());
+    Bytes out;
+    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+      const auto next = all.find("\n[", begin);
+      end = next == std::string_view::npos ? all.size() : next + 1;
+      const auto section = all.substr(begin, end - begin);
+      const bool of_others = section.starts_with("[OptionalObjects") ||
+                             section.starts_with("[ManufacturerObjects") ||
+                             (is_object(section) && !is_mandatory(section));
+      if (!of_others) out.insert(out.end(), section.begin(), section.end());
+    }
+    return out;
   };
 }
 
@@ -116,7 +140,7 @@ VariantTable objects_variants() {
       {"1021-absent", "no device description inside", "7.5.2.24: optional", absent({0x1021, 0x1022}), "1021"},
       {"1021-empty", "no device description has been stored yet", "OD-1021-01: an empty store",
        empty_description, "1021"},
-      {"1021-short", "the device description inside tells of the standard objects alone",
+      {"1021-short", "the device description inside tells of the mandatory objects alone",
        "OD-1021-01: what it says is the maker's", short_description, "1021"},
       {"1022-own-format", "the device description in a format of the manufacturer", "OD-1022-02: 80h to FFh",
        preset(0x1022, 0, 0x80)},
