@@ -103,6 +103,10 @@ class StoredDescription final : public Action {
       out.detail = answer->detail;
       return out;
     }
+    if (answer->data.empty()) {
+      out.detail = "nothing";
+      return out;
+    }
     const std::string name = to_string(*object);
     const std::string_view text(reinterpret_cast<const char*>(answer->data.data()), answer->data.size());
     const auto file = eds::read(text, name);
