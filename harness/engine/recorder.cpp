@@ -56,7 +56,7 @@ Result<void> Recorder::produce_due() {
     if (running.due > current) continue;
     // The first one begins the train; only what follows has a time at which it is due.
     const Duration late = current - running.due;
-    if (running.sent > 0 && late > running.production.every / 2)
+    if (running.production.keeps_time && running.sent > 0 && late > running.production.every / 2)
       lateness_.producing = std::max(lateness_.producing, late);
     auto& frame = running.production.frame;
     if (const auto last = running.production.counts_to)

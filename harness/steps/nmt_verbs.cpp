@@ -212,9 +212,9 @@ class Produce final : public Action {
       const auto frame = can::data_frame(CanId(0x7DF), {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55});
       const auto one = can::bit_time(can::frame_bits(frame) + can::intermission_bits,
                                      session.bus_bit_rate().value_or(slow_bus));
-      if (auto begun = session.produce({"load", frame, one * 100 / static_cast<Duration::rep>(load_), {}});
-          !begun)
-        return std::unexpected(begun.error());
+      Production load{"load", frame, one * 100 / static_cast<Duration::rep>(load_), {}};
+      load.keeps_time = false;
+      if (auto begun = session.produce(std::move(load)); !begun) return std::unexpected(begun.error());
       return Actual{};
     }
     if (guards_) {

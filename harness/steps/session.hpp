@@ -72,6 +72,7 @@ struct Production {
   std::optional<std::uint64_t> count;  ///< absent: until stopped or the scenario ends
   /// The first data byte counts from 1 to this, and again; absent: every frame is the same.
   std::optional<std::uint8_t> counts_to{};
+  bool keeps_time = true;  ///< no: how many frames there are counts, and not when each is sent
 };
 
 class Session : public Facts {

@@ -170,6 +170,13 @@ TEST_CASE("a cyclic frame that the host sends late is told, the first one is not
   const auto lateness = recorder.take_lateness();
   CHECK(lateness.producing == Duration(40ms));
   CHECK(lateness.waking == Duration(40ms));
+  // Frames that only load the bus may come in a bunch.
+  recorder.stop_producing("heartbeat");
+  steps::Production load{"load", can::data_frame(CanId(0x7DF), {}), 1ms, std::nullopt};
+  load.keeps_time = false;
+  recorder.produce(load);
+  REQUIRE(recorder.wait_until(recorder.now() + 500ms).has_value());
+  CHECK(recorder.take_lateness().producing == Duration(0));
 }
 
 TEST_CASE("A produced SYNC may count in its data") {
