@@ -146,6 +146,12 @@ constexpr auto ground_table = std::to_array<Ground>({
      "EC-NG-01"},
     {"EC-NG-03 EC-NG-10 EC-NG-12 EC-NG-14", "EC-NG-02"},
     {"EC-NG-10", "EC-NG-07"},
+    // What a description says of the whole device is counted through its objects and its LSS.
+    {"EDS-VSD-10", "SDO-ERR-04 SDO-ERR-05 OD-OBJ-02 OD-GEN-04 OD-1400-03 OD-1800-03 LSS-SS-01 LSS-SG-01"},
+    {"CAN-ID-01", "NMT-BOOT-02 NMT-BOOT-08"},
+    {"CAN-LOAD-02 STO-1010-06", "NMT-FSA-13 NMT-FSA-25"},
+    {"CAN-TRF-01", "TIME-PRO-01 TIME-PRO-03"},
+    {"OD-1020-05", "OD-1010-03 OD-1010-18 STO-1020-04"},
     {"EC-NG-08", "EC-NG-04"},
     {"EC-HBP-12", "EC-NG-11"},
     {"OD-1029-10", "EC-NG-07 EC-NG-10 EC-NG-12"},

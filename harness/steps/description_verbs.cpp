@@ -177,7 +177,7 @@ class StoredDescription final : public Action {
          {"ProductNumber", &file.device_info.product_number},
          {"RevisionNumber", &file.device_info.revision_number}}};
     std::vector<std::string> out;
-    for (std::uint8_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t i = 0; i < parts.size(); ++i) {
       const auto said = eds::number_of(*parts[i].second);
       if (!said) continue;
       const Multiplexer entry{Index(0x1018), SubIndex(static_cast<std::uint8_t>(i + 1))};

@@ -319,7 +319,7 @@ DefectTable lss_defects() {
        bit_rate_allowed([](bool right, std::uint8_t, std::uint8_t index) { return right && index < 5; })},
       {"lss-silent",
        "The device does not know LSS although its description says so",
-       {"EDS-VSD-10", "LSS-SS-01"},
+       {"LSS-SG-01", "LSS-SS-01", "EDS-VSD-10"},
        deaf_to([](Parts&, const Frame& frame) { return frame.id == request_id; })},
       {"lss-bit-rate-index-5-accepted",
        "The reserved entry 5 of the table of bit rates is accepted",

@@ -93,7 +93,7 @@ DefectTable objects_description_defects() {
        both(absent(0x1403), absent(0x1603))},
       {"1804-undescribed",
        "There is a TPDO more than the description says",
-       {"EDS-VSD-10"},
+       {"EDS-VSD-10", "OD-1800-03"},
        [](ObjectDictionary& od, std::uint8_t) {
          od.add_complex(0x1804, "TPDO communication parameter", ObjectKind::record);
          od.add_sub(0x1804, 1, integer_entry("COB-ID", DataType::unsigned32, Access::rw, 0x80000000));
