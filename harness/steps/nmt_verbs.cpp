@@ -162,26 +162,65 @@ class BootUp final : public Action {
   Duration once_for_{};
 };
 
-class Produce final : public Action {
+Result<Actual> begin(Session& session, Production production) {
+  if (auto begun = session.produce(std::move(production)); !begun) return std::unexpected(begun.error());
+  return Actual{};
+}
+
+class ProduceLoad final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& percent) {
+    auto out = std::make_unique<ProduceLoad>();
+    out->percent_ = percent.number(1, 90).value_or(0);
+    return out->percent_ == 0 ? nullptr : std::move(out);
+  }
+  Need need() const override { return {Tier::motion, "load the bus"}; }
+  std::string words(Session&) const override {
+    return "load the bus by " + std::to_string(percent_) + " % with frames that nobody uses";
+  }
+  Result<Actual> run(Session& session) const override {
+    // Of the lowest priority that is left: what the device sends goes first.
+    const auto frame = can::data_frame(CanId(0x7DF), {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55});
+    const auto one = can::bit_time(can::frame_bits(frame) + can::intermission_bits,
+                                   session.bus_bit_rate().value_or(slow_bus));
+    Production load{"load", frame, one * 100 / static_cast<Duration::rep>(percent_), {}};
+    load.keeps_time = false;
+    return begin(session, std::move(load));
+  }
+
+ private:
+  /// Where the interface does not tell its bit rate.
+  static constexpr std::uint32_t slow_bus = 125'000;
+
+  std::uint64_t percent_ = 0;
+};
+
+class ProduceGuard final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value) {
+    auto out = std::make_unique<ProduceGuard>();
+    auto fields = value.fields("guard");
+    const auto every = fields.required("every");
+    if (!every) return nullptr;
+    if (auto time = parse_time_at(every)) out->every_ = *time;
+    return out;
+  }
+  Need need() const override { return {Tier::config, "send remote frames"}; }
+  std::string words(Session&) const override { return "produce guard requests every " + every_.text(); }
+  Result<Actual> run(Session& session) const override {
+    const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
+    return begin(session, {"guard", request, every_.resolve(session.profile()), {}});
+  }
+
+ private:
+  TimeReference every_;
+};
+
+class ProduceHeartbeat final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
-    auto out = std::make_unique<Produce>();
-    auto fields = value.fields("produce");
-    const auto what = fields.exactly_one_of({"heartbeat", "guard", "load"});
-    if (!what) return nullptr;
-    if (fields.has("load")) {
-      out->load_ = what.number(1, 90).value_or(0);
-      return out->load_ == 0 ? nullptr : std::move(out);
-    }
-    if (fields.has("guard")) {
-      out->guards_ = true;
-      auto inner = what.fields("guard");
-      const auto every = inner.required("every");
-      if (!every) return nullptr;
-      if (auto time = parse_time_at(every)) out->every_ = *time;
-      return out;
-    }
-    auto inner = what.fields("heartbeat");
+    auto out = std::make_unique<ProduceHeartbeat>();
+    auto inner = value.fields("heartbeat");
     out->node_ = inner.required("node").number(1, 127).value_or(0);
     out->state_ = inner.optional("state")
                       .one_of<canopen::NmtState>({{"operational", canopen::NmtState::operational},
@@ -196,43 +235,18 @@ class Produce final : public Action {
     context.know("heartbeat");
     return out->node_ == 0 ? nullptr : std::move(out);
   }
-  Need need() const override {
-    if (load_ > 0) return {Tier::motion, "load the bus"};
-    return guards_ ? Need{Tier::config, "send remote frames"} : Need{Tier::motion, "play other nodes"};
-  }
+  Need need() const override { return {Tier::motion, "play other nodes"}; }
   std::string words(Session&) const override {
-    if (guards_) return "produce guard requests every " + every_.text();
-    if (load_ > 0) return "load the bus by " + std::to_string(load_) + " % with frames that nobody uses";
     return "produce heartbeat of node " + std::to_string(node_) +
            (cyclic_ ? " every " + every_.text() : ", once");
   }
   Result<Actual> run(Session& session) const override {
-    if (load_ > 0) {
-      // Of the lowest priority that is left: what the device sends goes first.
-      const auto frame = can::data_frame(CanId(0x7DF), {0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55, 0x55});
-      const auto one = can::bit_time(can::frame_bits(frame) + can::intermission_bits,
-                                     session.bus_bit_rate().value_or(slow_bus));
-      Production load{"load", frame, one * 100 / static_cast<Duration::rep>(load_), {}};
-      load.keeps_time = false;
-      if (auto begun = session.produce(std::move(load)); !begun) return std::unexpected(begun.error());
-      return Actual{};
-    }
-    if (guards_) {
-      const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
-      auto begun = session.produce({"guard", request, every_.resolve(session.profile()), {}});
-      if (!begun) return std::unexpected(begun.error());
-      return Actual{};
-    }
     if (node_ == session.node().value()) {
       return fail_scenario("node " + std::to_string(node_) +
                            " is the device under test, its heartbeat cannot be produced");
     }
     const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
-    if (cyclic_) {
-      auto begun = session.produce({"heartbeat", frame, every_.resolve(session.profile()), count_});
-      if (!begun) return std::unexpected(begun.error());
-      return Actual{};
-    }
+    if (cyclic_) return begin(session, {"heartbeat", frame, every_.resolve(session.profile()), count_});
     const auto index = session.capture().size();
     auto sent = session.send(frame);
     if (!sent) return std::unexpected(sent.error());
@@ -249,17 +263,21 @@ class Produce final : public Action {
   }
 
  private:
-  /// Where the interface does not tell its bit rate.
-  static constexpr std::uint32_t slow_bus = 125'000;
-
-  std::uint64_t load_ = 0;  ///< percent
-  bool guards_ = false;     ///< the device under test, by remote frames
   std::uint64_t node_ = 0;
   canopen::NmtState state_ = canopen::NmtState::operational;
   TimeReference every_;
   bool cyclic_ = false;
   std::optional<std::uint64_t> count_;
 };
+
+std::unique_ptr<Action> parse_produce(const yaml::Field& value, ParseContext& context) {
+  auto fields = value.fields("produce");
+  const auto what = fields.exactly_one_of({"heartbeat", "guard", "load"});
+  if (!what) return nullptr;
+  if (fields.has("load")) return ProduceLoad::parse(what);
+  if (fields.has("guard")) return ProduceGuard::parse(what);
+  return ProduceHeartbeat::parse(what, context);
+}
 
 class Stop final : public Action {
  public:
@@ -299,7 +317,7 @@ constexpr Verb table[] = {
     {"produce",
      "Send heartbeats of another node, guard requests, or frames that load the bus, once or beside the following steps.",
      "heartbeat: {node, state, every, count}\nguard: {every}, to the device under test\nload: percent of the bus, up to 90, by frames of eight bytes that nobody uses (7DFh)",
-     "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}", &Produce::parse},
+     "- produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}", &parse_produce},
     {"stop", "End what `produce` began.", "(word): heartbeat, guard, load", "- stop: heartbeat",
      &Stop::parse},
 };

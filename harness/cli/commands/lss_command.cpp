@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// `lss`: which LSS slaves without node-ID are on the bus, and node-IDs for them.
+// `lss-scan`: which LSS slaves without node-ID are on the bus, and node-IDs for them.
 #include <fmt/format.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <vector>
 
@@ -13,6 +11,7 @@
 #include "can/simulated_bus.hpp"
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/run/stop_signal.hpp"
 #include "cli/run/terminal.hpp"
 #include "engine/lss_survey.hpp"
 #include "engine/recorder.hpp"
@@ -21,10 +20,6 @@
 
 namespace conform::cli {
 namespace {
-
-std::atomic<int> stop_signal{0};
-
-void on_signal(int signal) { stop_signal = signal; }
 
 Result<void> survey(can::Transport& transport, const LssScanCommand& options) {
   engine::Recorder recorder(transport, &stop_signal);
@@ -71,8 +66,7 @@ Result<void> survey_interface(const LssScanCommand& options) {
   if (!transport) return std::unexpected(transport.error());
   auto lock = can::InterfaceLock::take(options.interface);
   if (!lock) return std::unexpected(lock.error());
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  note_stop_signals();
   return survey(**transport, options);
 }
 
@@ -85,9 +79,7 @@ int lss_scan_command(const LssScanCommand& options) {
                          "--interface can0 for a bus, --simulate NUMBER for so many reference nodes"},
                         exit_usage);
   const auto done = options.simulate > 0 ? survey_simulated(options) : survey_interface(options);
-  if (done) return 0;
-  const int signal = stop_signal;
-  return report_error(done.error(), signal != 0 ? 128 + signal : exit_environment);
+  return done ? 0 : report_end(done.error(), exit_environment);
 }
 
 }  // namespace conform::cli

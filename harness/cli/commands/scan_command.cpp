@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
 #include <ctime>
 #include <filesystem>
 
@@ -15,6 +13,7 @@
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/descriptions/draft_eds.hpp"
+#include "cli/run/stop_signal.hpp"
 #include "cli/run/terminal.hpp"
 #include "device/profile.hpp"
 #include "engine/discovery.hpp"
@@ -28,10 +27,6 @@ namespace {
 
 /// Communication, manufacturer and standardised profile area; the rest is reserved or of network variables.
 constexpr engine::IndexRange usual[] = {{0x1000, 0x1FFF}, {0x2000, 0x5FFF}, {0x6000, 0x9FFF}};
-
-std::atomic<int> stop_signal{0};
-
-void on_signal(int signal) { stop_signal = signal; }
 
 Result<engine::IndexRange> range_of(std::string_view text) {
   const auto range = parse_number_range(text);
@@ -98,16 +93,12 @@ int scan_command(const ScanCommand& options) {
     if (!transport) return report_error(transport.error(), exit_environment);
     auto lock = can::InterfaceLock::take(options.interface);
     if (!lock) return report_error(lock.error(), exit_environment);
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    note_stop_signals();
     info.bit_rate = (*transport)->info().bit_rate;
     info.made = std::time(nullptr);
     text = draft(**transport, options, ranges, info);
   }
-  if (!text) {
-    const int signal = stop_signal;
-    return report_error(text.error(), signal != 0 ? 128 + signal : exit_environment);
-  }
+  if (!text) return report_end(text.error(), exit_environment);
   if (options.output.empty()) {
     print(*text);
     return 0;

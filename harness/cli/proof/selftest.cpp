@@ -138,12 +138,15 @@ Result<void> prove(const Bench& bench, const std::set<std::string>& monitored,
   return {};
 }
 
-std::vector<std::string> without_proof(const std::set<std::string>& judged,
-                                       const std::vector<DefectVerdict>& defects) {
-  std::set<std::string> proven;
-  for (const auto& defect : defects) proven.insert(defect.proves.begin(), defect.proves.end());
+std::set<std::string> proven_by(const std::vector<DefectVerdict>& defects) {
+  std::set<std::string> out;
+  for (const auto& defect : defects) out.insert(defect.proves.begin(), defect.proves.end());
+  return out;
+}
+
+std::vector<std::string> without(const std::set<std::string>& all, const std::set<std::string>& some) {
   std::vector<std::string> out;
-  std::ranges::set_difference(judged, proven, std::back_inserter(out));
+  std::ranges::set_difference(all, some, std::back_inserter(out));
   return out;
 }
 
@@ -193,16 +196,15 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
     if (!*verdict) return std::unexpected(verdict->error());
     out.defects.push_back(std::move(**verdict));
   }
-  const auto open = without_proof(judged, out.defects);
+  const auto open = without(judged, proven_by(out.defects));
   std::vector<Result<void>> tried(out.defects.size());
   in_parallel(out.defects.size(), options.jobs,
               [&](std::size_t i) { tried[i] = prove(bench, monitored, open, out.defects[i]); });
   for (auto& done : tried) {
     if (!done) return std::unexpected(done.error());
   }
-  out.unproven = without_proof(judged, out.defects);
-  std::set<std::string> proven;
-  for (const auto& defect : out.defects) proven.insert(defect.proves.begin(), defect.proves.end());
+  const auto proven = proven_by(out.defects);
+  out.unproven = without(judged, proven);
   out.proven.assign(proven.begin(), proven.end());
   return out;
 }
