@@ -181,8 +181,6 @@ Result<void> RunSession::command(canopen::NmtCommand command) {
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
   note_command(*sent);
-  if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication)
-    device_was_reset(command == canopen::NmtCommand::reset_node);
   return {};
 }
 
@@ -199,6 +197,8 @@ void RunSession::note_command(std::size_t index) {
     reset_ = index;
     ordered_.reset();
     stopped_ = false;
+    // However it was sent: to all nodes, by a step that sends a frame, within a conversation.
+    device_was_reset();
     return;
   }
   const auto state = *command == NmtCommand::start  ? NmtState::operational
@@ -328,7 +328,7 @@ Result<void> RunSession::power_cycle() {
   return {};
 }
 
-void RunSession::device_was_reset(bool) {
+void RunSession::device_was_reset() {
   channel_.forget_silences();
   guarded_ = false;
   looked_for_guarding_ = recorder_.capture().size();

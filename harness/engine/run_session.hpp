@@ -108,7 +108,6 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<void> produce(steps::Production production) override;
   void stop_producing(std::string_view label) override { recorder_.stop_producing(label); }
   [[nodiscard]] Result<void> power_cycle() override;
-  void device_was_reset(bool application_too) override;
 
   // For the engine
   /// How scenarios switch the power of the device; empty: by hand only.
@@ -140,7 +139,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool is_stopped() const { return stopped_; }
   /// The device started by itself, or with its power.
   void device_restarted() {
-    device_was_reset(true);
+    device_was_reset();
     state_changed_ = true;
     stopped_ = false;
   }
@@ -169,6 +168,8 @@ class RunSession final : public steps::Session {
   void note_sent(std::size_t index);
   /// The waits of the profile follow what was learnt about the device.
   void adapt();
+  /// Forgets what a reset of the device undoes.
+  void device_was_reset();
   /// A frame with the CAN-ID 0 was sent.
   void note_command(std::size_t index);
   [[nodiscard]] const device::Entry* entry(Multiplexer object) const { return dictionary_.find(object); }

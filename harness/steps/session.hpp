@@ -153,9 +153,6 @@ class Session : public Facts {
   [[nodiscard]] virtual Result<void> power_cycle() {
     return fail_scenario("no way to switch the power of the device is known");
   }
-
-  /// Forgets what a reset of the device undoes (labels of moved COB-IDs for the decoder, probed access).
-  virtual void device_was_reset(bool application_too) = 0;
 };
 
 }  // namespace conform::steps

@@ -68,6 +68,15 @@ TEST_CASE("a device that stores communication parameters by itself is not blamed
   check(combination);
 }
 
+TEST_CASE("a device that stores by itself is put right behind a reset of all nodes too") {
+  // CAN-LOAD-02 was inconclusive: 1016h:01 = 007E 01F4h was stored while a case waited, put back, and came
+  // back with 000 [2] 81 00, which nobody counted as a reset of this device. Behind the burst of 77E [1] 05
+  // came 081 [8] 30 81 11 7E .., and with 1029h:01 = 2 the device was in Stopped.
+  cli::Combination combination;
+  combination.variants = {"1010-autonomous", "1029-stops"};
+  check(combination);
+}
+
 TEST_CASE("rows of the variants are sound") {
   std::set<std::string_view> ids, groups;
   for (const auto& variant : refnode::variants()) {

@@ -196,6 +196,35 @@ TEST_CASE("after a value could not be put back nothing is said to be a factory d
   CHECK(out.run.cases[1].verdict == Verdict::warn);
 }
 
+TEST_CASE("what a reset of all nodes brings back is put back before the next case") {
+  auto profile = writing_profile();
+  profile.claims.insert("autonomous storing");
+  ScriptedDevice device;
+  device.on_reset = [](ScriptedDevice& self) {
+    if (!self.writes.empty()) self.entries[0x101700] = {0xE8, 0x03};
+  };
+  can::SimulatedBus bus;
+  const auto out = play(bus, device, change_1017 + R"(
+  - id: everybody
+    title: t
+    risk: motion
+    steps:
+      - talk: "> 000: 82 00"
+      - boot_up: {within: 1 s}
+        checks: T-OTHER
+  - id: next
+    title: t
+    risk: motion
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+        expect: {value: 0}
+)",
+                        {}, profile);
+  REQUIRE(out.run.cases.size() == 3);
+  CHECK(out.run.cases[2].verdict == Verdict::pass);
+}
+
 TEST_CASE("when nothing is heard every case is an error, none a failure, and the exit code is 3") {
   can::SimulatedBus bus;
   ScriptedDevice device;

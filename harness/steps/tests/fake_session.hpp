@@ -149,7 +149,6 @@ class FakeSession final : public Session {
   [[nodiscard]] Duration time_to_follow() const override { return {}; }
   [[nodiscard]] Result<void> produce(Production) override { return {}; }
   void stop_producing(std::string_view) override {}
-  void device_was_reset(bool) override {}
 
  private:
   std::size_t used_ = 0;
