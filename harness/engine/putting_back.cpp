@@ -82,10 +82,14 @@ void PuttingBack::give_up(const std::string& why) {
 }
 
 void PuttingBack::after_resets() {
-  if (!stores_by_itself_ || run_.session.resets() == resets_looked_at_) return;
+  if (run_.session.resets() == resets_looked_at_) return;
   resets_looked_at_ = run_.session.resets();
+  // Restored by a test, where what was found is said to be the default: it is to be so for the tests that
+  // follow.
+  const bool restored = run_.session.take_restored();
+  if (!stores_by_itself_ && !restored) return;
   const StopHeld held(run_.recorder);
-  note_left(what_returned());
+  note_left(what_returned(restored ? Among::all : Among::written));
 }
 
 void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up) {
@@ -146,12 +150,12 @@ std::vector<Change> PuttingBack::take_changes() {
   return changes;
 }
 
-/// Puts right what a reset has brought back; gives what could not be. What the run never wrote is left alone:
-/// the device changed it.
-std::vector<std::string> PuttingBack::what_returned() {
+/// Puts right what a reset has brought back; gives what could not be. What the run never wrote is left alone
+/// otherwise: the device changed it.
+std::vector<std::string> PuttingBack::what_returned(Among among) {
   std::vector<Change> returned;
   for (const auto& [object, before] : snapshot_) {
-    if (!written_.contains(object)) continue;
+    if (among == Among::written && !written_.contains(object)) continue;
     const auto found = run_.session.peek(object);
     if (!found) return {};
     if (confirmed(*found) && found->data != before) returned.push_back({object, before});

@@ -2,6 +2,7 @@
 // The device is left as it was found: after each case, after a fault, and at the end; what is not is said.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <set>
@@ -24,7 +25,8 @@ class PuttingBack {
   /// The SDO server does not answer any more.
   void give_up(const std::string& why);
   /// A device that stores by itself (1010h, bit 1, or without saying so) may have stored what a test wrote,
-  /// and a reset has brought it back since the last call.
+  /// and a reset has brought it back since the last call; or it has restored (1011h) other values than it
+  /// had.
   void after_resets();
   /// The bus broke or the user stopped: values are put back if that is still possible. `clean_up`: of the
   /// case that was stopped.
@@ -37,7 +39,8 @@ class PuttingBack {
   [[nodiscard]] Result<void> end_life_guarding();
   [[nodiscard]] Result<bool> stores_by_itself();
   [[nodiscard]] std::vector<Change> take_changes();
-  [[nodiscard]] std::vector<std::string> what_returned();
+  enum class Among : std::uint8_t { written, all };
+  [[nodiscard]] std::vector<std::string> what_returned(Among among = Among::written);
   void note_left(const std::vector<std::string>& left);
   void leave_in_pre_operational();
 

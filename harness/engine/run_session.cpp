@@ -147,6 +147,7 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
     const auto& answer = (*answers)[i];
     if (!request.upload) write_refused_ = answer.kind == steps::SdoAnswer::Kind::aborted;
     if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
+    if (!request.upload && request.object.index == Index(0x1011)) restored_ = true;
     if (answer.kind == steps::SdoAnswer::Kind::confirmed)
       watch_emcy(request.object, request.upload ? answer.data : request.data);
   }

@@ -129,6 +129,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] device::Dictionary& known() { return dictionary_; }
   /// How often the device has been reset in this run.
   [[nodiscard]] std::size_t resets() const { return resets_; }
+  /// Whether default parameters were restored (1011h, CiA 301, 7.5.2.14) since the last call.
+  [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
   /// CAN-ID of EMCY as found after power-on.
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
@@ -193,6 +195,7 @@ class RunSession final : public steps::Session {
   std::map<std::pair<steps::Asked, Multiplexer>, std::string> grounds_;
   std::vector<Change> journal_;
   std::size_t resets_ = 0;
+  bool restored_ = false;
   bool left_changed_ = false;
   std::map<Multiplexer, Bytes> before_write_;
   steps::Window window_;

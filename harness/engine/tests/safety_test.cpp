@@ -225,6 +225,38 @@ TEST_CASE("what a reset of all nodes brings back is put back before the next cas
   CHECK(out.run.cases[2].verdict == Verdict::pass);
 }
 
+TEST_CASE("what a device restores wrongly fails the case about it and spoils none behind it") {
+  ScriptedDevice device;
+  device.entries[0x101100] = {1};
+  device.entries[0x101101] = {1, 0, 0, 0};
+  device.on_reset = [](ScriptedDevice& self) {
+    if (self.entries.at(0x101101) == std::vector<std::uint8_t>{0x6C, 0x6F, 0x61, 0x64})
+      self.entries[0x101400] = {0x80, 0, 0, 0};
+    self.entries[0x101101] = {1, 0, 0, 0};
+  };
+  const auto out = play(device, R"(
+  - id: restore
+    title: t
+    risk: nvm
+    steps:
+      - download: {object: 1011h:01, value: 6461 6F6Ch}
+      - reset: node
+      - upload: {object: 1014h:00}
+        checks: T-OTHER
+        expect: {value: 81h}
+  - id: next
+    title: t
+    risk: nvm
+    steps:
+      - upload: {object: 1014h:00}
+        checks: T-MUST
+        expect: {value: 81h}
+)");
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[0].verdict == Verdict::fail);
+  CHECK(out.run.cases[1].verdict == Verdict::pass);
+}
+
 TEST_CASE("when nothing is heard every case is an error, none a failure, and the exit code is 3") {
   can::SimulatedBus bus;
   ScriptedDevice device;
