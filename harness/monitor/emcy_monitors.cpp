@@ -19,8 +19,10 @@ using result::Verdict;
 
 constexpr std::uint16_t emcy_index = 0x1014;
 
-/// The object is the one that may have sent the frame.
+/// The object is the one that may have sent the frame. Where 1014h only may hold the CAN-ID, one that is not
+/// to send on it is as likely: a SYNC of a device that is no producer is no emergency message of one byte.
 bool is_emcy(const std::vector<Holder>& found, Held held) {
+  if (held == Held::maybe && found.size() > 1) return false;
   return !other_holder(found, emcy_index, emcy_index) &&
          std::ranges::any_of(
              found, [held](const Holder& each) { return each.index == emcy_index && each.held == held; });

@@ -45,6 +45,17 @@ TEST_CASE("Without a valid 1014h there is no EMCY") {
   CHECK(moved().later("< 6A1: 30 81 11 00 00 00 00 00").line("< 702: 05").told().empty());
 }
 
+TEST_CASE("Where 1014h may hold the CAN-ID of SYNC, a SYNC is not taken for an emergency message") {
+  // Behind the reset nobody has read 1014h; 1005h is no producer's, so the SYNC is wrong as a SYNC.
+  CHECK(Story()
+            .read(0x1005, 0, 0x80)
+            .write(0x1014, 0, 0x80)
+            .later(reset)
+            .line(boot_up)
+            .later("< 080: 04")
+            .verdict("monitor/emergencies") != Verdict::fail);
+}
+
 TEST_CASE("The inhibit time of EMCY is kept") {
   CHECK(Story().write(0x1015, 0, 1000).later(emcy).line("wait 20 ms").line(gone).told() ==
         Told{"fail EMCY-INH-01"});
