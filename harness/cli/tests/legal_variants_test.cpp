@@ -77,6 +77,15 @@ TEST_CASE("a device that stores by itself is put right behind a reset of all nod
   check(combination);
 }
 
+TEST_CASE("a TPDO that maps nothing and is not sent is not failed for its 29 bits") {
+  // CAN-EXT-01 was failed: another TPDO stood for the one whose COB-ID was changed.
+  //   601 [8] 23 00 18 01 C1 01 A5 38   581 [8] 60 00 18 01 .., 1A00h:00 = 0   000 [2] 01 01
+  //   281 [8] FF .., and nothing on 18A501C1.
+  cli::Combination combination;
+  combination.variants = {"1017-const", "1A00-empty", "tpdo-29-bit"};
+  check(combination);
+}
+
 TEST_CASE("rows of the variants are sound") {
   std::set<std::string_view> ids, groups;
   for (const auto& variant : refnode::variants()) {
