@@ -153,7 +153,9 @@ class ErrorObjects final : public Monitor {
     }
     if (is_emcy(seen, follower)) {
       forget();
-      if (seen.frame().size() >= 3) {
+      // On a CAN-ID that the node-ID does not give it may be somebody else's, and says nothing about this
+      // device.
+      if (seen.subject == Subject::emcy && seen.frame().size() >= 3) {
         last_ = Message{code_of(seen), seen.frame().data[2], seen.time()};
       }
     } else if (seen.subject == Subject::nmt || seen.boot_up()) {

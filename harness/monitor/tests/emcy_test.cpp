@@ -97,6 +97,21 @@ TEST_CASE("1001h has no error that EMCY did not tell") {
             .empty());
 }
 
+TEST_CASE("What another node sends on a CAN-ID that 1014h held for a while says nothing about 1001h") {
+  CHECK(Story()
+            .write(0x1014, 0, 0x8000'0083)
+            .write(0x1014, 0, 0x83)
+            .write(0x1014, 0, 0x81)
+            .later(reset)
+            .line(boot_up)
+            .line("< 083: 00 FF 80 00 00 00 00 00")
+            .line("wait 100 ms")
+            .read(0x1001, 0, 0x03)
+            .line("wait 2 s")
+            .line("< 701: 7F")
+            .verdict("monitor/error-objects") != Verdict::fail);
+}
+
 TEST_CASE("1003h begins with the error of the last EMCY") {
   const std::string long_after = "wait 1200 ms", end = "< 701: 7F";
   CHECK(
