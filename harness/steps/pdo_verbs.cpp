@@ -194,6 +194,15 @@ class SetPdo final : public Action {
     return write(session, object, wanted, size);
   }
 
+  /// What an RPDO maps is changed by its next frame, and has to be put back as after a download. A data type
+  /// (index up to 001Fh) only fills its place.
+  static Result<void> will_receive(Session& session, Index mapping, std::uint64_t entry) {
+    const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)),
+                             SubIndex(static_cast<std::uint8_t>(entry >> 8U))};
+    const bool receives = mapping < Index(0x1800);
+    return receives && object.index > Index(0x1F) ? session.will_change(object) : Result<void>();
+  }
+
   Result<Actual> write_mapping(Session& session, Index mapping) const {
     auto actual = write(session, {mapping, SubIndex(0)}, 0, 1);
     if (!is_confirmed(actual)) return actual;
@@ -201,6 +210,7 @@ class SetPdo final : public Action {
     while (!entries_.empty() && count < most_entries && (count < entries_.size() || bits < least_bits_)) {
       const auto entry = entries_[count % entries_.size()].resolve(session);
       if (!entry) return std::unexpected(entry.error());
+      if (auto noted = will_receive(session, mapping, *entry); !noted) return std::unexpected(noted.error());
       ++count;
       actual = write(session, {mapping, SubIndex(static_cast<std::uint8_t>(count))}, *entry, 4);
       if (!is_confirmed(actual)) return actual;

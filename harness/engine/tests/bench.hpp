@@ -24,7 +24,7 @@ namespace conform::engine::testing {
 
 /// Serves expedited SDO out of a map; every write is kept. `before` may swallow a request or answer it
 /// differently.
-class ScriptedDevice final : public can::Participant {
+class ScriptedDevice : public can::Participant {
  public:
   using Intercept = std::function<bool(ScriptedDevice&, const can::Frame&, BusTime)>;
 

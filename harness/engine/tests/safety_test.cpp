@@ -153,6 +153,34 @@ TEST_CASE("a download hidden in a conversation is put back as well") {
   CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
 }
 
+TEST_CASE("what an RPDO has written is put back as what a download has") {
+  struct WithRpdo : ScriptedDevice {
+    void on_frame(const can::Frame& frame, BusTime now) override {
+      if (frame.is_data(CanId(0x201))) entries[0x101700] = {frame.data[0], frame.data[1]};
+      ScriptedDevice::on_frame(frame, now);
+    }
+  } device;
+  device.entries[0x140001] = {0x01, 0x02, 0, 0};
+  device.entries[0x140002] = {0xFF};
+  device.entries[0x160000] = {1};
+  device.entries[0x160001] = {0x10, 0x00, 0x17, 0x10};
+  const auto out = play(device, R"(
+  - id: receive
+    title: t
+    risk: motion
+    steps:
+      - set_pdo: {pdo: 1400h:00, mapping: [1017h:00], type: FFh}
+      - nmt: start
+      - send: {id: 201h, data: "9A 02"}
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+        expect: {value: 029Ah}
+)");
+  REQUIRE(out.run.cases.size() == 1);
+  CHECK(out.run.cases[0].verdict == Verdict::pass);
+  CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
+}
+
 TEST_CASE("a value that cannot be put back is said in the notes") {
   ScriptedDevice device;
   device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
