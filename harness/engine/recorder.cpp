@@ -42,12 +42,17 @@ Result<bool> Recorder::pump(BusTime deadline) {
     observer_->recorded(capture_.frames().back());
     return true;
   }
-  if (is_ahead) lateness_.waking = std::max<Duration>(lateness_.waking, now() - until);
+  if (is_ahead) woke(now() - until);
   auto produced = produce_due();
   if (!produced) return std::unexpected(produced.error());
   const bool goes_on = now() < deadline;
   observer_->waited(recent_);
   return goes_on;
+}
+
+void Recorder::woke(Duration late) {
+  lateness_.waking = std::max(lateness_.waking, late);
+  if (late > machine_is_busy) latest_late_waking_ = {recent_, late};
 }
 
 Result<void> Recorder::produce_due() {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -78,6 +79,15 @@ class Recorder {
   };
   [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
 
+  /// A waking that was so late that the machine must have had other work.
+  struct LateWaking {
+    BusTime at;
+    Duration by;  ///< more than machine_is_busy
+  };
+  [[nodiscard]] const std::optional<LateWaking>& latest_late_waking() const { return latest_late_waking_; }
+  /// Timers of an idle machine are no later than that, also where the kernel counts in 10 ms.
+  static constexpr Duration machine_is_busy = std::chrono::milliseconds(10);
+
   /// While restoring after a stop request the bus must still be usable.
   void ignore_stop(bool ignore) { ignore_stop_ = ignore; }
   /// The fault of the environment that ended the last wait or send, if any: tells it from mistakes of a
@@ -98,6 +108,7 @@ class Recorder {
   [[nodiscard]] Result<bool> pump(BusTime deadline);
   [[nodiscard]] Result<void> produce_due();
   [[nodiscard]] std::unexpected<Error> broken(Error error);
+  void woke(Duration late);
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;
@@ -114,6 +125,7 @@ class Recorder {
   Observer* observer_ = &nobody_;
   std::vector<Running> running_;
   Lateness lateness_;
+  std::optional<LateWaking> latest_late_waking_;
 };
 
 /// The Error::what of an ended wait, so that callers can tell it from a broken bus.
