@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/text.hpp"
+#include "can/capture_marks.hpp"
 
 namespace conform::engine {
 
@@ -34,6 +35,7 @@ std::function<Result<void>()> Life::power_switch() {
     restarts_.lose_track();
     run_.attribution.lose_track();
     losses_.push_back({frames.size(), frames.size()});
+    run_.recorder.mark_next_frame(can::power_was_switched);
     return {};
   };
 }

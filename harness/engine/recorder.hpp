@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +41,8 @@ class Recorder {
   [[nodiscard]] const can::Capture& capture() const { return capture_; }
   [[nodiscard]] can::Capture& capture() { return capture_; }
   [[nodiscard]] can::Transport& transport() { return transport_; }
+  /// What happened now, as the comment of the next frame that is recorded.
+  void mark_next_frame(std::string_view what) { mark_ = what; }
   /// Who is told of every frame; lives longer than this.
   void set_observer(Observer& observer) { observer_ = &observer; }
   [[nodiscard]] Observer& observer() { return *observer_; }
@@ -109,6 +113,7 @@ class Recorder {
   [[nodiscard]] Result<void> produce_due();
   [[nodiscard]] std::unexpected<Error> broken(Error error);
   void woke(Duration late);
+  void record(can::CapturedFrame frame);
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;
@@ -121,6 +126,7 @@ class Recorder {
   bool ignore_stop_ = false;
   std::optional<Error> fault_;
   can::Capture capture_;
+  std::string mark_;  ///< for the next frame
   Observer nobody_;
   Observer* observer_ = &nobody_;
   std::vector<Running> running_;
