@@ -11,6 +11,10 @@ using result::CaseResult;
 using result::Finding;
 using result::Verdict;
 
+/// Of four tries in which a rule always failed so many must be worth something: in the others the host itself
+/// was late.
+constexpr int least_of_machine = 2;
+
 /// It stopped by itself at something that rests on time.
 bool is_undecided(const CaseResult& seen) {
   if (seen.verdict != Verdict::inconclusive || !seen.rests_on.empty()) return false;
@@ -43,6 +47,9 @@ bool Tries::again(const CaseResult& seen, const std::optional<HostTrouble>& trou
   in_doubt_ = trouble && trouble->passes_by && (differs || is_undecided(seen_));
   if (!in_doubt_) return false;
   if (why_.empty()) why_ = trouble->why;
+  for (const auto& judged : seen_.judgements) {
+    if (judged.verdict == Verdict::pass) met_.insert(judged.requirement);
+  }
   // What happened where the host itself was late shows nothing about the device.
   if (trouble->machine_only) {
     if (failed && !failed_once_) failed_once_ = trusted_;
@@ -65,7 +72,8 @@ CaseResult Tries::with_failures_of_all() const {
 CaseResult Tries::outcome() {
   auto out = trusted_;
   std::string how;
-  if (in_doubt_ && of_machine_ >= most - 1 && !always_.empty()) {
+  std::erase_if(always_, [this](const std::string& rule) { return met_.contains(rule); });
+  if (in_doubt_ && of_machine_ >= least_of_machine && !always_.empty()) {
     out = with_failures_of_all();
     how = ", with the same failure each time";
   } else if (failed_once_ && trusted_.verdict != Verdict::fail) {

@@ -37,6 +37,7 @@ class Tries {
   result::CaseResult seen_, trusted_;  ///< the latest try, without and with what its doubt takes away
   int of_machine_ = 0;                 ///< tries in doubt in which the host did nothing wrong
   Doubted always_;                     ///< what is doubted in all of these
+  std::set<std::string> met_;          ///< rules that passed in a try in doubt
   std::optional<result::CaseResult> failed_once_;  ///< one of these with a failure
 };
 
