@@ -359,6 +359,7 @@ std::string case_line(const CaseResult& one, const Style& style) {
   if (!requirements.empty()) line += "  " + paint(requirements, Ink::dim, style);
   if (one.verdict != Verdict::not_applicable && !is_not_run(one))
     line += "  " + brief_duration(one.end - one.begin);
+  if (!one.tried.empty()) line += "  tried " + paint(prose(one.tried), Ink::dim, style);
   if (one.verdict == Verdict::pass) return line;
   constexpr std::size_t reason_width = 160;
   const std::string why = clip(headline(one), reason_width);

@@ -165,6 +165,7 @@ std::string details(const RunResult& run, const JUnitOptions& options, const Cas
   sheet.line();
   sheet.row("Case", printable(one.name()));
   if (one.verdict != Verdict::fail) sheet.row("Reason", prose(one.reason));
+  sheet.row("Tried", prose(one.tried));
   if (!one.cct.empty()) sheet.row("CCT case", log_safe(join(one.cct, ", ")));
   const std::vector<LocatedFinding> all = findings_of(one);
   for (const LocatedFinding& located : all) {
@@ -242,7 +243,10 @@ void write_case(pugi::xml_node parent, const RunResult& run, const JUnitOptions&
   set(node, "time", seconds(one.end - one.begin));
   const std::string message = message_of(run, causes, one);
   switch (one.verdict) {
-    case Verdict::pass: return;
+    case Verdict::pass:
+      if (!one.tried.empty())
+        set_text(node.append_child("system-out"), fmt::format("tried {}\n", prose(one.tried)));
+      return;
     case Verdict::warn: {
       const std::string text = details(run, options, one, message);
       set_text(node.append_child("system-out"),

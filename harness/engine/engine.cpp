@@ -15,6 +15,7 @@
 #include "engine/monitor_cases.hpp"
 #include "engine/putting_back.hpp"
 #include "engine/run_context.hpp"
+#include "engine/tries.hpp"
 #include "engine/trust.hpp"
 #include "result/annotate.hpp"
 
@@ -56,7 +57,9 @@ class Run {
       if (!out_.aborted) putting_back_.finish();
     }
     life_.tell_restarts();
+    life_.tell_tries();
     judge_monitors();
+    life_.tell_losses();
     out_.elapsed = run_.recorder.now() - begin;
     if (run_.options.stop != nullptr) out_.signal = run_.options.stop->load();
     capture = std::move(run_.recorder.capture());
@@ -182,12 +185,27 @@ class Run {
   }
 
   Result<void> run_case(const PlannedCase& planned, CaseResult& result) {
+    const auto fresh = result;
+    Tries tries;
+    for (;; result = fresh) {
+      auto trouble = try_case(planned, result);
+      if (!trouble) return std::unexpected(trouble.error());
+      if (!tries.again(result, *trouble) || fell_silent_) break;
+    }
+    result = tries.outcome();
+    if (!result.tried.empty()) life_.tried_again(result);
+    accept_known_deviations(run_.profile, run_.catalogue, result);
+    return {};
+  }
+
+  /// Once. What befell the host meanwhile, if it matters.
+  Result<std::optional<HostTrouble>> try_case(const PlannedCase& planned, CaseResult& result) {
     auto& recorder = run_.recorder;
     if (auto ready = reach_start(*planned.scenario); !ready) {
       result.reason = "not run: " + ready.error().text();
       // A reset may have brought back what cases before this one wrote.
       putting_back_.after_fault({});
-      return ready;
+      return std::unexpected(ready.error());
     }
     result.begin = recorder.now();
     result.first_frame = recorder.capture().size();
@@ -209,15 +227,14 @@ class Run {
       std::function<Result<void>()> clean_up;
       if (entered) clean_up = [&] { return runner_.clean_up(*planned.scenario); };
       putting_back_.after_fault(clean_up);
-      return ran;
+      return std::unexpected(ran.error());
     }
     result.finished = true;
     const bool other_client =
         run_.session.channel().has_other_client(result.first_frame, recorder.capture().size());
-    if (const auto trouble = trouble_of(health, recorder.transport().health(), lateness, other_client))
-      distrust(result, *trouble);
-    accept_known_deviations(run_.profile, run_.catalogue, result);
-    return {};
+    if (auto trouble = trouble_of(health, recorder.transport().health(), lateness, other_client))
+      return trouble;
+    return machine_trouble(recorder.transport().info(), recorder.latest_late_waking(), result.begin);
   }
 
   /// Makes sure that the device is still there and the same, and puts everything back.

@@ -6,10 +6,23 @@
 #include <string>
 
 #include "base/text.hpp"
+#include "can/capture_marks.hpp"
 
 namespace conform::engine {
 
 using result::CaseResult;
+
+namespace {
+
+/// "a; b; c; ..."
+std::string first_of(const std::vector<std::string>& all) {
+  constexpr std::size_t most_named = 3;
+  const auto named =
+      std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), most_named)));
+  return join(named, "; ") + (all.size() > most_named ? "; ..." : "");
+}
+
+}  // namespace
 
 std::function<Result<void>()> Life::power_switch() {
   if (!run_.options.power_cycle) return {};
@@ -22,6 +35,7 @@ std::function<Result<void>()> Life::power_switch() {
     restarts_.lose_track();
     run_.attribution.lose_track();
     losses_.push_back({frames.size(), frames.size()});
+    run_.recorder.mark_next_frame(can::power_was_switched);
     return {};
   };
 }
@@ -145,7 +159,6 @@ const CaseResult* Life::case_of(std::size_t restart) const {
 
 void Life::tell_restarts() {
   (void)restarts_.follow(run_.recorder.capture().frames());
-  constexpr std::size_t most_named = 3;
   std::vector<std::string> where;
   for (const auto index : restarts_.found()) {
     const auto* in = case_of(index);
@@ -153,10 +166,21 @@ void Life::tell_restarts() {
                     (in == nullptr ? ", between cases" : ", in " + in->name()));
   }
   if (where.empty()) return;
-  const auto count = where.size();
-  if (count > most_named) where.resize(most_named);
-  run_.note("the device restarted " + (count == 1 ? "once" : std::to_string(count) + " times") +
-            " although nobody told it to: " + join(where, "; ") + (count > most_named ? "; ..." : ""));
+  run_.note("the device restarted " + (where.size() == 1 ? "once" : std::to_string(where.size()) + " times") +
+            " although nobody told it to: " + first_of(where));
+}
+
+void Life::tell_tries() {
+  if (tried_again_.empty()) return;
+  const auto count = tried_again_.size();
+  run_.note("the machine was late: " + (count == 1 ? "one case was" : std::to_string(count) + " cases were") +
+            " tried again: " + first_of(tried_again_));
+}
+
+void Life::tell_losses() {
+  if (health_.frames_dropped == 0) return;
+  run_.note("the host lost " + std::to_string(health_.frames_dropped) +
+            " frames of the run: the capture lacks them, and what they might have decided is inconclusive");
 }
 
 std::size_t Life::last_heard() const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "can/transport.hpp"
@@ -37,6 +38,12 @@ class Life {
   [[nodiscard]] Result<void> judge_restarts(result::CaseResult& result, CaseRunner& runner);
   /// In the summary, with the cases they fell into.
   void tell_restarts();
+  /// A case needed more than one try.
+  void tried_again(const result::CaseResult& result) { tried_again_.push_back(result.name()); }
+  /// In the summary, with the cases.
+  void tell_tries();
+  /// How many frames are missing in the capture.
+  void tell_losses();
 
   [[nodiscard]] const std::vector<monitor::Loss>& losses() const { return losses_; }
   /// Index behind the last frame of the device, 0 when none came.
@@ -53,6 +60,7 @@ class Life {
   std::size_t unexplained_ = 0;  ///< restarts without a known cause
   bool says_all_twice_ = false;  ///< one device, and the scenarios judge it
   std::vector<monitor::Loss> losses_;
+  std::vector<std::string> tried_again_;
   can::BusHealth health_;           ///< at the last look
   std::size_t trusted_frames_ = 0;  ///< capture's length at that time
 };

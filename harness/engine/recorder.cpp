@@ -37,17 +37,27 @@ Result<bool> Recorder::pump(BusTime deadline) {
   auto event = transport_.receive(until);
   if (!event) return broken(event.error());
   if (*event) {
-    capture_.add(**event);
     recent_ = std::max(recent_, (**event).time);
-    observer_->recorded(capture_.frames().back());
+    record({(**event).frame, (**event).time, (**event).direction, {}});
     return true;
   }
-  if (is_ahead) lateness_.waking = std::max<Duration>(lateness_.waking, now() - until);
+  if (is_ahead) woke(now() - until);
   auto produced = produce_due();
   if (!produced) return std::unexpected(produced.error());
   const bool goes_on = now() < deadline;
   observer_->waited(recent_);
   return goes_on;
+}
+
+void Recorder::record(can::CapturedFrame frame) {
+  capture_.add(std::move(frame));
+  if (!mark_.empty()) capture_.comment(capture_.size() - 1, std::exchange(mark_, {}));
+  observer_->recorded(capture_.frames().back());
+}
+
+void Recorder::woke(Duration late) {
+  lateness_.waking = std::max(lateness_.waking, late);
+  if (late > machine_is_busy) latest_late_waking_ = {recent_, late};
 }
 
 Result<void> Recorder::produce_due() {
@@ -97,8 +107,7 @@ Result<void> Recorder::post(const can::Frame& frame) {
 }
 
 std::size_t Recorder::echo_lost(const can::Frame& frame) {
-  capture_.add({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
-  observer_->recorded(capture_.frames().back());
+  record({frame, recent_, can::Direction::transmitted, "sent; the host lost its echo"});
   return capture_.size() - 1;
 }
 

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,6 +41,8 @@ class Recorder {
   [[nodiscard]] const can::Capture& capture() const { return capture_; }
   [[nodiscard]] can::Capture& capture() { return capture_; }
   [[nodiscard]] can::Transport& transport() { return transport_; }
+  /// What happened now, as the comment of the next frame that is recorded.
+  void mark_next_frame(std::string_view what) { mark_ = what; }
   /// Who is told of every frame; lives longer than this.
   void set_observer(Observer& observer) { observer_ = &observer; }
   [[nodiscard]] Observer& observer() { return *observer_; }
@@ -78,6 +83,15 @@ class Recorder {
   };
   [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
 
+  /// A waking that was so late that the machine must have had other work.
+  struct LateWaking {
+    BusTime at;
+    Duration by;  ///< more than machine_is_busy
+  };
+  [[nodiscard]] const std::optional<LateWaking>& latest_late_waking() const { return latest_late_waking_; }
+  /// Timers of an idle machine are no later than that, also where the kernel counts in 10 ms.
+  static constexpr Duration machine_is_busy = std::chrono::milliseconds(10);
+
   /// While restoring after a stop request the bus must still be usable.
   void ignore_stop(bool ignore) { ignore_stop_ = ignore; }
   /// The fault of the environment that ended the last wait or send, if any: tells it from mistakes of a
@@ -98,6 +112,8 @@ class Recorder {
   [[nodiscard]] Result<bool> pump(BusTime deadline);
   [[nodiscard]] Result<void> produce_due();
   [[nodiscard]] std::unexpected<Error> broken(Error error);
+  void woke(Duration late);
+  void record(can::CapturedFrame frame);
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;
@@ -110,10 +126,12 @@ class Recorder {
   bool ignore_stop_ = false;
   std::optional<Error> fault_;
   can::Capture capture_;
+  std::string mark_;  ///< for the next frame
   Observer nobody_;
   Observer* observer_ = &nobody_;
   std::vector<Running> running_;
   Lateness lateness_;
+  std::optional<LateWaking> latest_late_waking_;
 };
 
 /// The Error::what of an ended wait, so that callers can tell it from a broken bus.

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/trust.hpp"
 
+#include <chrono>
+
 #include "base/text.hpp"
 
 namespace conform::engine {
 
 using result::Verdict;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A busy machine is late once in some seconds.
+constexpr Duration remembered = 30s;
+
+}  // namespace
 
 std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::BusHealth& after,
                                       const Recorder::Lateness& lateness, bool other_client) {
@@ -18,14 +28,28 @@ std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::B
   if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped))
     return HostTrouble{"the host's clock was set during the case"};
   if (other_client) return HostTrouble{"another SDO client used the channel during the case"};
-  if (lateness.producing > Duration(0))
-    return HostTrouble{"the host sent a cyclic frame " + to_string(lateness.producing) + " late"};
+  if (lateness.producing > Duration(0)) {
+    return HostTrouble{.why = "the host sent a cyclic frame " + to_string(lateness.producing) + " late",
+                       .passes_by = true};
+  }
   if (lateness.waking > can::host_is_late || after.late_frames > before.late_frames) {
     return HostTrouble{
         .why = "the host was late by more than " + to_string(can::host_is_late) + " during the case",
-        .late_only = true};
+        .late_only = true,
+        .passes_by = true};
   }
   return std::nullopt;
+}
+
+std::optional<HostTrouble> machine_trouble(const can::TransportInfo& info,
+                                           const std::optional<Recorder::LateWaking>& latest, BusTime begin) {
+  if (!info.is_virtual || !latest || latest->at + remembered < begin) return std::nullopt;
+  return HostTrouble{
+      .why = "the machine, which the device shares, was late by " +
+             std::to_string(std::chrono::round<std::chrono::milliseconds>(latest->by).count()) + " ms",
+      .late_only = true,
+      .passes_by = true,
+      .machine_only = true};
 }
 
 void distrust(result::CaseResult& result, const HostTrouble& trouble) {

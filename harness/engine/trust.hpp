@@ -18,12 +18,22 @@ struct HostTrouble {
   /// What was seen in time was seen. Only what rests on time or on silence is in doubt: the device may have
   /// waited for us in vain.
   bool late_only = false;
+  bool passes_by = false;  ///< lateness: another try may be spared it
+  bool machine_only =
+      false;  ///< the host did nothing wrong in this case; the device may have been kept waiting
 };
 
 /// What befell the host in a case: its health at the beginning and the end, and how late it was. nullopt:
 /// nothing of importance.
 [[nodiscard]] std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::BusHealth& after,
                                                     const Recorder::Lateness& lateness, bool other_client);
+
+/// On a virtual interface the device runs on this machine, too. Where the machine kept the host waiting in
+/// the case that began at `begin`, or shortly before, it may have kept the device waiting, and nobody saw it.
+/// nullopt: it did not, or the device has a processor of its own.
+[[nodiscard]] std::optional<HostTrouble> machine_trouble(const can::TransportInfo& info,
+                                                         const std::optional<Recorder::LateWaking>& latest,
+                                                         BusTime begin);
 
 /// Makes inconclusive what the trouble puts in doubt.
 void distrust(result::CaseResult& result, const HostTrouble& trouble);

@@ -82,12 +82,13 @@ void members(Same<Want> auto& it, auto&& see) {
 }
 void members(Same<CaseResult> auto& it, auto&& see) {
   auto& [id, instance, title, suite, position, requirements, cct, judgements, setup_findings, verdict, reason,
-         rests_on, wants, finished, begin, end, first_frame, end_frame] = it;
+         rests_on, wants, tried, finished, begin, end, first_frame, end_frame] = it;
   see("id", id), see("instance", instance), see("title", title), see("suite", suite),
       see("position", position), see("requirements", requirements), see("cct", cct),
       see("judgements", judgements), see("setup_findings", setup_findings), see("verdict", verdict),
-      see("reason", reason), see("rests_on", rests_on), see("wants", wants), see("finished", finished),
-      see("begin", begin), see("end", end), see("first_frame", first_frame), see("end_frame", end_frame);
+      see("reason", reason), see("rests_on", rests_on), see("wants", wants), see("tried", tried),
+      see("finished", finished), see("begin", begin), see("end", end), see("first_frame", first_frame),
+      see("end_frame", end_frame);
 }
 void members(Same<RequirementInfo> auto& it, auto&& see) {
   auto& [id, clause, level, area, statement] = it;

@@ -108,6 +108,7 @@ struct CaseResult {
   std::string reason = "not run";       ///< for not_applicable, inconclusive, error
   std::string rests_on{};  ///< of an inconclusive case: the requirement whose failure left it without ground
   std::vector<Want> wants{};  ///< of a case that is not applicable for want of something; all are needed
+  std::string tried{};        ///< "2 times: the host was late ..."; empty: once
   bool finished = false;
   BusTime begin;
   BusTime end;

@@ -17,11 +17,11 @@ namespace {
 
 ErrorBehaviourRules& of_error_behaviour(Parts& parts) { return parts.error_behaviour.rules; }
 
-/// A time is that many times as long as the rule says.
+/// A time is that many per cent of what the rule says.
 template <typename Rules>
-Change times(int factor, Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule) {
+Change lasts(int percent, Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule) {
   return decides(part, rule,
-                 [factor](const auto& former, std::int64_t value) { return former(value) * factor; });
+                 [percent](const auto& former, std::int64_t value) { return former(value) * percent / 100; });
 }
 
 /// Until 1017h is written there is no heartbeat.
@@ -149,11 +149,15 @@ DefectTable error_control_heartbeat_defects() {
       {"1017-period-wrong",
        "The heartbeat comes at half the rate of 1017h",
        {"OD-1017-05", "EC-HBP-01"},
-       times(2, of_producer, &HeartbeatProducerRules::period)},
+       lasts(200, of_producer, &HeartbeatProducerRules::period)},
+      {"1017-period-a-fifth-longer",
+       "The heartbeat comes after 1.2 times the time of 1017h",
+       {"EC-HBP-01"},
+       lasts(120, of_producer, &HeartbeatProducerRules::period)},
       {"1017-period-in-10ms-units",
        "1017h counts in units of 10 ms",
        {"EC-HBP-01", "OD-1017-05", "EC-HBP-02", "OD-1017-07"},
-       times(10, of_producer, &HeartbeatProducerRules::period)},
+       lasts(1000, of_producer, &HeartbeatProducerRules::period)},
       {"1017-change-needs-reset",
        "A change of 1017h takes effect with the next reset only",
        {"OD-1017-05", "OD-1017-07", "EC-HBP-02", "EC-HBP-03"},
@@ -270,7 +274,7 @@ DefectTable error_control_heartbeat_defects() {
       {"1016-unit-wrong",
        "1016h counts in units of 10 ms",
        {"OD-1016-11", "EC-HBC-03"},
-       times(10, of_consumer, &HeartbeatConsumerRules::time)},
+       lasts(1000, of_consumer, &HeartbeatConsumerRules::time)},
       {"hbc-timeout-wrong-code",
        "A missing heartbeat is reported as generic error 1000h",
        {"EC-HBC-03"},

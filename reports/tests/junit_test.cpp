@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "fixture.hpp"
+#include "reports/console.hpp"
 
 using namespace conform;
 using namespace conform::reports;
@@ -53,6 +54,17 @@ TEST_CASE("A passing case is an element without content") {
   CHECK(node.first_child().empty());
   CHECK(std::string(node.attribute("classname").value()) == "cia301.dictionary.1000-device-type");
   CHECK(std::string(node.attribute("time").value()) == "0.002");
+}
+
+TEST_CASE("A case that was tried again says so, whatever its verdict") {
+  auto run = one_case(Verdict::pass);
+  run.cases.front().tried = "2 times: the host was late";
+  CHECK(std::string(Document(run).find("readable").child_value("system-out")) ==
+        "tried 2 times: the host was late\n");
+  run.cases.front().verdict = Verdict::inconclusive;
+  CHECK(std::string(Document(run).find("readable").child_value("error"))
+            .find("Tried       2 times: the host") != std::string::npos);
+  CHECK(case_line(run.cases.front(), {}).find("tried 2 times: the host was late") != std::string::npos);
 }
 
 TEST_CASE("A failing case names rule, clause, graded set, bytes, frames and place") {

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "can/candump_log.hpp"
+#include "can/capture_marks.hpp"
 #include "can/pcapng.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/decode.hpp"
@@ -69,6 +70,15 @@ std::string others_in(std::span<const can::CapturedFrame> frames) {
   }
   if (heard.empty()) return "";
   return (heard.size() == 1 ? "; heard was node " : "; heard were the nodes ") + join(heard, ", ");
+}
+
+/// Where the capture says that the power of the device was switched.
+std::vector<monitor::Loss> switches_of_power(std::span<const can::CapturedFrame> frames) {
+  std::vector<monitor::Loss> out;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].comment.contains(can::power_was_switched)) out.push_back({i, i});
+  }
+  return out;
 }
 
 Recording with_directions(can::LoadedCapture loaded) {
@@ -140,7 +150,7 @@ result::RunResult judge(const Recording& recording, const device::Profile& profi
     out.aborted = fmt::format("nothing was heard of node {}{}", profile.node.value(), others_in(frames));
     return out;
   }
-  engine::judge_trace(frames, chosen, profile, catalogue, options.strict, {}, out,
+  engine::judge_trace(frames, chosen, profile, catalogue, options.strict, switches_of_power(frames), out,
                       {.senders = !recording.directions_inferred});
   if (recording.directions_inferred && !answers_in(frames, profile)) {
     const auto why = fmt::format(

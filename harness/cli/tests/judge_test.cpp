@@ -26,10 +26,6 @@ cli::SimulatedRun live(const std::vector<std::string>& defects,
                        const std::vector<std::string>& patterns = {}) {
   engine::RunOptions options;
   options.plan.selection.patterns = patterns;
-  // A trace does not tell that the power was switched.
-  options.plan.selection.excludes = {"cia301/storage/power*", "cia301/nmt/boot-up/after-power-on",
-                                     "cia305/configuration/stored-node-id-without-power",
-                                     "cia305/configuration/node-id-not-stored*"};
   auto run = cli::simulate({.defects = defects}, shipped::reference(), shipped::suites().suite,
                            shipped::suites().catalogue, options, 1);
   INFO((run ? std::string() : run.error().text()));

@@ -190,3 +190,110 @@ TEST_CASE("A produced SYNC may count in its data") {
   for (const auto& captured : recorder.capture().frames()) counts.push_back(captured.frame.data[0]);
   CHECK(counts == std::vector<int>{1, 2, 3, 1, 2});
 }
+
+namespace {
+
+/// Two measured seconds of a heartbeat that the device sends on its own.
+constexpr std::string_view waits_for_heartbeat = R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - frame: {id: heartbeat, within: 10 ms}
+        checks: T-MUST
+)";
+
+/// A device whose heartbeat follows the write at once in the tries of `heard`, on a machine that is late
+/// while it waits for that.
+Outcome play_on_busy_machine(const std::vector<bool>& heard, Duration late, bool is_virtual = true) {
+  class BusyTransport final : public can::Transport {
+   public:
+    BusyTransport(can::Transport& inner, Duration late, bool is_virtual)
+        : inner_(inner), late_(late), is_virtual_(is_virtual) {}
+    BusTime now() const override { return inner_.now(); }
+    Result<void> send(const can::Frame& frame) override { return inner_.send(frame); }
+    Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+      return inner_.receive(deadline > inner_.now() ? deadline + late_ : deadline);
+    }
+    can::BusHealth health() override { return inner_.health(); }
+    can::TransportInfo info() const override {
+      auto out = inner_.info();
+      out.is_virtual = is_virtual_;
+      return out;
+    }
+
+   private:
+    can::Transport& inner_;
+    Duration late_;
+    bool is_virtual_;
+  };
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  std::size_t tries = 0;
+  device.before = [&](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    const bool is_try = frame.data[0] == 0x2B && frame.data[1] == 0x17 && frame.data[4] != 0;
+    self.serve(frame);
+    if (is_try && heard[std::min(tries++, heard.size() - 1)])
+      self.send(can::data_frame(CanId(0x701), {0x7F}));
+    return true;
+  };
+  bus.attach(device, "scripted device");
+  BusyTransport transport(bus.transport(), late, is_virtual);
+  const auto suite = suite_of(std::string(waits_for_heartbeat));
+  Outcome out;
+  out.run = run(transport, device::default_profile(NodeId(1)), suite, catalogue(), {}, out.capture);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a case that a late host left undecided is tried again, and its report says so") {
+  int requests = 0;
+  const auto out = play_unwell(
+      [&requests](can::BusHealth& health) {
+        if (++requests == 1) ++health.late_frames;
+      },
+      R"(
+  - id: a
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - frame: {id: heartbeat, within: 10 ms}
+        checks: T-MUST
+  - id: b
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-OTHER
+)");
+  CHECK(out.run.cases[0].verdict == Verdict::fail);  // in time, and silent all the same
+  CHECK(out.run.cases[0].tried.starts_with("2 times"));
+  CHECK(out.run.cases[1].tried.empty());
+}
+
+TEST_CASE(
+    "what a busy machine may have done to its device is tried again, and fails when it comes each time") {
+  const auto failed = play_on_busy_machine({false}, 15ms);
+  CHECK(failed.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(failed.run.cases[0].tried.starts_with("4 times, with the same failure each time"));
+  CHECK(play_on_busy_machine({true}, 15ms).run.cases[0].tried.empty());
+}
+
+TEST_CASE("a failure beside a busy machine that does not come again is neither a failure nor a pass") {
+  const auto once = play_on_busy_machine({false, true}, 15ms);
+  CHECK(once.verdict_of("T-MUST") == Verdict::inconclusive);
+  CHECK(once.run.cases[0].tried.starts_with("2 times, and did not fail each time"));
+  const auto last = play_on_busy_machine({false, false, false, true}, 15ms);
+  CHECK(last.verdict_of("T-MUST") == Verdict::inconclusive);
+}
+
+TEST_CASE("a machine that is in time, or that the device does not share, excuses nothing") {
+  const auto in_time = play_on_busy_machine({false, true}, 5ms);
+  CHECK(in_time.verdict_of("T-MUST") == Verdict::fail);
+  CHECK(in_time.run.cases[0].tried.empty());
+  const auto apart = play_on_busy_machine({false, true}, 15ms, false);
+  CHECK(apart.verdict_of("T-MUST") == Verdict::fail);
+}

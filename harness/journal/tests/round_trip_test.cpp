@@ -69,6 +69,7 @@ CaseResult full_case() {
   out.reason = "";
   out.rests_on = "R-2";
   out.wants = {{"object", "a DOMAIN"}};
+  out.tried = "2 times";
   out.finished = true;
   out.begin = BusTime(Duration(1));
   out.end = BusTime(Duration(2));
