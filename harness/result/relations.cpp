@@ -196,6 +196,7 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"PDO-TX-01", "PDO-TX-05"},
     {"PDO-TX-05", "OD-1005-02"},
     {"PDO-TX-07 PDO-TX-12", "PDO-TX-08"},
+    {"PDO-TX-08", "PDO-RX-01"},  // a change that an RPDO makes
     {"PDO-MAP-20", "PDO-TX-01"},
     {"PDO-TX-06 PDO-TX-27", "SYNC-PRO-03"},
     {"SYNC-PRO-08", "NMT-SVC-01"},

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the operating system objects (1023h to 1026h) and of the module list (1027h).
+#include <memory>
+
+#include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -38,6 +41,28 @@ DictionaryEdit writable(std::uint16_t index, std::uint8_t sub) {
   };
 }
 
+/// A mode that is confirmed and forgotten, where `which` holds.
+Change mode_without_effect(bool (*which)(std::uint8_t mode)) {
+  return checking(0x1024, 0, [which](Parts&, const Check& former, ByteView bytes) -> Accepted {
+    return which(bytes[0]) ? Accepted{} : former(bytes);
+  });
+}
+
+/// The status of the debugger once a command was given.
+Change debugger_status_after_command(std::uint8_t status) {
+  return [status](Parts& parts) {
+    const auto given = std::make_shared<bool>(false);
+    checking(0x1025, 1, [given](Parts&, const Check& former, ByteView bytes) {
+      *given = true;
+      return former(bytes);
+    })(parts);
+    reading(0x1025, 2, [given, status](Parts&, const Read& former) -> Upload {
+      if (*given) return Bytes{status};
+      return former();
+    })(parts);
+  };
+}
+
 }  // namespace
 
 DefectTable objects_operating_system_defects() {
@@ -55,6 +80,10 @@ DefectTable objects_operating_system_defects() {
        "The status of 1023h is 04h",
        {"OD-1023-02", "OD-1023-05"},
        reads_as(0x1023, 2, {0x04})},
+      {"1023-status-tells-of-reply",
+       "The status of 1023h is 01h though there is no reply",
+       {"OD-1023-05"},
+       reads_as(0x1023, 2, {0x01})},
       {"1023-status-is-u32",
        "1023h:02 has four bytes",
        {"OD-1023-02", "OD-LEN-04", "OD-GEN-17"},
@@ -78,6 +107,14 @@ DefectTable objects_operating_system_defects() {
        changing_reply()},
       {"1024-readable", "1024h can be read", {"OD-1024-01", "OD-ACC-03"}, access(0x1024, 0, Access::rw)},
       {"1024-is-u16", "1024h has two bytes", {"OD-1024-02"}, type(0x1024, 0, DataType::unsigned16)},
+      {"1024-mode-without-effect",
+       "A command is executed at once, whatever the mode",
+       {"OD-1024-02"},
+       mode_without_effect([](std::uint8_t) { return true; })},
+      {"1024-abort-keeps-commands",
+       "Mode 03h drops no command that is kept",
+       {"OD-1024-02"},
+       mode_without_effect([](std::uint8_t mode) { return mode == 0x03; })},
       {"1025-sub0-wrong", "1025h:00 is 02h", {"OD-1025-01", "OD-GEN-11"}, preset(0x1025, 0, 2)},
       {"1025-sub0-writable",
        "1025h:00 can be written",
@@ -87,6 +124,10 @@ DefectTable objects_operating_system_defects() {
        "The status of 1025h is 02h",
        {"OD-1025-02"},
        reads_as(0x1025, 2, {0x02})},
+      {"1025-status-reserved-after-command",
+       "After a command the status of 1025h is 02h",
+       {"OD-1025-02"},
+       debugger_status_after_command(0x02)},
       {"1025-status-is-u32", "1025h:02 has four bytes", {"OD-1025-02", "OD-LEN-04"}, type(0x1025, 2, u32)},
       {"1025-status-writable", "1025h:02 can be written", {"OD-1025-03", "OD-ACC-01"}, writable(0x1025, 2)},
       {"1025-reply-writable", "1025h:03 can be written", {"OD-1025-03", "OD-ACC-01"}, writable(0x1025, 3)},
@@ -106,6 +147,7 @@ DefectTable objects_operating_system_defects() {
        "1026h:01 can be read",
        {"OD-1026-02", "OD-ACC-03"},
        access(0x1026, 1, Access::rw)},
+      {"1026-stdin-is-u16", "1026h:01 has two bytes", {"OD-1026-02"}, type(0x1026, 1, DataType::unsigned16)},
       {"1026-stdout-is-u32",
        "1026h:02 has four bytes",
        {"OD-1026-03", "OD-LEN-04", "OD-GEN-19"},

@@ -10,14 +10,15 @@
 namespace conform::cli {
 
 /// How many of a group ended how. Equivalent mutants, those that break no rule and those that no run reaches
-/// say nothing about the suite: `judged` are the others.
+/// say nothing about the suite: `judged` are the others. One that crashes or hangs is noticed as what it is;
+/// it runs no suite to its end, so that the share of failures is of those that still are a node.
 struct MutantScore {
   std::size_t all = 0, not_reached = 0, explained = 0, judged = 0;
   std::size_t killed = 0, crashed = 0, hung = 0, noticed = 0, survived = 0;
 
   void add(const MutantFate& fate);
   [[nodiscard]] double share_noticed() const;
-  [[nodiscard]] double share_killed() const;
+  [[nodiscard]] double share_failed() const;
 };
 
 /// Of all of them.

@@ -45,6 +45,12 @@ bool Explanation::is_of(const Mutant& mutant) const {
          fits(mutated, mutant.mutated);
 }
 
+// What no rule forbids may still be seen, as a feature that is there or not, or in a warning.
+bool Explanation::explains(Fate fate) const {
+  return fate == Fate::survived || fate == Fate::not_reached ||
+         (fate == Fate::noticed && reason.starts_with("no rule:"));
+}
+
 Result<std::vector<Explanation>> parse_explanations(std::string_view text) {
   std::vector<Explanation> out;
   int number = 0;
@@ -77,7 +83,7 @@ std::vector<std::string> explain(std::vector<MutantFate>& fates, std::span<const
       const auto found = run.find(mutant.number);
       if (found == run.end()) {
         needed = true;  // perhaps; it was not tried
-      } else if (found->second->fate == Fate::survived || found->second->fate == Fate::not_reached) {
+      } else if (explanation.explains(found->second->fate)) {
         needed = true;
         if (found->second->explained.empty()) found->second->explained = explanation.reason;
       }

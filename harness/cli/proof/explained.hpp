@@ -21,12 +21,15 @@ struct Explanation {
   [[nodiscard]] bool is_of(const Mutant& mutant) const;
   /// A gap of the suite that is known; the others cannot be seen, or break no rule.
   [[nodiscard]] bool is_gap() const { return reason.starts_with("open:"); }
+  /// Whether one of this fate needs the reason.
+  [[nodiscard]] bool explains(Fate fate) const;
 };
 
 [[nodiscard]] Result<std::vector<Explanation>> parse_explanations(std::string_view text);
 
-/// Gives survivors their reasons. Returns the lines that explain nobody: of `all` no mutant is meant, or
-/// every one that is meant was run and is noticed.
+/// Gives survivors their reasons, and those without a rule (another legal device) also when they are noticed
+/// without a failure. Returns the lines that explain nobody: of `all` no mutant is meant, or every one that
+/// is meant was run and needs no reason.
 [[nodiscard]] std::vector<std::string> explain(std::vector<MutantFate>& fates, std::span<const Mutant> all,
                                                const std::vector<Explanation>& explanations);
 

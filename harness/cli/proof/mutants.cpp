@@ -14,6 +14,13 @@ namespace conform::cli {
 
 using result::Verdict;
 
+namespace {
+
+/// Stands for a requirement in the verdicts of a run that could not go on.
+constexpr std::string_view the_run = "the run";
+
+}  // namespace
+
 std::string_view to_string(Fate fate) {
   switch (fate) {
     case Fate::survived: return "survived";
@@ -27,7 +34,7 @@ std::string_view to_string(Fate fate) {
 }
 
 std::string difference(const Verdicts& good, const Verdicts& mutant) {
-  std::string noticed;
+  std::string noticed, ended;
   const auto words = [](const auto& key, std::string_view verdict) {
     return key.first + " " + std::string(verdict) + " in " + key.second;
   };
@@ -35,12 +42,13 @@ std::string difference(const Verdicts& good, const Verdicts& mutant) {
     const auto before = good.find(key);
     if (before != good.end() && before->second == verdict) continue;
     if (verdict == Verdict::fail) return "!" + words(key, "fail");
+    if (key.first == the_run) ended = "~" + key.second;
     if (noticed.empty()) noticed = words(key, to_string(verdict));
   }
   for (const auto& [key, verdict] : good) {
     if (noticed.empty() && !mutant.contains(key)) noticed = words(key, "not judged");
   }
-  return noticed;
+  return ended.empty() ? noticed : ended;
 }
 
 MutantFate fate_of(const Mutant& mutant, const Ending& ending) {
@@ -52,6 +60,9 @@ MutantFate fate_of(const Mutant& mutant, const Ending& ending) {
     case Ending::Kind::returned:
       if (ending.text.starts_with('!')) {
         out.fate = Fate::killed;
+        out.how.erase(0, 1);
+      } else if (ending.text.starts_with('~')) {
+        out.fate = Fate::hung;
         out.how.erase(0, 1);
       } else {
         out.fate = ending.text.empty() ? Fate::survived : Fate::noticed;
@@ -133,7 +144,7 @@ class Trial {
     auto run = simulate({}, profile_, suite_, catalogue_, options, seed_);
     if (!run) return std::unexpected(run.error());
     auto out = verdicts_of(run->result);
-    if (run->result.aborted) out[{"the run", "ended: " + *run->result.aborted}] = Verdict::error;
+    if (run->result.aborted) out[{std::string(the_run), *run->result.aborted}] = Verdict::error;
     return out;
   }
 

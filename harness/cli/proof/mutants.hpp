@@ -23,7 +23,8 @@ enum class Fate : unsigned char {
   not_reached,  ///< no run comes to its place
   noticed,      ///< some verdict is another, but none is a failure
   crashed,
-  hung,   ///< or took more memory than there is
+  hung,   ///< or took more memory than there is, or let the run go no further (it lets no time pass, or is
+          ///< mute)
   killed  ///< a requirement failed that the conformant node keeps
 };
 [[nodiscard]] std::string_view to_string(Fate fate);
@@ -32,10 +33,11 @@ struct MutantFate {
   const Mutant* mutant = nullptr;
   Fate fate = Fate::survived;
   std::string how{};        ///< "OD-1003-06 in cia301/...", "SIGSEGV"
-  std::string explained{};  ///< of one that survived or was not reached: why
+  std::string explained{};  ///< of one that survived or was not reached, or that no rule forbids: why
 };
 
-/// Which verdicts differ, in words that begin with '!' where a requirement fails; empty: none.
+/// Which verdicts differ, in words that begin with '!' where a requirement fails, else with '~' where the run
+/// came to an end before its time; empty: none.
 [[nodiscard]] std::string difference(const Verdicts& good, const Verdicts& mutant);
 /// What a run that ended so makes of the mutant; its text is a difference().
 [[nodiscard]] MutantFate fate_of(const Mutant& mutant, const Ending& ending);

@@ -35,6 +35,12 @@ TEST_CASE("a verdict that differs is noticed, and a failure is named before it")
   other[{"A-2", "y"}] = Verdict::fail;
   CHECK(difference(good, other) == "!A-2 fail in y");
   CHECK(difference(good, {{{"A-1", "x"}, Verdict::pass}}) == "A-2 not judged in y");
+  auto ended = good;
+  ended[{"the run", "no time passes"}] = Verdict::error;
+  ended[{"A-2", "y"}] = Verdict::inconclusive;
+  CHECK(difference(good, ended) == "~no time passes");
+  ended[{"A-2", "y"}] = Verdict::fail;
+  CHECK(difference(good, ended) == "!A-2 fail in y");
   auto applicable = good;
   applicable[{"A-2", "y"}] = Verdict::pass;
   CHECK(difference(good, applicable) == "A-2 pass in y");
@@ -47,6 +53,9 @@ TEST_CASE("how a run ended says what became of the mutant") {
   const auto killed = fate_of(first, {Kind::returned, "!A-1 fail in x"});
   CHECK(killed.fate == Fate::killed);
   CHECK(killed.how == "A-1 fail in x");
+  const auto ended = fate_of(first, {Kind::returned, "~no time passes"});
+  CHECK(ended.fate == Fate::hung);
+  CHECK(ended.how == "no time passes");
   CHECK(fate_of(first, {Kind::crashed, "SIGSEGV"}).fate == Fate::crashed);
   CHECK(fate_of(first, {Kind::hung, ""}).fate == Fate::hung);
   CHECK(fate_of(first, {Kind::out_of_memory, ""}).fate == Fate::hung);
@@ -92,11 +101,34 @@ TEST_CASE("what is explained or not reached counts neither for nor against the s
   score.add({&first, Fate::survived, "", "open: x"});
   score.add({&first, Fate::killed});
   score.add({&first, Fate::noticed});
-  score.add({&first, Fate::crashed});
-  CHECK(score.all == 6);
+  score.add({&first, Fate::noticed, "", "no rule: x"});
+  score.add({&first, Fate::killed, "", "no rule: x"});
+  CHECK(score.all == 7);
+  CHECK(score.explained == 2);
   CHECK(score.judged == 4);
   CHECK(score.share_noticed() == 75.0);
-  CHECK(score.share_killed() == 25.0);
+  CHECK(score.share_failed() == 50.0);
+}
+
+TEST_CASE("a node that crashes or hangs is noticed, and not asked for a failure") {
+  MutantScore score;
+  score.add({&first, Fate::crashed});
+  score.add({&first, Fate::hung});
+  score.add({&first, Fate::killed});
+  CHECK(score.judged == 3);
+  CHECK(score.share_noticed() == 100.0);
+  CHECK(score.share_failed() == 100.0);
+}
+
+TEST_CASE("another legal device may be noticed without a failure, an equivalent one may not") {
+  std::vector<MutantFate> fates{{&first, Fate::noticed}, {&second, Fate::noticed}, {&third, Fate::killed}};
+  const auto stale = explain(fates, all,
+                             explanations("sdo/crc.cpp sdo_crc `i < 8` -> `i <= 8` no rule: x\n"
+                                          "sdo/crc.cpp sdo_crc `i < 8` -> `i < 9` equivalent: x\n"
+                                          "nmt/nmt_slave.cpp * `f()` -> `*` no rule: x\n"));
+  CHECK(fates[0].explained == "no rule: x");
+  CHECK(fates[1].explained.empty());
+  CHECK(stale.size() == 2);
 }
 
 TEST_CASE("who survived is named, and a program without mutants says so") {
