@@ -11,7 +11,7 @@
 namespace conform::device {
 namespace {
 
-constexpr std::array<Feature, 35> feature_table{{
+constexpr std::array<Feature, 38> feature_table{{
     {"emcy", "sends emergency messages (1014h)"},
     {"emcy consumer", "consumes emergency messages of other nodes (1028h)"},
     {"error behaviour", "offers the error behaviour object 1029h"},
@@ -44,6 +44,9 @@ constexpr std::array<Feature, 35> feature_table{{
     {"logical devices", "holds more than one logical device"},
     {"modular device", "lists its modules in 1027h"},
     {"lss", "layer setting services (CiA 305)"},
+    {"lss identify remote slave", "answers when its LSS address is in the ranges of a master (46h to 4Bh)"},
+    {"lss identify non-configured", "tells that it has no node-ID (4Ch)"},
+    {"lss fastscan", "can be found by fastscan (51h)"},
     {"program download", "takes programs (1F50h)"},
     {"tpdo on change", "an event-driven TPDO is sent when an object in it changes"},
     {"only node on the bus", "no other node is there: commands to all nodes may be sent"},

@@ -242,6 +242,19 @@ DefectTable error_control_heartbeat_defects() {
                       }
                       return {};
                     })},
+      {"1016-same-time-counts-as-duplicate",
+       "Two entries of 1016h for different nodes are refused where they have the same time",
+       {"OD-1016-05"},
+       checking_all(0x1016,
+                    [](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) -> Accepted {
+                      const auto time = monitored_time(conform::load_le(bytes));
+                      const ObjectDictionary& od = parts.device.dictionary;
+                      for (std::uint8_t other = 1; other <= od.number(0x1016, 0); ++other) {
+                        if (other != sub && time != 0 && monitored_time(od.number(0x1016, other)) == time)
+                          return refuse(abort_code::parameter_incompatible);
+                      }
+                      return former(bytes);
+                    })},
       {"1016-own-entry-counts-as-duplicate",
        "Rewriting an entry of 1016h is refused as a duplicate of itself",
        {"OD-1016-08"},
