@@ -74,7 +74,10 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
     }
   } else if (frame.is_data(canopen::lss_request_can_id)) {
     now_.subject = Subject::lss_request;
-    if (frame.data[0] == configure_node_id && frame.data[1] < names_.size()) names_.set(frame.data[1]);
+    if (frame.data[0] == configure_node_id) {
+      nmt_.readdressed();
+      if (frame.data[1] < names_.size()) names_.set(frame.data[1]);
+    }
   } else if (frame.is_data(canopen::lss_response_can_id) && from_device) {
     now_.subject = Subject::lss_answer;
   } else if (frame.id == 0x080U + node && from_device && !frame.remote) {

@@ -30,8 +30,8 @@ void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index)
     return;
   }
   ordered_at_ = time;
-  // While it boots a device may miss commands.
-  if (booting_ || (booted_at_ && time <= *booted_at_ + facts_.nmt_time)) return;
+  // While it boots a device may miss commands, and with another node-ID those to the one that it had.
+  if (booting_ || readdressed_ || (booted_at_ && time <= *booted_at_ + facts_.nmt_time)) return;
   commanded_at_ = time;
   commanded_ = *command == NmtCommand::start  ? canopen::NmtState::operational
                : *command == NmtCommand::stop ? canopen::NmtState::stopped
@@ -40,8 +40,13 @@ void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index)
 
 void NmtState::boot_up(BusTime time) {
   if (resets_ > 0) --resets_;
-  booting_ = false;
+  booting_ = readdressed_ = false;
   booted_at_ = time;
+  commanded_.reset();
+}
+
+void NmtState::readdressed() {
+  readdressed_ = true;
   commanded_.reset();
 }
 

@@ -24,6 +24,8 @@ class NmtState {
   /// A frame with the identifier 0.
   void command(const can::Frame& frame, BusTime time, std::size_t index);
   void boot_up(BusTime time);
+  /// A node-ID is configured by LSS (CiA 305): a device that starts with it hears no command to the old one.
+  void readdressed();
   /// The device spoke T_BOOT after a reset and had sent no boot-up message: it was not reset.
   void reset_had_no_effect();
   /// Frames were lost.
@@ -68,6 +70,7 @@ class NmtState {
   BusTime commanded_at_{};
   std::optional<BusTime> booted_at_, ordered_at_;
   bool booting_ = false;
+  bool readdressed_ = false;  ///< until the next boot-up message with the node-ID that it is known by
   std::size_t resets_ = 0;
   std::optional<canopen::NmtCommand> last_reset_;
   BusTime reset_at_{};

@@ -86,6 +86,16 @@ TEST_CASE("a TPDO that maps nothing and is not sent is not failed for its 29 bit
   check(combination);
 }
 
+TEST_CASE("a device that starts with a new node-ID at once hears no command to the old one") {
+  // PDO-TX-02 was failed: the TPDOs of a self-starting device came behind a command that it could not hear.
+  //   7E5 [8] 11 7D ..   7E4 [8] 11 00 ..   7E5 [8] 04 00 ..   000 [2] 80 01   77D [1] 00   181 [4] 00 00 00
+  //   00
+  cli::Combination combination;
+  combination.variants = {"1010-only", "boot-up-200ms", "self-starting", "lss-node-id-at-once",
+                          "tpdo-initial"};
+  check(combination);
+}
+
 TEST_CASE("rows of the variants are sound") {
   std::set<std::string_view> ids, groups;
   for (const auto& variant : refnode::variants()) {
