@@ -91,7 +91,10 @@ TEST_CASE("The twin of the node's own description passes what the node passes") 
     // A twin knows no application: no output is wired to an input, so nothing makes an event.
     if (name.starts_with("PDO-TX-07 ") || name.starts_with("PDO-TX-08 ")) continue;
     if (name.starts_with("PDO-TX-05 in cia301/sync/consumer/present-data")) continue;
-    if (name.find(" in cia301/pdo/tpdo-wired/") != std::string::npos) continue;
+    const auto is_in = [&name](const char* cases) { return name.find(cases) != std::string::npos; };
+    if (is_in(" in cia301/pdo/tpdo-wired/") || is_in(" in cia301/pdo/rpdo-content/wired") ||
+        is_in(" in cia301/pdo/remote-frames/not-sampled-yet"))
+      continue;
     const auto other = twin.find(name);
     REQUIRE(other != twin.end());
     CHECK(std::string(to_string(other->second)) == std::string(to_string(verdict)));
