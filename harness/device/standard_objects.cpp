@@ -204,6 +204,12 @@ std::optional<Entry> standard_entry(Multiplexer mux) {
   return std::nullopt;
 }
 
+std::optional<canopen::DataType> type_of(const Dictionary& dictionary, Multiplexer mux) {
+  if (const auto* entry = dictionary.find(mux); entry != nullptr) return entry->type;
+  const auto standard = standard_entry(mux);
+  return standard ? std::optional(standard->type) : std::nullopt;
+}
+
 Dictionary standard_dictionary(NodeId node) {
   Dictionary dictionary;
   for (const Row& row : rows) {

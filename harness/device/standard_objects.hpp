@@ -18,6 +18,10 @@ inline constexpr int max_pdos = 512;
 /// everything else. Node-ID dependent defaults hold the constant part and are marked default_adds_node_id.
 [[nodiscard]] std::optional<Entry> standard_entry(Multiplexer mux);
 
+/// The type of an entry: as the dictionary has it, or as the standard gives it to one that was not there when
+/// the device was surveyed and may be there now, like a field for an error. nullopt: neither knows.
+[[nodiscard]] std::optional<canopen::DataType> type_of(const Dictionary& dictionary, Multiplexer mux);
+
 /// With the node-ID in the defaults: objects 1000h-1029h, 1200h, 1201h and 1280h with their sub-indices 00h
 /// and those the standard names one by one, and PDO 1..4 with sub-index 00h..08h of the mapping. Arrays show
 /// sub-index 00h and 01h: how far they go is for the device to say.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "engine/baseline.hpp"
 
@@ -21,10 +22,7 @@ Result<void> LastingErrors::look() {
   auto inhibit = run_.session.is_present(emcy_inhibit_time, false);
   if (!inhibit) return std::unexpected(inhibit.error());
   if (!*inhibit) return {};
-  auto held = run_.session.peek(emcy_inhibit_time);
-  if (!held) return std::unexpected(held.error());
-  if (confirmed(*held) && held->data.size() == 2)
-    emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(held->data));
+  if (auto held = run_.session.peek(emcy_inhibit_time); !held) return std::unexpected(held.error());
   return {};
 }
 
@@ -54,19 +52,20 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
 
 Result<void> LastingErrors::let_emcy_end(std::size_t from) {
   auto& session = run_.session;
-  const auto seen_since = [&](std::size_t first) {
-    const auto& frames = run_.recorder.capture().frames();
-    return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(first), frames.end(),
-                       [&](const can::CapturedFrame& captured) {
-                         return captured.direction == can::Direction::received &&
-                                captured.frame.is_data(session.emcy_can_id());
-                       });
-  };
+  // A device may keep to the inhibit time that it held when the last message went out.
+  const auto inhibit = session.longest_emcy_inhibit();
+  constexpr auto margin = std::chrono::milliseconds(10);
   constexpr int most_held_back = 16;
-  for (int held = 0; emcy_inhibit_ > Duration::zero() && held < most_held_back && seen_since(from); ++held) {
-    from = run_.recorder.capture().size();
-    const auto margin = std::chrono::milliseconds(10);
-    if (auto waited = session.wait_until(session.now() + emcy_inhibit_ + margin); !waited) return waited;
+  for (int held = 0; inhibit > Duration::zero() && held < most_held_back; ++held) {
+    std::optional<BusTime> latest;
+    const auto& frames = run_.recorder.capture().frames();
+    for (auto i = frames.size(); i > from && !latest; --i) {
+      const auto& captured = frames[i - 1];
+      if (captured.direction == can::Direction::received && captured.frame.is_data(session.emcy_can_id()))
+        latest = captured.time;
+    }
+    if (!latest || *latest + inhibit + margin <= session.now()) return {};
+    if (auto waited = session.wait_until(*latest + inhibit + margin); !waited) return waited;
   }
   return {};
 }

@@ -13,7 +13,8 @@ class LastingErrors {
  public:
   explicit LastingErrors(RunContext& run) : run_(run) {}
 
-  /// What the device tells before the first case: its errors (1001h) and its inhibit time (1015h).
+  /// Before the first case: whether the device tells of errors (1001h), and its inhibit time (1015h), which
+  /// the session keeps in mind.
   [[nodiscard]] Result<void> look();
   /// Behind a case: what the inhibit time still holds back would be taken for an EMCY of the next one, and an
   /// error that stays would make the next trigger silent.
@@ -27,7 +28,6 @@ class LastingErrors {
 
   RunContext& run_;
   bool none_at_first_ = false;  ///< 1001h was 0 before the first case, and a reset makes it 0 again
-  Duration emcy_inhibit_{};     ///< 1015h, as found
 };
 
 }  // namespace conform::engine

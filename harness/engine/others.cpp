@@ -5,11 +5,13 @@
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/lss.hpp"
 #include "canopen/sdo_initiate.hpp"
 
 namespace conform::engine {
 namespace {
 
+constexpr auto configure_node_id = static_cast<std::uint8_t>(canopen::LssCommand::configure_node_id);
 constexpr std::uint32_t not_valid = 1U << 31U, generates = 1U << 30U, extended = 1U << 29U;
 
 /// Whether the device sends on what the entry holds.
@@ -39,9 +41,25 @@ void Others::take(Multiplexer object, std::uint32_t cob_id) {
   own_.insert(cob_id & ((cob_id & extended) != 0 ? 0x1FFF'FFFFU : 0x7FFU));
 }
 
+/// With the node-ID that LSS gives it the device sends on other CAN-IDs, for as long as the run asks it to.
+void Others::learn_node_id(const can::CapturedFrame& captured) {
+  const auto& bytes = captured.frame.bytes();
+  if (captured.frame.is_data(canopen::lss_request_can_id)) {
+    given_.reset();
+    if (bytes[0] == configure_node_id && bytes[1] >= 1 && bytes[1] <= 0x7F) given_ = NodeId(bytes[1]);
+  } else if (given_ && captured.frame.is_data(canopen::lss_response_can_id) &&
+             bytes[0] == configure_node_id && bytes[1] == 0) {
+    const auto set = canopen::connection_set(*given_);
+    lent_.insert({set.sdo_response.value(), set.error_control.value(), set.emcy.value()});
+    for (const auto id : set.tpdo) lent_.insert(id.value());
+    given_.reset();
+  }
+}
+
 void Others::learn(const can::CapturedFrame& captured) {
   const auto& frame = captured.frame;
   if (frame.size() != 8) return;
+  learn_node_id(captured);
   const auto set = canopen::connection_set(node_);
   const bool request = captured.direction == can::Direction::transmitted && frame.is_data(set.sdo_request);
   const bool response = captured.direction == can::Direction::received && frame.is_data(set.sdo_response);
@@ -65,7 +83,9 @@ std::optional<std::string> Others::heard(const can::Capture& capture) {
   for (; looked_at_ < frames.size(); ++looked_at_) {
     const auto& captured = frames[looked_at_];
     learn(captured);
-    if (captured.direction == can::Direction::received && !captured.frame.error)
+    // Who was heard there before is somebody else all the same.
+    if (captured.direction == can::Direction::received && !captured.frame.error &&
+        !lent_.contains(captured.frame.id))
       strange_.emplace(captured.frame.id, captured.time);
   }
   std::erase_if(strange_, [this](const auto& each) { return own_.contains(each.first); });

@@ -26,12 +26,15 @@ class Others {
 
  private:
   void learn(const can::CapturedFrame& captured);
+  void learn_node_id(const can::CapturedFrame& captured);
   void take(Multiplexer object, std::uint32_t cob_id);
 
   NodeId node_;
   std::size_t looked_at_ = 0;
-  std::set<std::uint32_t> own_;                                 ///< CAN-IDs on which the device may send
-  std::map<std::uint32_t, BusTime> strange_;                    ///< others, with the time of the first frame
+  std::set<std::uint32_t> own_;               ///< CAN-IDs on which the device may send
+  std::optional<NodeId> given_;               ///< by an LSS command that waits for its confirmation
+  std::set<std::uint32_t> lent_;              ///< CAN-IDs of node-IDs that LSS gave the device
+  std::map<std::uint32_t, BusTime> strange_;  ///< others, with the time of the first frame
   std::optional<std::pair<Multiplexer, std::uint32_t>> asked_;  ///< a download that waits for its answer
 };
 

@@ -13,6 +13,7 @@
 namespace conform::engine {
 namespace {
 constexpr Multiplexer emcy_entry{Index(0x1014), SubIndex(0)};
+constexpr Multiplexer emcy_inhibit_entry{Index(0x1015), SubIndex(0)};  // multiples of 100 us
 
 }  // namespace
 
@@ -29,6 +30,8 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
     const auto* known = entry(object);
     return known != nullptr ? known->size() : std::nullopt;
   });
+  // Also what is put back behind a case tells where emergency messages are to be looked for.
+  channel_.set_on_value([this](Multiplexer object, const Bytes& value) { watch_emcy(object, value); });
 }
 
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
@@ -148,8 +151,6 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
     if (!request.upload) write_refused_ = answer.kind == steps::SdoAnswer::Kind::aborted;
     if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
     if (!request.upload && request.object.index == Index(0x1011)) restored_ = true;
-    if (answer.kind == steps::SdoAnswer::Kind::confirmed)
-      watch_emcy(request.object, request.upload ? answer.data : request.data);
   }
   return answers;
 }
@@ -157,6 +158,9 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
 void RunSession::watch_emcy(Multiplexer object, const Bytes& value) {
   if (object == emcy_entry && value.size() == 4) {
     emcy_can_id_ = canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(value))));
+  } else if (object == emcy_inhibit_entry && value.size() == 2) {
+    emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(value));
+    longest_emcy_inhibit_ = std::max(longest_emcy_inhibit_, emcy_inhibit_);
   }
 }
 
@@ -348,6 +352,7 @@ void RunSession::begin_case(scenario::Risk risk) {
   object_ = nullptr;
   silence_seen_ = false;
   write_refused_ = false;
+  longest_emcy_inhibit_ = emcy_inhibit_;
 }
 
 void RunSession::begin_step(const steps::Step& step) {

@@ -133,6 +133,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
   /// CAN-ID of EMCY as found after power-on.
+  /// The longest inhibit time (1015h) that the device was seen to hold since the case began.
+  [[nodiscard]] Duration longest_emcy_inhibit() const { return longest_emcy_inhibit_; }
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
   /// `why`: what the device answered, where it is not there.
   void note_present(Multiplexer object, bool present, std::string why = {});
@@ -217,6 +219,7 @@ class RunSession final : public steps::Session {
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;
   CanId home_emcy_can_id_;  ///< after a reset
+  Duration emcy_inhibit_{}, longest_emcy_inhibit_{};
 };
 
 }  // namespace conform::engine

@@ -184,7 +184,10 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     }
     if (misplaced.empty()) misplaced = result.misplaced;
     out.push_back(to_answer(runs[i]));
-    if (jobs[i].request.upload && !out.back().size_indicated) trim(jobs[i].request.object, out.back().data);
+    const auto& request = jobs[i].request;
+    if (request.upload && !out.back().size_indicated) trim(request.object, out.back().data);
+    if (on_value_ && out.back().kind == steps::SdoAnswer::Kind::confirmed)
+      on_value_(request.object, request.upload ? out.back().data : request.data);
   }
   first_request_ = recorder_.capture().size();
   for (const auto& run : runs) {

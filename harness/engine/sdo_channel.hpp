@@ -79,6 +79,10 @@ class SdoChannel {
   using KnownSize = std::function<std::optional<std::size_t>(Multiplexer)>;
   void set_known_size(KnownSize known_size) { known_size_ = std::move(known_size); }
 
+  /// Told of the value of an entry whenever an upload brought it or a download was confirmed, whoever asked.
+  using OnValue = std::function<void(Multiplexer, const Bytes&)>;
+  void set_on_value(OnValue on_value) { on_value_ = std::move(on_value); }
+
  private:
   enum class State : std::uint8_t {
     idle,
@@ -108,6 +112,7 @@ class SdoChannel {
 
   Recorder& recorder_;
   KnownSize known_size_;
+  OnValue on_value_;
   Duration timeout_, quiet_;
   Duration slowest_{}, latest_{};      ///< answers: the slowest, and the latest one
   std::set<CanId> sent_by_hand_;       ///< requests of conversations since the last transfer on that channel

@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "device/standard_objects.hpp"
 #include "steps/sdo_access.hpp"
 
 namespace conform::steps {
@@ -82,7 +83,7 @@ Bytes pattern_bytes(std::size_t size, bool visible) {
 Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer object, bool upload) {
   using Kind = SdoAnswer::Kind;
   auto out = outcome_of(answer);
-  if (const auto* entry = session.dictionary().find(object)) out.type = entry->type;
+  if (const auto type = device::type_of(session.dictionary(), object)) out.type = *type;
   out.has_data = upload && answer.kind == Kind::confirmed;
   if (answer.kind == Kind::gave_up) {
     // On purpose: the fault that was asked for.
@@ -284,8 +285,7 @@ std::optional<SdoStep> SdoStep::parse_download(const yaml::Field& value, ParseCo
 
 std::optional<canopen::DataType> SdoStep::type_of(const Session& session, Multiplexer object) const {
   if (as_) return as_;
-  const auto* entry = session.dictionary().find(object);
-  return entry != nullptr ? std::optional(entry->type) : std::nullopt;
+  return device::type_of(session.dictionary(), object);
 }
 
 Result<Bytes> SdoStep::encode(Session& session, Multiplexer object) const {

@@ -8,6 +8,7 @@
 #include "canopen/cob_id.hpp"
 #include "canopen/sdo_initiate.hpp"
 #include "canopen/sdo_segment.hpp"
+#include "device/standard_objects.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
@@ -158,7 +159,8 @@ class Segments final : public Action {
     out.has_data = true;
     out.data = so_far.data;
     const auto object = object_.resolve(session);
-    if (const auto* entry = object ? session.dictionary().find(*object) : nullptr) out.type = entry->type;
+    if (const auto type = object ? device::type_of(session.dictionary(), *object) : std::nullopt)
+      out.type = *type;
     out.measured["segments"] = so_far.segments;
     out.measured["wrong_toggles"] = so_far.wrong_toggles;
     out.measured["difference"] = held > size ? held - size : size - held;

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a case leaves behind must not show in the next one, whatever their order is.
+#include "bench.hpp"
+#include "canopen/cob_id.hpp"
+#include "engine/others.hpp"
+
+using namespace conform;
+using namespace conform::engine;
+using namespace conform::engine::testing;
+using namespace std::chrono_literals;
+using result::Verdict;
+
+namespace {
+
+const can::Frame some_emcy = can::data_frame(CanId(0x81), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
+
+/// Whoever writes 1 to 2000h gets an EMCY.
+void give_errors(ScriptedDevice& device) {
+  device.entries[0x200000] = {0};
+  device.entries[0x101500] = {0, 0};
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1) self.send(some_emcy);
+    return false;
+  };
+}
+
+can::CapturedFrame seen(BusTime time, can::Direction direction, CanId id,
+                        std::initializer_list<std::uint8_t> bytes) {
+  return {can::data_frame(id, bytes), time, direction, {}};
+}
+
+}  // namespace
+
+TEST_CASE("behind a case that moved the emergency messages they are looked for where they are again") {
+  ScriptedDevice device;
+  give_errors(device);
+  const auto out = play(device, R"(
+  - id: moves
+    title: t
+    risk: config
+    steps:
+      - set_cob_id: {object: 1014h:00, to: 6A0h}
+        checks: T-MUST
+  - id: looks
+    title: t
+    risk: config
+    steps:
+      - download: {object: 2000h:00, bytes: "01"}
+      - frame: {id: emcy, within: 100 ms}
+        checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
+}
+
+TEST_CASE("what the inhibit time of a case holds back is over before the next case begins") {
+  ScriptedDevice device;
+  give_errors(device);
+  const auto out = play(device, R"(
+  - id: inhibits
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1015h:00, value: 5000}  # 500 ms
+      - download: {object: 2000h:00, bytes: "01"}
+        checks: T-MUST
+  - id: next
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  std::optional<BusTime> sent;
+  for (const auto& captured : out.capture.frames()) {
+    if (captured.frame.id == some_emcy.id) sent = captured.time;
+  }
+  REQUIRE(sent.has_value());
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[1].begin - *sent >= 500ms);
+}
+
+TEST_CASE("an entry that came to be after the survey has the type that the standard gives it") {
+  ScriptedDevice device;
+  device.entries[0x100300] = {0};
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x2B) self.entries[0x100302] = {0, 0, 0, 0};
+    return false;
+  };
+  const auto out = play(device, R"(
+  - id: field
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1017h:00, value: 1000}
+      - upload: {object: 1003h:02}
+        checks: T-MUST
+        expect: {value: 0}
+      - download: {object: 1003h:02, value: 0}
+        checks: T-OTHER
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+  CHECK(out.verdict_of("T-OTHER") == Verdict::pass);
+}
+
+TEST_CASE("a device with a node-ID that LSS gave it is nobody else, and who was heard there before is") {
+  const auto sent = can::Direction::transmitted, received = can::Direction::received;
+  const auto time = [](int ms) { return BusTime{} + std::chrono::milliseconds(ms); };
+  for (const bool before : {false, true}) {
+    Others others(NodeId(1));
+    can::Capture capture;
+    capture.add(seen(time(0), received, CanId(0x701), {0x7F}));
+    if (before) capture.add(seen(time(1), received, CanId(0x77D), {0x05}));
+    capture.add(seen(time(2), sent, canopen::lss_request_can_id, {0x11, 0x7D, 0, 0, 0, 0, 0, 0}));
+    CHECK(others.heard(capture).has_value() == before);
+    capture.add(seen(time(3), received, canopen::lss_response_can_id, {0x11, 0, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(time(4), received, CanId(0x77D), {0x00}));
+    CHECK(others.heard(capture).has_value() == before);
+    // Of another node-ID that the device did not take.
+    capture.add(seen(time(5), sent, canopen::lss_request_can_id, {0x11, 0x7E, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(time(6), received, canopen::lss_response_can_id, {0x11, 1, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(time(7), received, CanId(0x77E), {0x00}));
+    CHECK(others.heard(capture).has_value());
+  }
+}
