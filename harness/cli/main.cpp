@@ -124,8 +124,14 @@ int dispatch(int argc, char** argv) {
       "--strict", run.strict,
       "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
   run_sub->add_flag("--all-objects", run.all_objects, "Try every object where a scenario would try a sample");
-  run_sub->add_flag("--cct", run.cct,
-                    "Only what corresponds to the cases of CiA's tool, in its order, and what it would say");
+  auto* cct = run_sub->add_flag(
+      "--cct", run.cct,
+      "Only what corresponds to the cases of CiA's tool, in its order, and what it would say");
+  run_sub
+      ->add_option("--shuffle", run.shuffle,
+                   "The cases in a random order, drawn by this seed: no verdict may depend on it")
+      ->type_name("NUMBER")
+      ->excludes(cct);
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
       ->type_name("NUMBER");

@@ -102,6 +102,11 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
     std::ranges::stable_sort(out, {}, place);
     return out;
   }
+  if (options.shuffle) {
+    std::uint64_t seed = *options.shuffle;
+    for (std::size_t i = out.size(); i > 1; --i) std::swap(out[i - 1], out[next_random(seed) % i]);
+    return out;
+  }
   std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
     // What others rest on is judged before them, as early as its risk allows.
     const auto& establishes = planned.scenario->establishes;

@@ -2,7 +2,9 @@
 // Which cases a run consists of: scenarios, expanded over for_each, filtered by selection and risk.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,10 +33,12 @@ struct PlanOptions {
   bool slow = true;          ///< scenarios that take long on a real bus
   /// Ids of the only scenarios to take, in the order in which they are to run; empty: all, in the own order.
   std::vector<std::string> order;
+  /// Seed of a random order of all cases; a verdict must not depend on what ran before it.
+  std::optional<std::uint64_t> shuffle;
 };
 
-/// In the order that is given, or in that of the suite, basic scenarios first, then read-only ones, then
-/// config, nvm and motion: what can do harm comes last.
+/// In the order that is given, in a random one, or in that of the suite, basic scenarios first, then
+/// read-only ones, then config, nvm and motion: what can do harm comes last.
 [[nodiscard]] std::vector<PlannedCase> plan(const scenario::Suite& suite,
                                             const scenario::Catalogue& catalogue,
                                             const device::Dictionary& dictionary, const PlanOptions& options);

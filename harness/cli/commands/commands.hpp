@@ -33,6 +33,7 @@ struct RunCommand {
   std::string eds;     ///< description of the device
   std::string allow;   ///< risk tier; empty: by interface
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> shuffle;  ///< seed of a random order of the cases
   bool strict = false;
   bool all_objects = false;
   bool cct = false;  ///< the cases of CiA's tool, in its order

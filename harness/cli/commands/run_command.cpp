@@ -160,6 +160,7 @@ int run(const RunCommand& options, RunReports& reports) {
     run_options.power_cycle = [profile, power_limit] { return run_shell(profile->power_cycle, power_limit); };
   run_options.plan.selection = {options.select, options.requirements, options.exclude};
   run_options.plan.seed = options.seed;
+  run_options.plan.shuffle = options.shuffle;
   if (options.cct) run_options.plan.order = cct_order(suites->suite, suites->catalogue);
   run_options.plan.all_objects = options.all_objects;
   run_options.plan.slow = options.slow || options.simulate;
@@ -230,6 +231,7 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.properties = suite_properties(*root);
   if (known->description) facts.add("dut.description", known->description->name);
   facts.add("run.seed", std::to_string(options.seed));
+  if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));
   facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));
   if (transport != nullptr) {
     const auto info = transport->info();

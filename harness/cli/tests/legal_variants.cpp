@@ -65,6 +65,7 @@ std::string Combination::text() const {
   std::string out = fmt::format("--node {} --bus-seed {} --bit-rate {}", node, seed, bit_rate);
   if (!described) out += " --undescribed";
   if (neighbours) out += " --neighbours";
+  if (shuffled) out += " --shuffled";
   if (!variants.empty()) out += " --variants " + join(variants, ",");
   return out;
 }
@@ -110,6 +111,7 @@ Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
     out.variants.emplace_back(row->id);
     if (takes_hours(*row)) out.neighbours = false;
   }
+  out.shuffled = below(random, 4) == 0;
   return out;
 }
 
@@ -138,6 +140,7 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
   engine::RunOptions options;
   options.plan.seed = combination.seed;
   options.plan.selection.patterns = only;
+  if (combination.shuffled) options.plan.shuffle = combination.seed;
   can::Capture capture;
   const auto run = engine::run(bus.transport(), profile, suites.suite, suites.catalogue, options, capture);
 
@@ -175,6 +178,7 @@ Combination shrink(Combination combination, const std::string& what, const Loade
     }
   }
   attempt([](Combination& candidate) { candidate.neighbours = false; });
+  attempt([](Combination& candidate) { candidate.shuffled = false; });
   attempt([](Combination& candidate) { candidate.bit_rate = 500'000; });
   attempt([](Combination& candidate) { candidate.node = 1; });
   attempt([](Combination& candidate) { candidate.described = true; });

@@ -22,6 +22,7 @@ struct Combination {
   bool neighbours = false;  ///< other nodes talk on the bus
   std::uint32_t bit_rate = 500'000;
   std::uint64_t seed = 1;  ///< of the bus and of the plan
+  bool shuffled = false;   ///< the cases in a random order, drawn by the seed
 
   /// As options of the program legal_variants.
   [[nodiscard]] std::string text() const;

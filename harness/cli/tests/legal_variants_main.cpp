@@ -135,6 +135,7 @@ int main(int argc, char** argv) {
   app.add_option("--bit-rate", one.bit_rate, "bit/s");
   app.add_flag("--undescribed", undescribed, "without a profile");
   app.add_flag("--neighbours", one.neighbours, "with other nodes on the bus");
+  app.add_flag("--shuffled", one.shuffled, "the cases in a random order, drawn by the seed of the bus");
   app.add_option("cases", only, "only these cases; with one combination");
   CLI11_PARSE(app, argc, argv);
 
