@@ -104,21 +104,21 @@ TEST_CASE("an entry that came to be after the survey has the type that the stand
 
 TEST_CASE("a device with a node-ID that LSS gave it is nobody else, and who was heard there before is") {
   const auto sent = can::Direction::transmitted, received = can::Direction::received;
-  const auto time = [](int ms) { return BusTime{} + std::chrono::milliseconds(ms); };
+  const auto at = [](int ms) { return BusTime{} + Duration(ms * 1'000'000); };
   for (const bool before : {false, true}) {
     Others others(NodeId(1));
     can::Capture capture;
-    capture.add(seen(time(0), received, CanId(0x701), {0x7F}));
-    if (before) capture.add(seen(time(1), received, CanId(0x77D), {0x05}));
-    capture.add(seen(time(2), sent, canopen::lss_request_can_id, {0x11, 0x7D, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(at(0), received, CanId(0x701), {0x7F}));
+    if (before) capture.add(seen(at(1), received, CanId(0x77D), {0x05}));
+    capture.add(seen(at(2), sent, canopen::lss_request_can_id, {0x11, 0x7D, 0, 0, 0, 0, 0, 0}));
     CHECK(others.heard(capture).has_value() == before);
-    capture.add(seen(time(3), received, canopen::lss_response_can_id, {0x11, 0, 0, 0, 0, 0, 0, 0}));
-    capture.add(seen(time(4), received, CanId(0x77D), {0x00}));
+    capture.add(seen(at(3), received, canopen::lss_response_can_id, {0x11, 0, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(at(4), received, CanId(0x77D), {0x00}));
     CHECK(others.heard(capture).has_value() == before);
     // Of another node-ID that the device did not take.
-    capture.add(seen(time(5), sent, canopen::lss_request_can_id, {0x11, 0x7E, 0, 0, 0, 0, 0, 0}));
-    capture.add(seen(time(6), received, canopen::lss_response_can_id, {0x11, 1, 0, 0, 0, 0, 0, 0}));
-    capture.add(seen(time(7), received, CanId(0x77E), {0x00}));
+    capture.add(seen(at(5), sent, canopen::lss_request_can_id, {0x11, 0x7E, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(at(6), received, canopen::lss_response_can_id, {0x11, 1, 0, 0, 0, 0, 0, 0}));
+    capture.add(seen(at(7), received, CanId(0x77E), {0x00}));
     CHECK(others.heard(capture).has_value());
   }
 }
