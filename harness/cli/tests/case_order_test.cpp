@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A verdict must not depend on what ran before it: the suite in its own order, in random orders, and each
-// scenario alone say the same of a device. CTest takes a few orders and one scenario in sixteen;
-// `scripts/check nightly` sets CONFORM_ORDER_SEEDS (20) and CONFORM_ORDER_EVERY (1: every scenario).
+// scenario alone say the same of a device. CONFORM_ORDER_SEEDS says how many orders are drawn (20).
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -81,9 +80,9 @@ std::string differences(const Verdicts& whole, const Verdicts& some) {
   return join(lines, "\n");
 }
 
-std::size_t setting(const char* name, std::size_t usual) {
-  const char* text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
-  return text == nullptr ? usual : std::stoul(text);
+std::size_t orders() {
+  const char* text = std::getenv("CONFORM_ORDER_SEEDS");  // NOLINT(concurrency-mt-unsafe): one thread
+  return text == nullptr ? 20 : std::stoul(text);
 }
 
 const Verdicts& in_own_order() {
@@ -95,8 +94,7 @@ const Verdicts& in_own_order() {
 
 TEST_CASE("all cases in a random order give the verdicts of the own order") {
   const auto& whole = in_own_order();
-  const auto seeds = setting("CONFORM_ORDER_SEEDS", 4);
-  const auto endings = cli::in_processes(seeds, 0, {.seconds = 120}, [&whole](std::size_t number) {
+  const auto endings = cli::in_processes(orders(), 0, {.seconds = 120}, [&whole](std::size_t number) {
     engine::PlanOptions plan;
     plan.shuffle = number + 1;
     const auto some = verdicts(plan);
@@ -118,15 +116,13 @@ TEST_CASE("each scenario alone gives the verdicts that it has among all others")
   for (const auto& file : shipped::suites().suite.files) {
     for (const auto& scenario : file.scenarios) ids.push_back(scenario.id);
   }
-  const auto every = setting("CONFORM_ORDER_EVERY", 16);
-  const auto count = (ids.size() + every - 1) / every;
-  const auto endings = cli::in_processes(count, 0, {.seconds = 120}, [&](std::size_t number) {
+  const auto endings = cli::in_processes(ids.size(), 0, {.seconds = 120}, [&](std::size_t number) {
     engine::PlanOptions plan;
-    plan.order = {ids[number * every]};
+    plan.order = {ids[number]};
     return differences(whole, verdicts(plan));
   });
   for (std::size_t number = 0; number < endings.size(); ++number) {
-    INFO("canopen-conform run --simulate " << ids[number * every]);
+    INFO("canopen-conform run --simulate " << ids[number]);
     CHECK(endings[number].kind == cli::Ending::Kind::returned);
     CHECK(endings[number].text == "");
   }
