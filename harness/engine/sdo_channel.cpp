@@ -113,6 +113,7 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
 
 Result<void> SdoChannel::make_idle() {
   for (auto& [ids, line] : lines_) {
+    if (sent_by_hand_.erase(ids.request) > 0 && line.state == State::idle) line.state = State::open;
     if (auto idle = make_idle(ids, line); !idle) return idle;
   }
   return {};

@@ -79,6 +79,32 @@ TEST_CASE("what the inhibit time of a case holds back is over before the next ca
   CHECK(out.run.cases[1].begin - *sent >= 500ms);
 }
 
+TEST_CASE("a request that a case sent as a frame has opened nothing when the next case begins") {
+  // A server with a transfer open refuses to begin another one.
+  ScriptedDevice device;
+  bool open = false;
+  device.before = [&open](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x80) open = false;
+    if (frame.data[0] != 0xA0) return false;
+    if (open) self.abort(frame, 0x08000022);
+    if (!open) self.send(can::data_frame(CanId(0x581), {0xC2, 0x00, 0x10, 0, 4, 0, 0, 0}));
+    open = true;
+    return true;
+  };
+  const std::string opens = R"(
+    title: t
+    risk: motion
+    steps:
+      - send: {id: 600h + N, data: "A0 00 10 00 14 00 00 00"}
+      - frame: {id: 580h + N, within: 100 ms}
+        checks: T-MUST
+        expect: {mask: FFh, value: C2h}
+)";
+  const auto out = play(device, "\n  - id: a" + opens + "\n  - id: b" + opens);
+  CHECK(out.verdict_of("T-MUST", 0) == Verdict::pass);
+  CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
+}
+
 TEST_CASE("an entry that came to be after the survey has the type that the standard gives it") {
   ScriptedDevice device;
   device.entries[0x100300] = {0};
