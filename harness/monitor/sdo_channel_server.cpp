@@ -96,7 +96,11 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
   };
   const auto begin = pending_.begin();
   const bool asked = std::any_of(begin, begin + static_cast<std::ptrdiff_t>(count_), names);
-  if (spare_ == got && !asked && specifier(frame) >= 2 && specifier(frame) <= 4) {
+  // Seven zero bytes of a sub-block name 0000h:00, as the answer to an unknown command does.
+  const bool next_segment = count_ == 0 && transfer_.kind == Kind::block_upload &&
+                            transfer_.stage == Stage::segments &&
+                            (frame.data[0] & 0x7FU) == transfer_.sent + 1U;
+  if (spare_ == got && !asked && !next_segment && specifier(frame) >= 2 && specifier(frame) <= 4) {
     spare_.reset();
     out.to = SdoAnswer::To::unclear;
     return true;

@@ -53,6 +53,15 @@ TEST_CASE("Where an abort may answer the client's abort or its next request, one
                               answer})) == Told{"fail SDO-GEN-04 in frame 9"});
 }
 
+TEST_CASE("A segment of zero bytes in a sub-block is not the one answer more that may come") {
+  std::vector<std::string> lines{"> 80 17 10 00 00 00 00 08", "> 60 00 00 00 00 00 00 00",
+                                 "< 80 00 00 00 01 00 04 05", "> A0 08 10 00 7F 00 00 00",
+                                 "< C0 08 10 00 00 00 00 00", "> A3 00 00 00 00 00 00 00"};
+  for (int number = 1; number <= 66; ++number)
+    lines.push_back("< " + hex_bytes(Bytes{static_cast<std::uint8_t>(number), 0, 0, 0, 0, 0, 0, 0}));
+  CHECK(told(after_exchanges(lines)).empty());
+}
+
 TEST_CASE("What answers an abort is an abort") {
   CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", answer})) == Told{"fail SDO-GEN-04 in frame 6"});
 }
