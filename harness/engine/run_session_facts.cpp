@@ -243,11 +243,21 @@ Result<bool> RunSession::offers_block_transfer(bool upload) {
 
 Result<bool> RunSession::has_variable_mapping(Multiplexer object) {
   constexpr std::string_view feature = "variable mapping";
-  if (profile_.claimed(feature)) return true;
   const auto pdo = canopen::pdo_communication(object.index);
   if (!pdo) return fail_scenario(to_string(object) + " is not a PDO");
   const Multiplexer count{canopen::pdo_mapping(*pdo), SubIndex(0)};
   auto& why = grounds_[{steps::Asked::mapping, {*pdo, SubIndex(0)}}];
+  if (profile_.claimed(feature)) {
+    // What holds for the device need not hold for each of its PDOs: one is fixed where the description lets
+    // nobody write an entry that its mapping takes (7.5.2.36).
+    for (const auto part : {Multiplexer{*pdo, SubIndex(1)}, count, Multiplexer{count.index, SubIndex(1)}}) {
+      const auto* found = entry(part);
+      if (found == nullptr || !found->described || found->access_open || found->writable()) continue;
+      why = to_string(part) + " is " + grounds(steps::Asked::writing, part);
+      return false;
+    }
+    return true;
+  }
   if (profile_.not_claimed.contains(feature)) {
     why = "the profile says so";
     return false;
