@@ -9,6 +9,7 @@ constexpr std::uint32_t bit31 = 0x80000000;  // EMCY, PDO, SDO: not valid; TIME:
 constexpr std::uint32_t bit30 = 0x40000000;  // SYNC: generate; TIME: produce; EMCY: reserved; TPDO: no RTR
 constexpr std::uint32_t bit29 = 0x20000000;  // 29-bit identifier
 constexpr std::uint32_t can_id_mask = 0x000007FF;
+constexpr std::uint32_t extended_id_mask = 0x1FFFFFFF;
 constexpr std::uint32_t upper_id_bits = 0x1FFFF800;  // must be 0 with an 11-bit identifier
 
 bool is_emergency(CobIdUse use) { return use == CobIdUse::emergency || use == CobIdUse::emergency_consumer; }
@@ -79,7 +80,7 @@ Accepted CobId::check(ByteView bytes) const {
   const CobIdChoices& choice = rules_->choices;
 
   if (wanted == present) return {};
-  if (!rules_->frame_bit_allowed(wanted)) return refuse(choice.frame_bit);
+  if (!serves_extended() && !rules_->frame_bit_allowed(wanted)) return refuse(choice.frame_bit);
   if (!rules_->bit30_allowed(wanted)) return refuse(choice.fixed_bit);
   if (is_sync_or_time(rules_->use) && !choice.produced && (wanted & bit30) != 0)
     return refuse(choice.fixed_bit);
@@ -94,25 +95,43 @@ Accepted CobId::check(ByteView bytes) const {
   // in an entry that is not valid names no CAN-ID yet: the default of many of them (8000 0000h).
   const bool in_use = is_sync_or_time(rules_->use) || (wanted & bit31) == 0;
   const bool looked_at = in_use || (choice.restricted_always && (wanted & can_id_mask) != 0);
-  if (looked_at && rules_->restricted(wanted & can_id_mask)) return refuse(choice.restricted);
+  if (looked_at && !(serves_extended() && (wanted & bit29) != 0) && rules_->restricted(wanted & can_id_mask))
+    return refuse(choice.restricted);
   return {};
+}
+
+// A described PDO with 29 bits; the other services have base frames.
+bool CobId::serves_extended() const {
+  const bool of_pdo = rules_->use == CobIdUse::rpdo || rules_->use == CobIdUse::tpdo;
+  return device_->described && of_pdo && (default_ & bit29) != 0;
+}
+
+// What a description may say and this node cannot do: another kind of identifier, or that of NMT commands.
+bool CobId::cannot_be_served() const {
+  return device_->described && (((value() & bit29) != 0 && !serves_extended()) || can_id() == 0);
+}
+
+bool CobId::extended() const { return serves_extended() && (value() & bit29) != 0; }
+
+bool CobId::names(const conform::can::Frame& frame) const {
+  return frame.id == can_id() && frame.extended == extended();
 }
 
 bool CobId::valid() const {
   if (device_->dictionary.entry(index_, sub_) == nullptr) return false;
-  // What a description may say and this node cannot do: another kind of identifier, or that of NMT commands.
-  if (device_->described && ((value() & bit29) != 0 || can_id() == 0)) return false;
+  if (cannot_be_served()) return false;
   return rules_->valid(value());
 }
 
 // What cannot be produced is not, whatever a description begins with.
 bool CobId::produced() const {
   if (device_->dictionary.entry(index_, sub_) == nullptr || !rules_->choices.produced) return false;
-  if (device_->described && ((value() & bit29) != 0 || can_id() == 0)) return false;
+  if (cannot_be_served()) return false;
   return rules_->produced(value());
 }
 
 std::uint32_t CobId::can_id() const {
+  if (extended()) return value() & extended_id_mask;
   const Entry* entry = device_->dictionary.entry(index_, sub_);
   const auto at_power_on =
       entry == nullptr ? default_ : static_cast<std::uint32_t>(conform::load_le(entry->default_value));

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "can/frame.hpp"
 #include "device/device.hpp"
 #include "rules/rule.hpp"
 
@@ -77,11 +78,17 @@ class CobId {
 
   [[nodiscard]] bool valid() const;
   [[nodiscard]] std::uint32_t can_id() const;
+  /// Its frames have 29 bits: that of a PDO of a twin, where the description begins with such an identifier.
+  [[nodiscard]] bool extended() const;
+  /// The frame has this CAN-ID, of as many bits.
+  [[nodiscard]] bool names(const conform::can::Frame& frame) const;
   [[nodiscard]] bool remote_allowed() const { return rules_->remote_allowed(value()); }
   [[nodiscard]] bool produced() const;
 
  private:
   [[nodiscard]] std::uint32_t value() const;
+  [[nodiscard]] bool serves_extended() const;
+  [[nodiscard]] bool cannot_be_served() const;
 
   Device* device_;
   const CobIdRules* rules_;

@@ -190,7 +190,11 @@ void Node::Impl::run_timers() {
 }
 
 void Node::Impl::dispatch(const Frame& frame) {
-  if (frame.extended) return;
+  if (frame.extended) {  // of all services only PDOs can have 29 bits
+    if (frame.remote) return pdos.on_remote(frame);
+    if (device.state == NmtState::operational) pdos.on_frame(frame);
+    return;
+  }
   if (frame.remote) {
     if (!guarding.on_remote(frame)) pdos.on_remote(frame);
     return;

@@ -29,7 +29,7 @@ ReceivePdo::ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16
     : device_(&device), terms_(&terms), number_(number), parameters_(device, terms.parameters, number) {}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
-  if (!terms_->rules.valid(parameters_) || frame.id != parameters_.cob_id().can_id()) return false;
+  if (!terms_->rules.valid(parameters_) || !parameters_.cob_id().names(frame)) return false;
   if (!device_->works_now(Service::rpdo)) return true;
   const std::size_t size = parameters_.mapped_size();
   if (size == 0) return true;

@@ -58,7 +58,9 @@ Bytes TransmitPdo::content() const {
 
 void TransmitPdo::transmit(const Bytes& due) {
   const Bytes data = terms_->rules.carried(parameters_, due);
-  device_->send(Service::tpdo, conform::can::data_frame(conform::CanId(parameters_.cob_id().can_id()), data));
+  auto frame = conform::can::data_frame(conform::CanId(parameters_.cob_id().can_id()), data);
+  frame.extended = parameters_.cob_id().extended();
+  device_->send(Service::tpdo, frame);
   reported_ = due;
   event_ = false;
   syncs_ = 0;
@@ -102,7 +104,7 @@ void TransmitPdo::on_sync(std::optional<std::uint8_t> counter) {
 }
 
 bool TransmitPdo::on_remote(const Frame& frame) {
-  if (frame.id != parameters_.cob_id().can_id()) return false;
+  if (!parameters_.cob_id().names(frame)) return false;
   if (!terms_->rules.answers_remote(parameters_, enabled())) return enabled();
   const bool sampled = parameters_.transmission_type() == remote_synchronous_type && !sampled_.empty();
   transmit(sampled ? sampled_ : content());

@@ -59,6 +59,10 @@ bool is_served_cob_id(std::uint16_t index, std::uint8_t sub) {
   return pdo && sub == 1;
 }
 
+bool is_pdo_communication(std::uint16_t index) {
+  return (index >= 0x1400 && index <= 0x15FF) || (index >= 0x1800 && index <= 0x19FF);
+}
+
 bool is_pdo_mapping(std::uint16_t index) {
   return within(index, 0x1600, 0x17FF) || within(index, 0x1A00, 0x1BFF);
 }

@@ -15,6 +15,7 @@ namespace refnode {
 [[nodiscard]] bool is_served_cob_id(std::uint16_t index, std::uint8_t sub);
 /// 16xxh, 17xxh, 1Axxh, 1Bxxh.
 [[nodiscard]] bool is_pdo_mapping(std::uint16_t index);
+[[nodiscard]] bool is_pdo_communication(std::uint16_t index);
 /// Whether sub-index 00h holds the highest sub-index; otherwise something else is counted there.
 [[nodiscard]] bool sub_zero_is_highest(std::uint16_t index);
 
