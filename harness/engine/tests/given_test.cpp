@@ -2,6 +2,7 @@
 // What a case works with and whom it concerns: conditions that listen to the bus, entries that are looked
 // for.
 #include "bench.hpp"
+#include "device/standard_objects.hpp"
 
 using namespace conform;
 using namespace conform::engine;
@@ -280,4 +281,40 @@ TEST_CASE("A case in which no step applied says which conditions left them out")
   CHECK(outcome.only().reason ==
         "the device has no integer with index 2000h..2FFFh; 1010h:01 is absent: abort 0602 0000h (object "
         "does not exist)");
+}
+
+TEST_CASE("of a device that can map PDOs anew a PDO is fixed where its description fixes what that takes") {
+  for (const auto access : {device::Access::rw, device::Access::constant}) {
+    ScriptedDevice device;
+    device.entries[0x180001] = {0x81, 1, 0, 0};
+    device.entries[0x1A0000] = {1};
+    device.entries[0x1A0001] = {8, 0, 0, 0x60};
+    auto profile = device::default_profile(NodeId(1));
+    profile.claims.insert("variable mapping");
+    for (const auto mux :
+         {Multiplexer{Index(0x1A00), SubIndex(0)}, Multiplexer{Index(0x1A00), SubIndex(1)}}) {
+      auto entry = *device::standard_entry(mux);
+      entry.access = mux.sub == SubIndex(1) ? access : device::Access::rw;
+      entry.access_open = false;
+      entry.described = entry.claimed = true;
+      profile.objects.push_back(entry);
+    }
+    can::SimulatedBus bus;
+    const auto out = play(bus, device, R"(
+  - id: remaps
+    title: t
+    risk: config
+    when: 1A00h has a variable mapping
+    steps:
+      - upload: {object: 1A00h:01}
+        checks: T-MUST
+)",
+                          {}, profile);
+    if (access == device::Access::rw) {
+      CHECK(out.verdict_of("T-MUST") == Verdict::pass);
+    } else {
+      CHECK(out.only().verdict == Verdict::not_applicable);
+      CHECK_THAT(out.only().reason, Catch::Contains("1A00h:01 is const"));
+    }
+  }
 }

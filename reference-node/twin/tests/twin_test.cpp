@@ -125,6 +125,26 @@ TEST_CASE("Any number of PDOs is served") {
   CHECK(bench.sdo("40 26 14 00 00 00 00 00") == "80 26 14 00 " + no_object);
 }
 
+TEST_CASE(
+    "PDOs that begin with identifiers of 29 bits are served with 29 bits, and with 11 where they get them") {
+  Bench bench(described(identity + process + pdo("00", false, "0x20018105", "0x62000020") +
+                        pdo("00", true, "0x60018205", "0x60000020")));
+  bench.wait(100ms);
+  bench.send("000: 01 05");
+  bench.send("105: 11 22 33 44");
+  CHECK(bench.sdo("40 00 62 00 00 00 00 00") == "43 00 62 00 00 00 00 00");
+  bench.send_extended("18105: 11 22 33 44");
+  CHECK(bench.take().empty());
+  CHECK(bench.sdo("40 00 62 00 00 00 00 00") == "43 00 62 00 11 22 33 44");
+  CHECK(bench.send("605: 23 00 60 00 08 00 00 00") ==
+        Frames{"ext 18205: 08 00 00 00", "585: 60 00 60 00 00 00 00 00"});
+  CHECK(bench.sdo("23 00 18 01 05 82 01 E0") == "60 00 18 01 00 00 00 00");
+  CHECK(bench.sdo("23 00 18 01 A0 06 00 C0") == "60 00 18 01 00 00 00 00");
+  CHECK(bench.sdo("23 00 18 01 A0 06 00 40") == "60 00 18 01 00 00 00 00");
+  CHECK(bench.send("605: 23 00 60 00 09 00 00 00") ==
+        Frames{"6A0: 09 00 00 00", "585: 60 00 60 00 00 00 00 00"});
+}
+
 TEST_CASE("A static mapping works and cannot be changed, a PDO without mapping does nothing") {
   Bench bench(described(identity + process + pdo("00", true, "$NODEID+0x40000180", "0x61000010", "const") +
                         record("1801") + entry("1801sub0", u8, "ro", "2") +
