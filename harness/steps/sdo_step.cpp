@@ -83,7 +83,7 @@ Bytes pattern_bytes(std::size_t size, bool visible) {
 Actual to_actual(const SdoAnswer& answer, const Session& session, Multiplexer object, bool upload) {
   using Kind = SdoAnswer::Kind;
   auto out = outcome_of(answer);
-  if (const auto type = device::type_of(session.dictionary(), object)) out.type = *type;
+  out.type = device::type_of(session.dictionary(), object);
   out.has_data = upload && answer.kind == Kind::confirmed;
   if (answer.kind == Kind::gave_up) {
     // On purpose: the fault that was asked for.

@@ -159,8 +159,7 @@ class Segments final : public Action {
     out.has_data = true;
     out.data = so_far.data;
     const auto object = object_.resolve(session);
-    if (const auto type = object ? device::type_of(session.dictionary(), *object) : std::nullopt)
-      out.type = *type;
+    if (object) out.type = device::type_of(session.dictionary(), *object);
     out.measured["segments"] = so_far.segments;
     out.measured["wrong_toggles"] = so_far.wrong_toggles;
     out.measured["difference"] = held > size ? held - size : size - held;
