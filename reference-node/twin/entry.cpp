@@ -235,8 +235,9 @@ void TwinEntryMaker::look_at_service(const Job& job, const Entry& entry, eds::Po
   constexpr std::uint64_t can_id = 0x7FF;
   if (is_served_cob_id(job.index, job.sub) && is_integer(entry.type)) {
     const bool in_use = job.index == 0x1005 || ((entry.number() & not_valid) != 0) == (job.index == 0x1012);
-    if (in_use && (entry.number() & extended_id) != 0 && !is_pdo_communication(job.index)) {
-      remark(job, at, "cob-id", "29-bit identifiers are not served: the communication object stays silent");
+    if (in_use && (entry.number() & extended_id) != 0) {
+      if (!is_pdo_communication(job.index))
+        remark(job, at, "cob-id", "29-bit identifiers are not served: the communication object stays silent");
     } else if (in_use && (entry.number() & can_id) == 0) {
       remark(job, at, "cob-id", "CAN-ID 000h is that of NMT: the communication object stays silent");
     }

@@ -52,15 +52,14 @@ std::optional<std::uint64_t> usual_value(std::uint16_t index, std::uint8_t sub, 
   return std::nullopt;
 }
 
+bool is_pdo_communication(std::uint16_t index) {
+  return pdo_number(index, PdoDirection::receive) || pdo_number(index, PdoDirection::transmit);
+}
+
 bool is_served_cob_id(std::uint16_t index, std::uint8_t sub) {
   if (index == 0x1005 || index == 0x1012 || index == 0x1014) return sub == 0;
   if (within(index, first_sdo_server + 1, last_sdo_server)) return sub == 1 || sub == 2;
-  const bool pdo = pdo_number(index, PdoDirection::receive) || pdo_number(index, PdoDirection::transmit);
-  return pdo && sub == 1;
-}
-
-bool is_pdo_communication(std::uint16_t index) {
-  return (index >= 0x1400 && index <= 0x15FF) || (index >= 0x1800 && index <= 0x19FF);
+  return is_pdo_communication(index) && sub == 1;
 }
 
 bool is_pdo_mapping(std::uint16_t index) {

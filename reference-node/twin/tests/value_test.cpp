@@ -205,6 +205,10 @@ TEST_CASE("What cannot be served is remarked") {
   CHECK(remarks_of(twin_of("[2000]\nObjectType=0\n")).size() == 1);
   CHECK(remarks_of(twin_of("[2000]\nObjectType=3\nDataType=5\nAccessType=ro\n")).size() == 1);
   CHECK(remarks_of(twin_of(entry("1014", u32, "rw", "0x20000085"))).size() == 1);
+  // PDOs are served with 29 bits, also where the lower 11 are 0.
+  CHECK(remarks_of(twin_of(record("1800") + entry("1800sub0", u8, "const", "1") +
+                           entry("1800sub1", u32, "rw", "0x20018000")))
+            .empty());
   CHECK(remarks_of(twin_of(entry("1014", u32, "rw", "0"))).size() == 1);
   CHECK(remarks_of(twin_of(entry("1014", u32, "rw", "0x80000000"))).empty());
   CHECK(remarks_of(twin_of(entry("2000", u8, "rw", "0", "LowLimit=5\nHighLimit=4\n"))) ==
