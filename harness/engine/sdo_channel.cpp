@@ -86,6 +86,10 @@ void SdoChannel::dirty(Line& line, bool late_answers) {
   line.state = late_answers || line.state == State::late_answers ? State::late_answers : State::open;
 }
 
+void SdoChannel::heed_sent_by_hand(CanId request, Line& line) {
+  if (sent_by_hand_.erase(request) > 0 && line.state == State::idle) line.state = State::open;
+}
+
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
   if (line.state == State::idle) return {};
   const bool late = std::exchange(line.state, State::idle) == State::late_answers;
@@ -113,7 +117,7 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
 
 Result<void> SdoChannel::make_idle() {
   for (auto& [ids, line] : lines_) {
-    if (sent_by_hand_.erase(ids.request) > 0 && line.state == State::idle) line.state = State::open;
+    heed_sent_by_hand(ids.request, line);
     if (auto idle = make_idle(ids, line); !idle) return idle;
   }
   return {};
@@ -143,8 +147,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     runs.push_back(std::move(run));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (sent_by_hand_.erase(runs[i].request) > 0 && lines[i]->state == State::idle)
-      lines[i]->state = State::open;
+    heed_sent_by_hand(runs[i].request, *lines[i]);
     // Of an abandoned transfer the server must rid itself: to help it would hide that it cannot.
     if (lines[i]->state == State::abandoned) continue;
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)

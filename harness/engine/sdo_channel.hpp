@@ -99,6 +99,8 @@ class SdoChannel {
   [[nodiscard]] Line& default_line() { return lines_.at(default_ids_); }
   [[nodiscard]] const Line& default_line() const { return lines_.at(default_ids_); }
   static void dirty(Line& line, bool late_answers);
+  /// Whatever a frame that no transfer sent has opened on the line counts as open from now on.
+  void heed_sent_by_hand(CanId request, Line& line);
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
   [[nodiscard]] Duration rest() const;
   [[nodiscard]] bool is_patient(Multiplexer object) const;
