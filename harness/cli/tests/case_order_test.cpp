@@ -3,7 +3,6 @@
 // scenario alone say the same of a device. CONFORM_ORDER_SEEDS says how many orders are drawn (20).
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
@@ -80,11 +79,6 @@ std::string differences(const Verdicts& whole, const Verdicts& some) {
   return join(lines, "\n");
 }
 
-std::size_t orders() {
-  const char* text = std::getenv("CONFORM_ORDER_SEEDS");  // NOLINT(concurrency-mt-unsafe): one thread
-  return text == nullptr ? 20 : std::stoul(text);
-}
-
 const Verdicts& in_own_order() {
   static const Verdicts out = verdicts({});
   return out;
@@ -94,15 +88,16 @@ const Verdicts& in_own_order() {
 
 TEST_CASE("all cases in a random order give the verdicts of the own order") {
   const auto& whole = in_own_order();
-  const auto endings = cli::in_processes(orders(), 0, {.seconds = 120}, [&whole](std::size_t number) {
-    engine::PlanOptions plan;
-    plan.shuffle = number + 1;
-    const auto some = verdicts(plan);
-    auto text = differences(whole, some);
-    if (some.size() != whole.size())
-      text += fmt::format("\n{} verdicts, in the own order {}", some.size(), whole.size());
-    return text;
-  });
+  const auto endings = cli::in_processes(
+      shipped::how_many("CONFORM_ORDER_SEEDS", 20), 0, {.seconds = 120}, [&whole](std::size_t number) {
+        engine::PlanOptions plan;
+        plan.shuffle = number + 1;
+        const auto some = verdicts(plan);
+        auto text = differences(whole, some);
+        if (some.size() != whole.size())
+          text += fmt::format("\n{} verdicts, in the own order {}", some.size(), whole.size());
+        return text;
+      });
   for (std::size_t number = 0; number < endings.size(); ++number) {
     INFO("canopen-conform run --simulate --shuffle " << number + 1);
     CHECK(endings[number].kind == cli::Ending::Kind::returned);

@@ -29,6 +29,8 @@ std::string details_of(const result::Finding& finding) {
                      finding.reason, join(finding.accepts, ", "));
 }
 
+}  // namespace
+
 std::vector<Complaint> complaints_of(const result::RunResult& run, const std::set<std::string>& may_warn) {
   std::vector<Complaint> out;
   if (run.aborted) out.push_back({"aborted", "    " + *run.aborted + "\n"});
@@ -58,8 +60,6 @@ std::vector<Complaint> complaints_of(const result::RunResult& run, const std::se
   }
   return out;
 }
-
-}  // namespace
 
 std::string Combination::text() const {
   std::string out = fmt::format("--node {} --bus-seed {} --bit-rate {}", node, seed, bit_rate);

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "cli/suite_folder.hpp"
 #include "device/profile.hpp"
+#include "result/run_result.hpp"
 
 namespace conform::cli {
 
@@ -36,6 +38,11 @@ struct Complaint {
   std::string what;  ///< "fail OD-1003-06 in cia301/...", the same for the same mistake
   std::string details;
 };
+
+/// Whatever of a run is not as it is with a right device: no case but passed and not applicable ones,
+/// warnings of these requirements apart, and no remark.
+[[nodiscard]] std::vector<Complaint> complaints_of(const result::RunResult& run,
+                                                   const std::set<std::string>& may_warn);
 
 /// Runs the suite; empty when all verdicts are as they ought to be. `reference` is the profile of the node by
 /// default; the profile used is made from it and from the node's own dictionary. `only`: patterns of cases.

@@ -2,6 +2,8 @@
 // The suites of the project and the profile of its reference node, loaded once, for tests that run them.
 #pragma once
 
+#include <cstddef>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -30,6 +32,12 @@ inline const device::Profile& reference() {
     return std::move(out->profile);
   }();
   return loaded;
+}
+
+/// How much of something a test does: what the environment says, or what is usual.
+inline std::size_t how_many(const char* name, std::size_t usual) {
+  const char* text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): one thread
+  return text == nullptr ? usual : std::stoul(text);
 }
 
 }  // namespace conform::cli::shipped
