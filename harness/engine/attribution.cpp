@@ -8,10 +8,10 @@
 namespace conform::engine {
 namespace {
 
-std::vector<const monitor::Rule*> rules_of_answers() {
+std::vector<const monitor::Rule*> watched(std::span<const monitor::Rule* const> chosen) {
   std::vector<const monitor::Rule*> out;
   for (const auto& rule : monitor::rules()) {
-    if (!rule.unasked) out.push_back(&rule);
+    if (!rule.unasked || std::ranges::find(chosen, &rule) != chosen.end()) out.push_back(&rule);
   }
   return out;
 }
@@ -21,8 +21,10 @@ constexpr std::string_view undefined_code = "SDO-ERR-05";
 
 }  // namespace
 
-Attribution::Attribution(const monitor::Facts& facts) : watch_(facts, rules_of_answers()) {
-  for (const auto& each : watch_.monitors()) violated_.emplace_back(each->tallies().size(), 0);
+Attribution::Attribution(const monitor::Facts& facts, std::span<const monitor::Rule* const> chosen)
+    : watch_(facts, watched(chosen)) {
+  for (const auto& each : watch_.monitors())
+    violated_.emplace_back(each->rule().unasked ? 0 : each->tallies().size(), 0);
 }
 
 void Attribution::follow(std::span<const can::CapturedFrame> frames) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rules a frame breaks by itself, whatever a scenario wanted of it: the monitors' word while the run
-// goes on.
+// The monitors while the run goes on: which rules a frame breaks by itself, whatever a scenario wanted of it.
 #pragma once
 
 #include <map>
@@ -16,12 +15,15 @@ namespace conform::engine {
 
 class Attribution {
  public:
-  explicit Attribution(const monitor::Facts& facts);
+  /// Watches for the sake of attribution, and with `chosen` for the cases of the monitors.
+  Attribution(const monitor::Facts& facts, std::span<const monitor::Rule* const> chosen);
 
   /// The trace so far; frames that were looked at before are not looked at again.
   void follow(std::span<const can::CapturedFrame> frames);
   /// The host lost frames before the next one.
   void lose_track();
+  /// What it has seen of the whole trace, to be concluded from.
+  [[nodiscard]] monitor::Watch& watch() { return watch_; }
 
   /// Rules that the frame which decided `actual` breaks so that its content cannot be judged: an answer that
   /// the client could not use, an abort with a code that does not exist. What does not keep anybody from
@@ -34,8 +36,9 @@ class Attribution {
  private:
   monitor::Watch watch_;
   std::size_t seen_ = 0;
-  std::size_t counted_ = 0;                         ///< violations, as last looked at
-  std::vector<std::vector<std::size_t>> violated_;  ///< per monitor and requirement, as last looked at
+  std::size_t counted_ = 0;  ///< violations, as last looked at
+  /// Per monitor and requirement, as last looked at; empty of a monitor that attributes nothing.
+  std::vector<std::vector<std::size_t>> violated_;
   std::map<std::size_t, std::vector<std::string>> broken_;  ///< by capture index
 };
 

@@ -119,8 +119,7 @@ class Run {
   void make_plan() {
     plan_ = plan(suite_, run_.catalogue, run_.session.known(), run_.options.plan);
     for (const auto& planned : plan_) out_.cases.push_back(planned_result(planned, run_.catalogue));
-    monitors_ = chosen_monitors(run_.options.plan.selection, run_.catalogue);
-    plan_monitors(monitors_, run_.catalogue, out_);
+    plan_monitors(run_.monitors, run_.catalogue, out_);
     describe_requirements(run_.catalogue, out_);
   }
 
@@ -278,16 +277,19 @@ class Run {
   /// The monitors see the whole trace, also of a run that stopped early. A device that was never heard leaves
   /// them nothing to do.
   void judge_monitors() {
-    if (monitors_.empty() || !alive_) return;
+    const auto count = run_.monitors.size();
+    if (count == 0 || !alive_) return;
     life_.note_losses();
-    judge_trace(run_.recorder.capture().frames(), monitors_, run_.profile, run_.catalogue,
-                run_.options.strict, life_.losses(), out_, {.power = true});
+    const auto& frames = run_.recorder.capture().frames();
+    run_.attribution.follow(frames);
+    conclude_trace(run_.attribution.watch(), frames,
+                   {run_.monitors, run_.profile, run_.catalogue, run_.options.strict}, life_.losses(), out_);
     // The preparation is no test of anything, unless only monitors were asked for.
     const auto scenarios = std::span(out_.cases).first(plan_.size());
     const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };
     if (out_.aborted && !plan_.empty() && std::ranges::none_of(scenarios, was_run))
-      withdraw_passes(std::span(out_.cases).last(monitors_.size()), "the run stopped before any scenario");
-    for (auto i = out_.cases.size() - monitors_.size(); i < out_.cases.size(); ++i)
+      withdraw_passes(std::span(out_.cases).last(count), "the run stopped before any scenario");
+    for (auto i = out_.cases.size() - count; i < out_.cases.size(); ++i)
       run_.recorder.observer().case_ended(out_, i);
   }
 
@@ -300,7 +302,6 @@ class Run {
   CaseRunner runner_;
   Channels channels_;
   std::vector<PlannedCase> plan_;
-  Monitors monitors_;
   bool alive_ = false;
   bool vanished_ = false;
   bool mute_ = false;                 ///< alive, but without a single SDO answer

@@ -18,6 +18,22 @@ monitor::Cap cap_of(const scenario::Catalogue& catalogue, bool strict) {
   };
 }
 
+/// The cases of a result: those of scenarios, and behind them those of the monitors.
+struct ConcludedCases {
+  ConcludedCases(result::RunResult& out, const TraceRules& used)
+      : rules(used),
+        scenarios(std::span(out.cases).first(out.cases.size() - used.monitors.size())),
+        own(std::span(out.cases).last(used.monitors.size())) {}
+
+  void accept_deviations() const {
+    for (auto& each : own) accept_known_deviations(rules.profile, rules.catalogue, each);
+  }
+
+  const TraceRules& rules;
+  std::span<const result::CaseResult> scenarios;
+  std::span<result::CaseResult> own;
+};
+
 }  // namespace
 
 Monitors chosen_monitors(const scenario::Selection& selection, const scenario::Catalogue& catalogue) {
@@ -47,23 +63,32 @@ monitor::Facts facts_of(const device::Profile& profile) {
           .alone = profile.claimed("only node on the bus")};
 }
 
+monitor::Facts facts_of_run(const device::Profile& profile) {
+  auto facts = facts_of(profile);
+  facts.power_is_known = true;
+  return facts;
+}
+
 void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogue, result::RunResult& out) {
   for (const auto* rule : monitors) {
     out.cases.push_back(monitor::planned_case(*rule, cap_of(catalogue, false)));
   }
 }
 
-void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
-                 const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
-                 std::span<const monitor::Loss> losses, result::RunResult& out, Known known) {
-  const auto all = std::span(out.cases);
-  const auto scenarios = all.first(all.size() - monitors.size());
-  const auto own = all.last(monitors.size());
-  auto facts = facts_of(profile);
-  facts.power_is_known = known.power;
-  facts.senders_are_known = known.senders;
-  monitor::judge(frames, facts, monitors, cap_of(catalogue, strict), losses, scenarios, own);
-  for (auto& each : own) accept_known_deviations(profile, catalogue, each);
+void judge_trace(std::span<const can::CapturedFrame> frames, const TraceRules& rules,
+                 const monitor::Facts& facts, std::span<const monitor::Loss> losses, result::RunResult& out) {
+  const ConcludedCases cases(out, rules);
+  monitor::judge(frames, facts, rules.monitors, cap_of(rules.catalogue, rules.strict), losses,
+                 cases.scenarios, cases.own);
+  cases.accept_deviations();
+}
+
+void conclude_trace(monitor::Watch& watch, std::span<const can::CapturedFrame> frames,
+                    const TraceRules& rules, std::span<const monitor::Loss> losses, result::RunResult& out) {
+  const ConcludedCases cases(out, rules);
+  monitor::conclude(watch, frames, rules.profile.node, rules.monitors, cap_of(rules.catalogue, rules.strict),
+                    losses, cases.scenarios, cases.own);
+  cases.accept_deviations();
 }
 
 void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why) {

@@ -27,18 +27,24 @@ using Monitors = std::vector<const monitor::Rule*>;
 
 /// What monitors may know of the device.
 [[nodiscard]] monitor::Facts facts_of(const device::Profile& profile);
+/// The same in a run, in which nobody switches the power of the device unseen.
+[[nodiscard]] monitor::Facts facts_of_run(const device::Profile& profile);
 
 /// Appends the planned cases behind those of the scenarios.
 void plan_monitors(const Monitors& monitors, const scenario::Catalogue& catalogue, result::RunResult& out);
-/// What a trace tells beside its frames.
-struct Known {
-  bool power = false;   ///< it is that of a run, in which nobody switches the power of the device unseen
-  bool senders = true;  ///< which frames the host sent
+/// What a trace was judged with.
+struct TraceRules {
+  const Monitors& monitors;
+  const device::Profile& profile;
+  const scenario::Catalogue& catalogue;
+  bool strict = false;
 };
-/// Judges the trace: the last cases of `out` are those of `monitors`.
-void judge_trace(std::span<const can::CapturedFrame> frames, const Monitors& monitors,
-                 const device::Profile& profile, const scenario::Catalogue& catalogue, bool strict,
-                 std::span<const monitor::Loss> losses, result::RunResult& out, Known known = {});
+/// Judges a recorded trace by `facts`: the last cases of `out` are those of the monitors.
+void judge_trace(std::span<const can::CapturedFrame> frames, const TraceRules& rules,
+                 const monitor::Facts& facts, std::span<const monitor::Loss> losses, result::RunResult& out);
+/// The same of the trace of a run, which `watch` has seen to its end.
+void conclude_trace(monitor::Watch& watch, std::span<const can::CapturedFrame> frames,
+                    const TraceRules& rules, std::span<const monitor::Loss> losses, result::RunResult& out);
 
 /// What the monitors passed is open, for the given reason; what they found stays.
 void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why);

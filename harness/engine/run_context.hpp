@@ -25,7 +25,8 @@ struct RunContext {
         options(wanted),
         recorder(transport, wanted.stop),
         session(recorder, profile, device::dictionary_of(profile)),
-        attribution(facts_of(profile)) {
+        monitors(chosen_monitors(options.plan.selection, catalogue)),
+        attribution(facts_of_run(profile), monitors) {
     session.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder.set_observer(*options.observer);
     session.allow(options.plan.allowed);
@@ -38,6 +39,7 @@ struct RunContext {
   const RunOptions& options;
   Recorder recorder;
   RunSession session;
+  Monitors monitors;  ///< those that are cases of this run
   Attribution attribution;
   result::RunResult out;
   /// The latest reset of the engine itself that ended with a boot-up message.

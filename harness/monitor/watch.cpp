@@ -60,9 +60,9 @@ std::string case_at(std::size_t index, std::span<const result::CaseResult> cases
 
 Verdict capped(Verdict verdict, Verdict cap) { return verdict == Verdict::fail ? cap : verdict; }
 
-void conclude(const Monitor& monitor, std::span<const can::CapturedFrame> frames, NodeId node, const Cap& cap,
-              std::span<const Loss> losses, std::span<const result::CaseResult> others,
-              result::CaseResult& out) {
+void conclude_one(const Monitor& monitor, std::span<const can::CapturedFrame> frames, NodeId node,
+                  const Cap& cap, std::span<const Loss> losses, std::span<const result::CaseResult> others,
+                  result::CaseResult& out) {
   const auto& rule = monitor.rule();
   out.verdict = Verdict::not_applicable;
   for (std::size_t i = 0; i < rule.requirements.size(); ++i) {
@@ -160,19 +160,28 @@ result::CaseResult planned_case(const Rule& rule, const Cap& cap) {
   return out;
 }
 
+void conclude(Watch& watch, std::span<const can::CapturedFrame> frames, NodeId node,
+              std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
+              std::span<const result::CaseResult> others, std::span<result::CaseResult> cases) {
+  CONFORM_CHECK(chosen.size() == cases.size());
+  watch.end();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const auto found =
+        std::ranges::find_if(watch.monitors(), [&](const auto& each) { return &each->rule() == chosen[i]; });
+    CONFORM_CHECK(found != watch.monitors().end());
+    conclude_one(**found, frames, node, cap, losses, others, cases[i]);
+  }
+}
+
 void judge(std::span<const can::CapturedFrame> frames, const Facts& facts,
            std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
            std::span<const result::CaseResult> others, std::span<result::CaseResult> cases) {
-  CONFORM_CHECK(chosen.size() == cases.size());
   Watch watch(facts, chosen);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (std::ranges::any_of(losses, [i](const Loss& loss) { return loss.end == i; })) watch.on_loss();
     watch.on_frame(frames[i], i);
   }
-  watch.end();
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    conclude(*watch.monitors()[i], frames, facts.node, cap, losses, others, cases[i]);
-  }
+  conclude(watch, frames, facts.node, chosen, cap, losses, others, cases);
 }
 
 }  // namespace conform::monitor

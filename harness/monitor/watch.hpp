@@ -54,8 +54,14 @@ class Watch {
 /// The case before the trace is there. Requirements that `cap` does not know are left out.
 [[nodiscard]] result::CaseResult planned_case(const Rule& rule, const Cap& cap);
 
-/// Judges the whole trace. `cases` are the planned ones of `chosen`, in the same order; `others` are the
-/// scenarios that ran meanwhile, so that findings can name them.
+/// The judgement of a watch that has seen all of `frames`, which ends with it. `cases` are the planned ones
+/// of `chosen`, rules that it watched, in the same order; `others` are the scenarios that ran meanwhile, so
+/// that findings can name them.
+void conclude(Watch& watch, std::span<const can::CapturedFrame> frames, NodeId node,
+              std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
+              std::span<const result::CaseResult> others, std::span<result::CaseResult> cases);
+
+/// Both in one: of a trace that is there already.
 void judge(std::span<const can::CapturedFrame> frames, const Facts& facts,
            std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
            std::span<const result::CaseResult> others, std::span<result::CaseResult> cases);

@@ -150,8 +150,10 @@ result::RunResult judge(const Recording& recording, const device::Profile& profi
     out.aborted = fmt::format("nothing was heard of node {}{}", profile.node.value(), others_in(frames));
     return out;
   }
-  engine::judge_trace(frames, chosen, profile, catalogue, options.strict, switches_of_power(frames), out,
-                      {.senders = !recording.directions_inferred});
+  auto facts = engine::facts_of(profile);
+  facts.senders_are_known = !recording.directions_inferred;
+  engine::judge_trace(frames, {chosen, profile, catalogue, options.strict}, facts, switches_of_power(frames),
+                      out);
   if (recording.directions_inferred && !answers_in(frames, profile)) {
     const auto why = fmt::format(
         "nothing shows that node {} itself was there: no frame answers a request, and the capture does not tell who sent",
