@@ -21,8 +21,8 @@ namespace conform::engine {
 
 class CaseRunner {
  public:
-  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, Attribution& attribution, bool strict,
-             bool may_write)
+  CaseRunner(RunSession& session, const scenario::Catalogue& catalogue, LiveMonitors& attribution,
+             bool strict, bool may_write)
       : session_(session),
         catalogue_(catalogue),
         givens_(session, may_write),

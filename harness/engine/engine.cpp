@@ -35,7 +35,7 @@ class Run {
         life_(run_),
         putting_back_(run_),
         errors_(run_),
-        runner_(run_.session, catalogue, run_.attribution, options.strict, run_.may(scenario::Risk::config)) {
+        runner_(run_.session, catalogue, run_.live, options.strict, run_.may(scenario::Risk::config)) {
     run_.session.set_power_switch(life_.power_switch());
   }
 
@@ -281,8 +281,8 @@ class Run {
     if (count == 0 || !alive_) return;
     life_.note_losses();
     const auto& frames = run_.recorder.capture().frames();
-    run_.attribution.follow(frames);
-    conclude_trace(run_.attribution.watch(), frames,
+    run_.live.follow(frames);
+    conclude_trace(run_.live.watch(), frames,
                    {run_.monitors, run_.profile, run_.catalogue, run_.options.strict}, life_.losses(), out_);
     // The preparation is no test of anything, unless only monitors were asked for.
     const auto scenarios = std::span(out_.cases).first(plan_.size());

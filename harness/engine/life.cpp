@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <utility>
 
 #include "base/text.hpp"
 #include "can/capture_marks.hpp"
@@ -28,12 +29,10 @@ std::function<Result<void>()> Life::power_switch() {
   if (!run_.options.power_cycle) return {};
   return [this]() -> Result<void> {
     const auto& frames = run_.recorder.capture().frames();
-    (void)restarts_.follow(frames);
-    run_.attribution.follow(frames);
+    run_.live.follow(frames);
     if (auto done = run_.options.power_cycle(); !done) return done;
     // The start that comes now is the harness's doing.
-    restarts_.lose_track();
-    run_.attribution.lose_track();
+    run_.live.lose_track();
     losses_.push_back({frames.size(), frames.size()});
     run_.recorder.mark_next_frame(can::power_was_switched);
     return {};
@@ -66,8 +65,14 @@ Result<void> Life::make_sure_it_is_alone(Duration listen) {
   return fail(**second, {}, "give one of them another node-ID, or take it off the bus");
 }
 
+const std::vector<std::size_t>& Life::restarts() {
+  run_.live.follow(run_.recorder.capture().frames());
+  return run_.live.restarts();
+}
+
 Result<void> Life::note_restarts() {
-  if (!restarts_.follow(run_.recorder.capture().frames())) return {};
+  const auto before = std::exchange(known_restarts_, restarts().size());
+  if (known_restarts_ == before) return {};
   run_.session.device_restarted();
   return make_sure_it_is_alone(std::chrono::milliseconds(100));
 }
@@ -78,10 +83,8 @@ void Life::note_losses() {
   if (now.frames_dropped > health_.frames_dropped || now.bus_offs > health_.bus_offs ||
       now.clock_steps > health_.clock_steps) {
     losses_.push_back({trusted_frames_, frames.size()});
-    (void)restarts_.follow(frames);
-    restarts_.lose_track();
-    run_.attribution.follow(frames);
-    run_.attribution.lose_track();
+    run_.live.follow(frames);
+    run_.live.lose_track();
   }
   health_ = now;
   trusted_frames_ = frames.size();
@@ -93,10 +96,10 @@ std::optional<monitor::Stimulus> Life::stimulus_of(std::size_t restart) const {
 }
 
 Result<void> Life::judge_restarts(CaseResult& result, CaseRunner& runner) {
-  const auto known = restarts_.found().size();
+  const auto known = known_restarts_;
   if (auto alone = note_restarts(); !alone) return alone;
-  if (restarts_.found().size() == known) return {};
-  const auto restart = restarts_.found()[known];
+  if (known_restarts_ == known) return {};
+  const auto restart = restarts()[known];
   const auto stimulus = stimulus_of(restart);
   auto again =
       stimulus && concerns_restart(result, restart) ? restarts_upon(*stimulus, restart) : Result<bool>(false);
@@ -125,7 +128,7 @@ Result<bool> Life::restarts_upon(const monitor::Stimulus& stimulus, std::size_t 
     if (captured.direction == can::Direction::transmitted) sent.push_back(captured);
   }
   if (sent.size() > most_frames) return false;
-  const auto before = restarts_.found().size();
+  const auto before = known_restarts_;
   const auto took = recorder.capture().frames()[restart].time - sent.back().time;
   for (std::size_t i = 0; i < sent.size(); ++i) {
     const auto from = recorder.capture().size();
@@ -138,7 +141,7 @@ Result<bool> Life::restarts_upon(const monitor::Stimulus& stimulus, std::size_t 
   }
   run_.session.sdo_answer_may_be_late();
   if (auto alone = note_restarts(); !alone) return std::unexpected(alone.error());
-  return restarts_.found().size() > before;
+  return known_restarts_ > before;
 }
 
 /// A boot-up message behind a case may come from what happened in it.
@@ -158,9 +161,8 @@ const CaseResult* Life::case_of(std::size_t restart) const {
 }
 
 void Life::tell_restarts() {
-  (void)restarts_.follow(run_.recorder.capture().frames());
   std::vector<std::string> where;
-  for (const auto index : restarts_.found()) {
+  for (const auto index : restarts()) {
     const auto* in = case_of(index);
     where.push_back("frame " + std::to_string(index + 1) +
                     (in == nullptr ? ", between cases" : ", in " + in->name()));

@@ -19,7 +19,7 @@ namespace conform::engine {
 
 class Life {
  public:
-  explicit Life(RunContext& run) : run_(run), restarts_(facts_of(run.profile)) {}
+  explicit Life(RunContext& run) : run_(run) {}
 
   /// What may be done to a device that does not answer.
   [[nodiscard]] Means means();
@@ -55,8 +55,11 @@ class Life {
   [[nodiscard]] std::optional<monitor::Stimulus> stimulus_of(std::size_t restart) const;
   [[nodiscard]] const result::CaseResult* case_of(std::size_t restart) const;
 
+  /// Starts that nobody asked for, up to now: capture indices of the boot-up messages.
+  [[nodiscard]] const std::vector<std::size_t>& restarts();
+
   RunContext& run_;
-  RestartWatch restarts_;
+  std::size_t known_restarts_ = 0;
   std::size_t unexplained_ = 0;  ///< restarts without a known cause
   bool says_all_twice_ = false;  ///< one device, and the scenarios judge it
   std::vector<monitor::Loss> losses_;

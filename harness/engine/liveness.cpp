@@ -223,20 +223,4 @@ Result<std::optional<std::string>> second_device(RunSession& session, const Mean
   return boot_ups_since(session, from) > 1 ? Found(either) : Found();
 }
 
-bool RestartWatch::follow(const std::vector<can::CapturedFrame>& frames) {
-  const auto before = found_.size();
-  for (; next_ < frames.size(); ++next_) {
-    const auto& seen = follower_.follow(frames[next_], next_);
-    if (seen.subject == monitor::Observation::Subject::other) continue;
-    if (starts_.on_frame(seen, follower_) == monitor::Start::restart) found_.push_back(next_);
-    follower_.settle();
-  }
-  return found_.size() > before;
-}
-
-void RestartWatch::lose_track() {
-  follower_.lose_track();
-  starts_.on_loss();
-}
-
 }  // namespace conform::engine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Is the device there, is it the only one with its node-ID, and did it start when nobody told it to?
+// Is the device there, and is it the only one with its node-ID?
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,6 @@
 #include "can/capture.hpp"
 #include "device/profile.hpp"
 #include "engine/run_session.hpp"
-#include "monitor/restarts.hpp"
 
 namespace conform::engine {
 
@@ -60,23 +59,5 @@ struct Liveness {
 /// Of a device that answers twice: whether there are two of it, in words. Two devices tell different
 /// identities, or at least start each for itself; where neither can be told, that is said.
 [[nodiscard]] Result<std::optional<std::string>> second_device(RunSession& session, const Means& means);
-
-/// Follows the trace of a run from its first frame on and knows when the device started by itself.
-class RestartWatch {
- public:
-  explicit RestartWatch(const monitor::Facts& facts) : follower_(facts) {}
-  /// The frames that have come since the last call. True: there is a restart among them.
-  bool follow(const std::vector<can::CapturedFrame>& frames);
-  /// Frames were lost, or the power was switched: the next start is nobody's fault.
-  void lose_track();
-  /// Capture indices of the boot-up messages.
-  [[nodiscard]] const std::vector<std::size_t>& found() const { return found_; }
-
- private:
-  monitor::Follower follower_;
-  monitor::Starts starts_;
-  std::size_t next_ = 0;
-  std::vector<std::size_t> found_;
-};
 
 }  // namespace conform::engine

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "device/profile.hpp"
-#include "engine/attribution.hpp"
 #include "engine/engine.hpp"
+#include "engine/live_monitors.hpp"
 #include "engine/monitor_cases.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_session.hpp"
@@ -26,7 +26,7 @@ struct RunContext {
         recorder(transport, wanted.stop),
         session(recorder, profile, device::dictionary_of(profile)),
         monitors(chosen_monitors(options.plan.selection, catalogue)),
-        attribution(facts_of_run(profile), monitors) {
+        live(facts_of_run(profile), monitors) {
     session.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder.set_observer(*options.observer);
     session.allow(options.plan.allowed);
@@ -40,7 +40,7 @@ struct RunContext {
   Recorder recorder;
   RunSession session;
   Monitors monitors;  ///< those that are cases of this run
-  Attribution attribution;
+  LiveMonitors live;
   result::RunResult out;
   /// The latest reset of the engine itself that ended with a boot-up message.
   struct Reset {

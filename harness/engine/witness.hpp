@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/attribution.hpp"
+#include "engine/live_monitors.hpp"
 #include "engine/run_session.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
@@ -21,7 +21,7 @@ namespace conform::engine {
 
 class Witness {
  public:
-  Witness(RunSession& session, Attribution& attribution) : session_(session), attribution_(attribution) {}
+  Witness(RunSession& session, LiveMonitors& attribution) : session_(session), attribution_(attribution) {}
 
   /// `about`: the object a case of for_each is about.
   void begin_case(const result::CaseResult& result, std::optional<Multiplexer> about) {
@@ -48,7 +48,7 @@ class Witness {
 
  private:
   RunSession& session_;
-  Attribution& attribution_;
+  LiveMonitors& attribution_;
   const result::CaseResult* result_ = nullptr;
   std::optional<Multiplexer> about_;
   std::size_t step_begin_ = 0;

@@ -59,6 +59,8 @@ class Monitor {
   virtual void on_loss() {}
   /// The trace is over.
   void end(const Follower& follower);
+  /// Some silence waits for a sign of life.
+  [[nodiscard]] bool waits() const { return waits_; }
   /// The device sent a frame: it was there when it was silent before.
   void alive() {
     if (!waits_) return;
@@ -128,7 +130,7 @@ class Monitor {
   std::vector<Tally> tallies_;
   std::vector<Violation> violations_;
   std::size_t counted_ = 0;
-  bool waits_ = false;  ///< some silence waits for a sign of life
+  bool waits_ = false;
 };
 
 }  // namespace conform::monitor

@@ -120,18 +120,20 @@ Watch::Watch(const Facts& facts, std::span<const Rule* const> chosen) : follower
   }
 }
 
-void Watch::on_frame(const can::CapturedFrame& captured, std::size_t index) {
+const Observation& Watch::look_at(const can::CapturedFrame& captured, std::size_t index) {
   const auto& seen = follower_.follow(captured, index);
-  if (seen.subject == Observation::Subject::other) return;
+  if (seen.subject == Observation::Subject::other) return seen;
   for (auto* monitor : concerned_[static_cast<std::size_t>(seen.subject)]) {
     const auto before = monitor->counted();
     monitor->on_frame(seen, follower_);
     counted_ += monitor->counted() - before;
+    waiting_ = waiting_ || monitor->waits();
   }
-  if (seen.from_device()) {
+  if (waiting_ && seen.from_device()) {
+    waiting_ = false;
     for (const auto& monitor : monitors_) monitor->alive();
   }
-  follower_.settle();
+  return seen;
 }
 
 void Watch::on_loss() {

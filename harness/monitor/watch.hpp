@@ -33,7 +33,14 @@ class Watch {
  public:
   Watch(const Facts& facts, std::span<const Rule* const> chosen);
 
-  void on_frame(const can::CapturedFrame& captured, std::size_t index);
+  void on_frame(const can::CapturedFrame& captured, std::size_t index) {
+    (void)look_at(captured, index);
+    settle();
+  }
+  /// The same in two steps, for who wants to see the frame as the monitors do: in the state before it.
+  const Observation& look_at(const can::CapturedFrame& captured, std::size_t index);
+  void settle() { follower_.settle(); }
+  [[nodiscard]] const Follower& follower() const { return follower_; }
   void on_loss();
   /// No frame follows.
   void end();
@@ -44,6 +51,7 @@ class Watch {
  private:
   Follower follower_;
   std::vector<std::unique_ptr<Monitor>> monitors_;
+  bool waiting_ = false;  ///< some silence waits for a sign of life
   std::size_t counted_ = 0;
   std::array<std::vector<Monitor*>, Observation::subjects> concerned_;  ///< by the subject of a frame
 };

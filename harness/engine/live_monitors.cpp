@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/attribution.hpp"
+#include "engine/live_monitors.hpp"
 
 #include <algorithm>
 
@@ -21,15 +21,19 @@ constexpr std::string_view undefined_code = "SDO-ERR-05";
 
 }  // namespace
 
-Attribution::Attribution(const monitor::Facts& facts, std::span<const monitor::Rule* const> chosen)
+LiveMonitors::LiveMonitors(const monitor::Facts& facts, std::span<const monitor::Rule* const> chosen)
     : watch_(facts, watched(chosen)) {
   for (const auto& each : watch_.monitors())
     violated_.emplace_back(each->rule().unasked ? 0 : each->tallies().size(), 0);
 }
 
-void Attribution::follow(std::span<const can::CapturedFrame> frames) {
+void LiveMonitors::follow(std::span<const can::CapturedFrame> frames) {
   for (; seen_ < frames.size(); ++seen_) {
-    watch_.on_frame(frames[seen_], seen_);
+    const auto& seen = watch_.look_at(frames[seen_], seen_);
+    if (seen.subject != monitor::Observation::Subject::other &&
+        starts_.on_frame(seen, watch_.follower()) == monitor::Start::restart)
+      restarts_.push_back(seen_);
+    watch_.settle();
     if (watch_.counted() == counted_) continue;
     counted_ = watch_.counted();
     for (std::size_t i = 0; i < violated_.size(); ++i) {
@@ -44,9 +48,12 @@ void Attribution::follow(std::span<const can::CapturedFrame> frames) {
   }
 }
 
-void Attribution::lose_track() { watch_.on_loss(); }
+void LiveMonitors::lose_track() {
+  watch_.on_loss();
+  starts_.on_loss();
+}
 
-std::vector<std::string> Attribution::rules_below(const steps::Actual& actual) const {
+std::vector<std::string> LiveMonitors::rules_below(const steps::Actual& actual) const {
   using Kind = steps::Actual::Kind;
   if (!actual.decisive || (actual.kind != Kind::violation && actual.kind != Kind::aborted)) return {};
   const auto found = broken_.find(*actual.decisive);
@@ -59,7 +66,7 @@ std::vector<std::string> Attribution::rules_below(const steps::Actual& actual) c
   return out;
 }
 
-std::vector<std::string> Attribution::rules_broken(const steps::Actual& actual) const {
+std::vector<std::string> LiveMonitors::rules_broken(const steps::Actual& actual) const {
   using Kind = steps::Actual::Kind;
   const bool read = actual.kind == Kind::mismatched || actual.kind == Kind::aborted;
   if (!read || !actual.decisive) return rules_below(actual);
