@@ -109,23 +109,28 @@ class Emergencies final : public Monitor {
 
   void judge_distance(const Observation& seen, const Follower& follower) {
     const auto& nmt = follower.nmt();
-    const auto before = std::exchange(made_, nmt.made_since(seen.time()));
+    const auto before = std::exchange(made_, Made{nmt.made_since(seen.time()), is_own(seen)});
     const auto* time = follower.entries().known(0x1015, 0);
     if (!before || time == nullptr || time->value == 0 || time->value > 0xFFFF) return;
     // The time that runs already may be the old one.
-    if (time->since + follower.facts().nmt_time >= *before) return;
-    if (follower.entries().touched(emcy_index, 0x1015) >= *before) return;
+    if (time->since + follower.facts().nmt_time >= before->since) return;
+    if (follower.entries().touched(emcy_index, 0x1015) >= before->since) return;
     const Duration least = time->value * std::chrono::microseconds(100);
-    const auto distance = seen.time() - *before;
+    const auto distance = seen.time() - before->since;
     if (distance >= least - least / 4 - std::chrono::milliseconds(5)) return good(inhibit);
-    accuse(inhibit, seen, to_string(Duration(distance)) + " after the last one",
+    accuse(inhibit, is_own(seen) && before->own, seen, to_string(Duration(distance)) + " after the last one",
            "at least " + to_string(least), fmt::format("1015h holds {}", time->value));
   }
 
   /// On a CAN-ID that the node-ID does not give it may be somebody else's.
   void accuse(std::size_t requirement, const Observation& seen, std::string actual, std::string expected,
               std::string reason, Verdict verdict = Verdict::fail) {
-    if (is_own(seen)) {
+    accuse(requirement, is_own(seen), seen, std::move(actual), std::move(expected), std::move(reason),
+           verdict);
+  }
+  void accuse(std::size_t requirement, bool own, const Observation& seen, std::string actual,
+              std::string expected, std::string reason, Verdict verdict = Verdict::fail) {
+    if (own) {
       if (bad(requirement))
         tell(requirement, seen, std::move(actual), std::move(expected), std::move(reason), verdict);
     } else if (bad_if_alone(requirement)) {
@@ -133,7 +138,11 @@ class Emergencies final : public Monitor {
     }
   }
 
-  std::optional<BusTime> made_;  ///< the earliest time at which the last one may have been made
+  struct Made {
+    BusTime since{};   ///< the earliest time at which the last one may have been made
+    bool own = false;  ///< it came on the CAN-ID of the node-ID
+  };
+  std::optional<Made> made_;
 };
 
 /// 1001h and 1003h as they are read behind an emergency message. What differs may be a new error, whose own

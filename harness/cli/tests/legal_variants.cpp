@@ -117,7 +117,7 @@ Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
 
 Result<std::vector<Complaint>> judge_combination(const Combination& combination, const LoadedSuites& suites,
                                                  const device::Profile& reference,
-                                                 const std::vector<std::string>& only) {
+                                                 const std::vector<std::string>& only, can::Capture* frames) {
   auto node = refnode::Node::create({.node_id = static_cast<std::uint8_t>(combination.node),
                                      .defects = {},
                                      .storage = {},
@@ -143,6 +143,7 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
   if (combination.shuffled) options.plan.shuffle = combination.seed;
   can::Capture capture;
   const auto run = engine::run(bus.transport(), profile, suites.suite, suites.catalogue, options, capture);
+  if (frames != nullptr) *frames = capture;
 
   std::set<std::string> may_warn;
   for (const std::string& id : combination.variants) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "can/capture.hpp"
 #include "cli/suite_folder.hpp"
 #include "device/profile.hpp"
 #include "result/run_result.hpp"
@@ -45,11 +46,13 @@ struct Complaint {
                                                    const std::set<std::string>& may_warn);
 
 /// Runs the suite; empty when all verdicts are as they ought to be. `reference` is the profile of the node by
-/// default; the profile used is made from it and from the node's own dictionary. `only`: patterns of cases.
+/// default; the profile used is made from it and from the node's own dictionary. `only`: patterns of cases;
+/// `frames`: where to put the trace.
 [[nodiscard]] Result<std::vector<Complaint>> judge_combination(const Combination& combination,
                                                                const LoadedSuites& suites,
                                                                const device::Profile& reference,
-                                                               const std::vector<std::string>& only = {});
+                                                               const std::vector<std::string>& only = {},
+                                                               can::Capture* frames = nullptr);
 
 /// Leaves out whatever is not needed for a complaint `what`.
 [[nodiscard]] Combination shrink(Combination combination, const std::string& what, const LoadedSuites& suites,

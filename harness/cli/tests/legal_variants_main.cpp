@@ -12,7 +12,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "base/files.hpp"
 #include "base/text.hpp"
+#include "can/candump_log.hpp"
 #include "legal_variants.hpp"
 
 namespace {
@@ -118,7 +120,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Runs the suite against random combinations of legal variants of the reference node."};
   Settings settings;
   cli::Combination one;
-  std::string variants, suites_folder;
+  std::string variants, suites_folder, candump;
   std::vector<std::string> only;
   bool undescribed = false, single = false, draw = false;
   app.add_option("--seed", settings.seed, "of the series of combinations")->capture_default_str();
@@ -136,6 +138,7 @@ int main(int argc, char** argv) {
   app.add_flag("--undescribed", undescribed, "without a profile");
   app.add_flag("--neighbours", one.neighbours, "with other nodes on the bus");
   app.add_flag("--shuffled", one.shuffled, "the cases in a random order, drawn by the seed of the bus");
+  app.add_option("--candump", candump, "file for the frames; with one combination");
   app.add_option("cases", only, "only these cases; with one combination");
   CLI11_PARSE(app, argc, argv);
 
@@ -152,8 +155,13 @@ int main(int argc, char** argv) {
       if (!part.empty()) one.variants.emplace_back(part);
     }
     one.described = !undescribed;
-    const auto complaints = cli::judge_combination(one, *suites, reference->profile, only);
+    can::Capture frames;
+    const auto complaints = cli::judge_combination(one, *suites, reference->profile, only, &frames);
     if (!complaints) return say(complaints.error().text() + "\n"), 2;
+    if (!candump.empty()) {
+      const auto written = write_file_atomically(candump, can::write_candump_log(frames, {}));
+      if (!written) return say(written.error().text() + "\n"), 2;
+    }
     say(complaints->empty() ? "as it ought to be\n" : told(*complaints));
     return complaints->empty() ? 0 : 1;
   }

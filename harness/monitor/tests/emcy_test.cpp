@@ -64,6 +64,22 @@ TEST_CASE("The inhibit time of EMCY is kept") {
   CHECK(Story().later(emcy).write(0x1015, 0, 5000).line(gone).told().empty());
 }
 
+TEST_CASE("What another node sends on a CAN-ID that 1014h may hold does not begin an inhibit time") {
+  // Behind the reset nobody has read 1014h.
+  const auto inhibited = [] {
+    return Story()
+        .write(0x1014, 0, 0xB3)
+        .later(reset)
+        .line(boot_up)
+        .write(0x1015, 0, 5000)
+        .later("< 702: 05");
+  };
+  const std::string foreign = "< 0B3: 00 FF 81 00 00 00 00 00";
+  CHECK(inhibited().line(foreign).line("wait 200 ms").line(gone).told().empty());
+  CHECK(inhibited().line(emcy).line("wait 200 ms").line(foreign).told().empty());
+  CHECK(inhibited().line(emcy).line("wait 200 ms").line(gone).told() == Told{"fail EMCY-INH-01"});
+}
+
 TEST_CASE("1001h has no error that EMCY did not tell") {
   CHECK(Story().line(emcy).read(0x1001, 0, 0x11).line("wait 2 s").line(gone).told().empty());
   CHECK(Story().line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
