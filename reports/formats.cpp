@@ -7,6 +7,7 @@
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
+#include "reports/result_json.hpp"
 
 namespace conform::reports {
 namespace {
@@ -18,10 +19,14 @@ std::string write_markdown(const result::RunResult& run, const can::Capture& /*c
 std::string write_text(const result::RunResult& run, const can::Capture& /*capture*/) {
   return summary(run, Style{});
 }
+std::string write_json(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return result_json(run);
+}
 
 // A table and not self-registration: the linker drops registrars from static libraries.
-constexpr std::array<Format, 3> table{{
+constexpr std::array<Format, 4> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
+    {"json", "everything that was found, for other programs and for 'report' later", ".json", write_json},
     {"markdown", "short report for pull requests and job summaries", ".md", write_markdown},
     {"text", "the summary of the terminal, without colours", ".txt", write_text},
 }};

@@ -31,9 +31,6 @@ struct AreaTally {
 [[nodiscard]] std::vector<AreaTally> tally_by_area(const result::RunResult& run);
 /// The sum of the rows; its area is "total".
 [[nodiscard]] AreaTally sum(const std::vector<AreaTally>& rows);
-/// Adds one to the counter of `verdict`.
-void count(result::Counts& counts, result::Verdict verdict);
-
 /// Cases of one verdict that have the same reason, in the order of their first case. Reasons of cases that
 /// are not applicable are the same when they differ in numbers only: "1401h:00 is absent", "1402h:00 is
 /// absent".

@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "cli/commands/commands.hpp"
 #include "cli/run/guardian.hpp"
+#include "reports/formats.hpp"
 
 namespace {
 
@@ -52,6 +54,14 @@ struct EdsOptions {
     return show_sub->parsed() ? conform::cli::eds_show_command(show) : conform::cli::eds_diff_command(diff);
   }
 };
+
+/// An option for each format of reports.
+void add_reports(CLI::App& app, conform::cli::Reports& into) {
+  for (const auto& format : conform::reports::formats()) {
+    const std::string name(format.name);
+    app.add_option("--" + name, into[name], std::string(format.summary))->type_name("FILE");
+  }
+}
 
 int dispatch(int argc, char** argv) {
   using namespace conform::cli;
@@ -105,8 +115,7 @@ int dispatch(int argc, char** argv) {
           "--allow", run.allow,
           "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")
       ->type_name("RISK");
-  run_sub->add_option("--junit", run.junit, "Write JUnit XML, also when the run is killed")
-      ->type_name("FILE");
+  add_reports(*run_sub, run.reports);
   run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark, while they come")
       ->type_name("FILE");
   run_sub
@@ -118,7 +127,6 @@ int dispatch(int argc, char** argv) {
           "--journal", run.journal,
           "Keep the journal here (default: ~/.local/state/canopen-conform, for each interface and node)")
       ->type_name("FILE");
-  run_sub->add_option("--markdown", run.markdown, "Write a short report in Markdown")->type_name("FILE");
   run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
   run_sub->add_flag(
       "--strict", run.strict,
@@ -141,11 +149,12 @@ int dispatch(int argc, char** argv) {
       ->type_name("WHEN");
 
   ReportCommand report;
-  auto* report_sub = app.add_subcommand("report", "Make the reports of a run anew, from its journal");
-  report_sub->add_option("journal", report.journal, "Journal of the run")->required()->type_name("JOURNAL");
-  report_sub->add_option("--junit", report.junit, "Write JUnit XML")->type_name("FILE");
-  report_sub->add_option("--markdown", report.markdown, "Write a short report in Markdown")
-      ->type_name("FILE");
+  auto* report_sub =
+      app.add_subcommand("report", "Make the reports of a run anew, from its result.json or its journal");
+  report_sub->add_option("source", report.source, "Result (run --json) or journal of the run")
+      ->required()
+      ->type_name("RESULT|JOURNAL");
+  add_reports(*report_sub, report.reports);
   report_sub
       ->add_option("--capture", report.capture,
                    "Comment this capture of the run with what was found (pcapng)")
@@ -208,8 +217,7 @@ int dispatch(int argc, char** argv) {
       ->add_option("-x,--exclude", judge.exclude, "Leave out these monitors (* and ? allowed); repeatable")
       ->allow_extra_args(false)
       ->type_name("ID");
-  judge_sub->add_option("--junit", judge.junit, "Write JUnit XML")->type_name("FILE");
-  judge_sub->add_option("--markdown", judge.markdown, "Write a short report in Markdown")->type_name("FILE");
+  add_reports(*judge_sub, judge.reports);
   judge_sub->add_flag(
       "--strict", judge.strict,
       "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");

@@ -7,9 +7,12 @@
 #include "base/files.hpp"
 #include "base/text.hpp"
 #include "journal/lines.hpp"
-#include "journal/run_json.hpp"
+#include "result/run_json.hpp"
 
 namespace conform::journal {
+
+using namespace result;  // run_json.hpp
+
 namespace {
 
 constexpr std::uint64_t largest = std::uint64_t{4} << 30U;
@@ -97,8 +100,15 @@ class Parser {
     header.profile = text_of(line.at("profile"));
     header.eds = text_of(line.at("eds"));
     header.epoch_ns = line.at("epoch").get<std::int64_t>();
-    header.reports = {text_of(line.at("junit")), text_of(line.at("markdown")), text_of(line.at("capture")),
-                      text_of(line.at("candump"))};
+    header.reports = {text_of(line.at("capture")), text_of(line.at("candump")), {}};
+    const auto add = [&header](const std::string& format, const Json& path) {
+      if (auto text = text_of(path); !text.empty()) header.reports.reports.emplace(format, std::move(text));
+    };
+    if (line.contains("reports")) {
+      for (const auto& [format, path] : line.at("reports").items()) add(format, path);
+    } else {  // version 1
+      for (const auto* format : {"junit", "markdown"}) add(format, line.at(format));
+    }
     from_json(line.at("run"), out_.run);
   }
 

@@ -9,9 +9,11 @@
 
 #include "base/text.hpp"
 #include "journal/lines.hpp"
-#include "journal/run_json.hpp"
+#include "result/run_json.hpp"
 
 namespace conform::journal {
+
+using namespace result;  // run_json.hpp
 
 void Writer::append(std::string line) {
   line += '\n';
@@ -28,6 +30,8 @@ void Writer::append(std::string line) {
 }
 
 void Writer::begin(const Header& header, const result::RunResult& run) {
+  auto reports = Json::object();
+  for (const auto& [format, path] : header.reports.reports) reports[format] = text_json(path);
   append(Json{{lines::version, version},
               {"interface", text_json(header.interface)},
               {"node", header.node},
@@ -35,8 +39,7 @@ void Writer::begin(const Header& header, const result::RunResult& run) {
               {"profile", text_json(header.profile)},
               {"eds", text_json(header.eds)},
               {"epoch", header.epoch_ns},
-              {"junit", text_json(header.reports.junit)},
-              {"markdown", text_json(header.reports.markdown)},
+              {"reports", std::move(reports)},
               {"capture", text_json(header.reports.capture)},
               {"candump", text_json(header.reports.candump)},
               {"run", without_cases(run)}}

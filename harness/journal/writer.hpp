@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,13 @@
 
 namespace conform::journal {
 
-inline constexpr int version = 1;
+/// 2: reports by the names of their formats.
+inline constexpr int version = 2;
 
-/// Files the run was asked for, as absolute paths; empty: not asked for.
+/// Files the run was asked for, as absolute paths.
 struct ReportPaths {
-  std::string junit, markdown, capture, candump;
+  std::string capture{}, candump{};              ///< empty: not asked for
+  std::map<std::string, std::string> reports{};  ///< the others, by the name of the format: "junit"
 };
 
 /// The first line: enough to make every report and to find the device again.

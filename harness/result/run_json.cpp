@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "journal/run_json.hpp"
+#include "result/run_json.hpp"
 
 #include <concepts>
 #include <stdexcept>
 #include <type_traits>
 
-namespace conform::journal {
+#include "base/text.hpp"
+
+namespace conform::result {
 namespace {
 
 int digit(char c) {
@@ -33,8 +35,6 @@ Bytes hex_value(const std::string& hex) {
 }
 
 namespace {
-
-using namespace result;
 
 template <typename T, typename Plain>
 concept Same = std::same_as<std::remove_const_t<T>, Plain>;
@@ -103,13 +103,32 @@ void members(Same<ComparedCase> auto& it, auto&& see) {
   see("number", number), see("group", group), see("title", title), see("outcome", outcome),
       see("because", because), see("cases", cases);
 }
+void members(Same<Sample> auto& it, auto&& see) {
+  auto& [at, value] = it;
+  see("at", at), see("value", value);
+}
+void members(Same<Measurement> auto& it, auto&& see) {
+  auto& [kind, of, nominal, least, most, count, shortest, longest, mean, samples] = it;
+  see("kind", kind), see("of", of), see("nominal", nominal), see("least", least), see("most", most),
+      see("count", count), see("shortest", shortest), see("longest", longest), see("mean", mean),
+      see("samples", samples);
+}
+void members(Same<BusLoad> auto& it, auto&& see) {
+  auto& [from, span, frames, busy] = it;
+  see("from", from), see("span", span), see("frames", frames), see("busy", busy);
+}
+void members(Same<Change> auto& it, auto&& see) {
+  auto& [object, before, during, put_back] = it;
+  see("object", object), see("before", before), see("during", during), see("put_back", put_back);
+}
 void members(Same<RunResult> auto& it, auto&& see) {
   auto& [tool, host, started_utc_ns, elapsed, device, properties, cases, requirements, notes, aborted, signal,
-         unwritten, compared] = it;
+         unwritten, compared, measurements, load, changes] = it;
   see("tool", tool), see("host", host), see("started", started_utc_ns), see("elapsed", elapsed),
       see("device", device), see("properties", properties), see("cases", cases),
       see("requirements", requirements), see("notes", notes), see("aborted", aborted), see("signal", signal),
-      see("unwritten", unwritten), see("compared", compared);
+      see("unwritten", unwritten), see("compared", compared), see("measurements", measurements),
+      see("load", load), see("changes", changes);
 }
 
 template <typename T>
@@ -138,6 +157,8 @@ Json write(const T& value) {
     return value.count();
   } else if constexpr (std::same_as<T, Index>) {
     return value.value();
+  } else if constexpr (std::same_as<T, Multiplexer>) {
+    return to_string(value);
   } else if constexpr (std::is_arithmetic_v<T>) {
     return value;
   } else if constexpr (Bytewise<T>) {
@@ -177,6 +198,10 @@ void read(const Json& json, T& value) {
     value = Duration(json.get<std::int64_t>());
   } else if constexpr (std::same_as<T, Index>) {
     value = Index(json.get<std::uint16_t>());
+  } else if constexpr (std::same_as<T, Multiplexer>) {
+    const auto object = parse_multiplexer(json.get<std::string>());
+    if (!object) throw std::invalid_argument("no multiplexer");
+    value = *object;
   } else if constexpr (std::is_arithmetic_v<T>) {
     value = json.get<T>();
   } else if constexpr (std::same_as<T, Bytes>) {
@@ -188,9 +213,11 @@ void read(const Json& json, T& value) {
     value.reset();
     if (!json.is_null()) read(json, value.emplace());
   } else if constexpr (ListTraits<T>::value) {
+    if (!json.is_array()) throw std::invalid_argument("no list where one belongs");
     value.clear();
     for (const auto& each : json) read(each, value.emplace_back());
   } else {
+    if (!json.is_object()) throw std::invalid_argument("no object where one belongs");
     members(value, [&](const char* name, auto& member) {
       if (const auto found = json.find(name); found != json.end()) read(*found, member);
     });
@@ -247,4 +274,4 @@ Json without_cases(const RunResult& run) {
 void from_json(const Json& json, CaseResult& one) { read(json, one); }
 void from_json(const Json& json, RunResult& run) { read(json, run); }
 
-}  // namespace conform::journal
+}  // namespace conform::result

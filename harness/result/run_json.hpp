@@ -7,7 +7,7 @@
 
 #include "result/run_result.hpp"
 
-namespace conform::journal {
+namespace conform::result {
 
 using Json = nlohmann::json;
 
@@ -17,13 +17,13 @@ using Json = nlohmann::json;
 [[nodiscard]] std::string hex_text(ByteView bytes);
 [[nodiscard]] Bytes hex_value(const std::string& text);
 
-[[nodiscard]] Json to_json(const result::CaseResult& one);
-[[nodiscard]] Json to_json(const result::RunResult& run);
+[[nodiscard]] Json to_json(const CaseResult& one);
+[[nodiscard]] Json to_json(const RunResult& run);
 /// All but the cases.
-[[nodiscard]] Json without_cases(const result::RunResult& run);
+[[nodiscard]] Json without_cases(const RunResult& run);
 
 // These throw nlohmann's exceptions where the JSON has another shape; what is missing keeps its default.
-void from_json(const Json& json, result::CaseResult& one);
-void from_json(const Json& json, result::RunResult& run);
+void from_json(const Json& json, CaseResult& one);
+void from_json(const Json& json, RunResult& run);
 
-}  // namespace conform::journal
+}  // namespace conform::result

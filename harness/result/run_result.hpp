@@ -143,6 +143,40 @@ struct ComparedCase {
   std::vector<std::string> cases;  ///< names of the cases here that it rests on
 };
 
+/// One value of a series: when it was measured, and how long it was.
+struct Sample {
+  BusTime at;
+  Duration value{};
+  friend auto operator<=>(const Sample&, const Sample&) = default;
+};
+
+/// Times of one kind that the run saw, whatever it judged.
+struct Measurement {
+  std::string kind;                   ///< "SDO answer", "heartbeat", "boot-up", "SYNC", "TPDO"
+  std::string of;                     ///< the object, the CAN-ID or the setting: "1018h:01", "1017h = 100 ms"
+  std::optional<Duration> nominal{};  ///< what the device was told or is said to keep
+  std::optional<Duration> least{}, most{};  ///< what is tolerated
+  std::size_t count = 0;                    ///< how many there were
+  Duration shortest{}, longest{}, mean{};   ///< of all of them
+  std::vector<Sample> samples{};            ///< every one, or of very many a part, evenly drawn
+};
+
+/// A stretch of the run and what the bus carried meanwhile.
+struct BusLoad {
+  BusTime from;
+  Duration span{};
+  std::size_t frames = 0;
+  Duration busy{};  ///< the time that these frames take at the bit rate of the bus; 0: it is not known
+};
+
+/// An entry of the device that the run changed.
+struct Change {
+  Multiplexer object;
+  std::vector<std::uint8_t> before;
+  std::string during;     ///< the case that changed it first
+  bool put_back = false;  ///< it holds `before` again
+};
+
 struct Counts {
   std::size_t pass = 0, warn = 0, fail = 0, inconclusive = 0, not_applicable = 0, error = 0;
   [[nodiscard]] std::size_t total() const {
@@ -165,6 +199,9 @@ struct RunResult {
   int signal = 0;                             ///< SIGINT or SIGTERM that ended it, else 0
   std::vector<std::string> unwritten{};       ///< reports that could not be written, with the reason
   std::vector<ComparedCase> compared{};       ///< in the order of the other tool; empty: not asked for
+  std::vector<Measurement> measurements{};    ///< by kind, then by what they are of
+  std::vector<BusLoad> load{};                ///< over the run, in stretches of one length
+  std::vector<Change> changes{};              ///< in the order in which they were made, each entry once
 
   [[nodiscard]] Counts counts() const;
   /// Requirements whose failure the profile accepts, sorted, each once: a run with some does not simply

@@ -41,7 +41,8 @@ std::string lines_of(const result::RunResult& run, const Style& style) {
 TEST_CASE("Every format writes its sample") {
   const can::Capture capture;
   for (const Format& format : formats()) {
-    const std::string end = std::string(format.name) + std::string(format.suffix);
+    const std::string name(format.name);
+    const std::string end = format.suffix == "." + name ? name : name + std::string(format.suffix);
     compare_with_sample("run." + end, format.write(testing::sample_run(), capture));
     compare_with_sample("hostile." + end,
                         format.write(testing::hostile_run(testing::hostile_text()), capture));

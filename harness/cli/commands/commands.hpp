@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ struct LoadedSuites;
 
 inline constexpr int exit_usage = 2;
 inline constexpr int exit_environment = 3;
+
+/// Files of reports, by the name of the format; empty: not asked for.
+using Reports = std::map<std::string, std::string>;
 
 struct RunCommand {
   std::vector<std::string> select;
@@ -41,14 +45,16 @@ struct RunCommand {
   bool dry_run = false;
   bool quiet = false;
   std::string color = "auto";  ///< auto, always, never
-  std::string junit, capture, candump, markdown;
+  Reports reports;
+  std::string capture, candump;
   std::string journal;  ///< file; empty: the usual place
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
 struct ReportCommand {
-  std::string journal;
-  std::string junit, markdown, capture;  ///< all empty: those that the run was asked for
+  std::string source;  ///< result.json or journal
+  Reports reports;     ///< all empty, and no capture: those that the run was asked for
+  std::string capture;
   bool quiet = false;
   std::string color = "auto";
 };
@@ -95,7 +101,7 @@ struct JudgeCommand {
   bool strict = false;
   bool quiet = false;
   std::string color = "auto";
-  std::string junit, markdown;
+  Reports reports;
 };
 [[nodiscard]] int judge_command(const JudgeCommand& options);
 

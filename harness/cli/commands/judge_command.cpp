@@ -7,12 +7,11 @@
 #include "cli/commands/commands.hpp"
 #include "cli/run/judge.hpp"
 #include "cli/run/known_device.hpp"
+#include "cli/run/run_reports.hpp"
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
 #include "engine/monitor_cases.hpp"
 #include "reports/console.hpp"
-#include "reports/junit.hpp"
-#include "reports/markdown.hpp"
 
 namespace conform::cli {
 namespace {
@@ -22,18 +21,25 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
 }  // namespace
 
 int judge_command(const JudgeCommand& options) {
+  constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
+  RunReports files(absolute_paths(options.reports, {}, {}));
+  if (auto begun = files.begin(tool, {options.capture, options.profile, options.eds}); !begun)
+    return report_error(begun.error(), exit_environment);
+  const auto refuse = [&files](const Error& error) {
+    files.not_begun(tool, error);
+    return report_error(error, exit_usage);
+  };
   auto root = find_suites(options.suites, options.profile);
-  if (!root) return report_error(root.error(), exit_usage);
+  if (!root) return refuse(root.error());
   auto suites = load_suites(*root, use_colour(options.color, 2));
-  if (!suites) return report_error(suites.error(), exit_usage);
+  if (!suites) return refuse(suites.error());
   auto known = known_device({options.profile, options.eds, options.node}, std::nullopt);
-  if (!known) return report_error(known.error(), exit_usage);
+  if (!known) return refuse(known.error());
   auto content = read_file(options.capture, most_bytes);
-  if (!content) return report_error(content.error(), exit_usage);
+  if (!content) return refuse(content.error());
   auto recording = read_recording(*content, options.capture, options.interface);
-  if (!recording) return report_error(recording.error(), exit_usage);
-  if (recording->capture.size() == 0)
-    return report_error({"no frame is in the capture", options.capture, {}}, exit_usage);
+  if (!recording) return refuse(recording.error());
+  if (recording->capture.size() == 0) return refuse({"no frame is in the capture", options.capture, {}});
 
   JudgeOptions how;
   how.selection = {options.select, options.requirements, options.exclude};
@@ -44,12 +50,12 @@ int judge_command(const JudgeCommand& options) {
       how.selection.patterns.empty() || engine::names_a_monitor(how.selection, suites->catalogue);
   auto run = selected ? judge(*recording, known->profile, suites->catalogue, how) : result::RunResult{};
   if (run.cases.empty()) {
-    return report_error(
-        {"nothing is selected: no monitor matches", {}, "'canopen-conform list monitor' shows what there is"},
-        exit_usage);
+    return refuse({"nothing is selected: no monitor matches",
+                   {},
+                   "'canopen-conform list monitor' shows what there is"});
   }
   run.notes.insert(run.notes.begin(), known->notes.begin(), known->notes.end());
-  run.tool = "canopen-conform " CONFORM_VERSION;
+  run.tool = tool;
   run.started_utc_ns = recording->info.epoch_ns;
   auto facts = suite_properties(*root);
   facts.push_back({"capture.file", options.capture});
@@ -62,19 +68,9 @@ int judge_command(const JudgeCommand& options) {
         each.verdict == result::Verdict::pass || each.verdict == result::Verdict::not_applicable;
     if (!options.quiet || !quiet) print(reports::case_line(each, style) + "\n");
   }
-  bool failed = false;
-  const auto write = [&failed](const std::string& path, const std::string& text) {
-    if (path.empty()) return;
-    if (auto written = write_file_atomically(path, text); !written) {
-      failed = true;
-      report_error(written.error(), 0);
-    }
-  };
-  if (!options.junit.empty()) write(options.junit, reports::junit(run));
-  if (!options.markdown.empty()) write(options.markdown, reports::markdown(run));
+  files.write(run, recording->capture, recording->info);
   print(reports::summary(run, style));
-  const auto code = result::exit_code(run);
-  return failed && code == 0 ? exit_environment : code;
+  return result::exit_code(run);
 }
 
 }  // namespace conform::cli

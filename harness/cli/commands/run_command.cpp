@@ -331,8 +331,7 @@ int run_command(const RunCommand& options) {
   catch_signals();
   // Also into a file, so that what was said is there when the program is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  RunReports reports({absolute(options.junit), absolute(options.markdown), absolute(options.capture),
-                      absolute(options.candump)});
+  RunReports reports(absolute_paths(options.reports, options.capture, options.candump));
   if (options.dry_run) {
     RunReports none({});
     return run(options, none);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/run_reports.hpp"
 
-#include <array>
 #include <filesystem>
 #include <system_error>
 
@@ -9,8 +8,7 @@
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
 #include "cli/run/terminal.hpp"
-#include "reports/junit.hpp"
-#include "reports/markdown.hpp"
+#include "reports/formats.hpp"
 #include "result/annotate.hpp"
 
 namespace conform::cli {
@@ -27,23 +25,38 @@ std::string absolute(const std::string& path) {
   return ignored ? path : whole.string();
 }
 
-std::string RunReports::first() const {
-  for (const auto& path : {paths_.junit, paths_.markdown, paths_.capture, paths_.candump}) {
-    if (!path.empty()) return path;
+journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
+                                    const std::string& capture, const std::string& candump) {
+  journal::ReportPaths out{.capture = absolute(capture), .candump = absolute(candump)};
+  for (const auto& [format, path] : asked) {
+    if (!path.empty()) out.reports.emplace(format, absolute(path));
   }
-  return {};
+  return out;
 }
 
+std::vector<std::string> RunReports::all() const {
+  std::vector<std::string> out;
+  for (const auto& format : reports::formats()) {
+    if (const auto found = paths_.reports.find(std::string(format.name)); found != paths_.reports.end())
+      out.push_back(found->second);
+  }
+  for (const auto& path : {paths_.capture, paths_.candump}) {
+    if (!path.empty()) out.push_back(path);
+  }
+  return out;
+}
+
+std::string RunReports::first() const { return none() ? "" : all().front(); }
+
 Result<void> RunReports::begin(const std::string& tool, const std::vector<std::string>& inputs) {
-  const std::array all{&paths_.junit, &paths_.markdown, &paths_.capture, &paths_.candump};
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i]->empty()) continue;
+  const auto paths = all();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (*all[k] == *all[i]) return fail("two reports would be written to one file", *all[i]);
+      if (paths[k] == paths[i]) return fail("two reports would be written to one file", paths[i]);
     }
     for (const auto& input : inputs) {
-      if (absolute(input) == *all[i])
-        return fail("a report would be written over an input of the run", *all[i]);
+      if (absolute(input) == paths[i])
+        return fail("a report would be written over an input of the run", paths[i]);
     }
   }
   return say(tool, "the run has not ended: it goes on, or it was killed before its reports could be made");
@@ -58,13 +71,10 @@ Result<void> RunReports::say(const std::string& tool, const std::string& what) {
   result::RunResult run;
   run.tool = tool;
   run.aborted = what;
-  if (!paths_.junit.empty()) {
-    const auto text = reports::junit(run);
-    if (auto written = write_file_atomically(paths_.junit, text); !written) return written;
-  }
-  if (!paths_.markdown.empty()) {
-    if (auto written = write_file_atomically(paths_.markdown, reports::markdown(run)); !written)
-      return written;
+  for (const auto& [name, path] : paths_.reports) {
+    const auto* format = reports::find_format(name);
+    if (format == nullptr) continue;
+    if (auto written = write_file_atomically(path, format->write(run, {})); !written) return written;
   }
   can::CaptureInfo info;
   info.tool = tool;
@@ -120,9 +130,11 @@ void RunReports::put(result::RunResult& run, const std::string& path, const std:
   put(run, path, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
-void RunReports::write_words(result::RunResult& run) {
-  if (!paths_.markdown.empty()) put(run, paths_.markdown, reports::markdown(run));
-  if (!paths_.junit.empty()) put(run, paths_.junit, reports::junit(run));
+void RunReports::write_words(result::RunResult& run, const can::Capture& capture) {
+  // A journal may name formats of another version.
+  for (const auto& [name, path] : paths_.reports) {
+    if (const auto* format = reports::find_format(name)) put(run, path, format->write(run, capture));
+  }
 }
 
 void RunReports::write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info) {
@@ -134,10 +146,11 @@ void RunReports::write(result::RunResult& run, const can::Capture& capture, cons
   if (!paths_.capture.empty()) put(run, paths_.capture, can::write_pcapng(capture, info));
   if (!paths_.candump.empty() && !log_is_whole)
     put(run, paths_.candump, can::write_candump_log(capture, info));
-  write_words(run);
+  write_words(run, capture);
 }
 
 void RunReports::write_left(result::RunResult& run) {
+  can::Capture capture;
   if (!paths_.capture.empty()) {
     const auto bytes = read_file(paths_.capture, largest_capture);
     auto loaded = bytes ? can::read_pcapng(
@@ -149,12 +162,13 @@ void RunReports::write_left(result::RunResult& run) {
       loaded->info.tool = run.tool;
       loaded->info.comment = run.device + (run.aborted ? "; " + *run.aborted : "");
       put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
+      capture = std::move(loaded->capture);
     } else {
       run.unwritten.push_back(loaded.error().text());
       report_error(loaded.error(), 0);
     }
   }
-  write_words(run);
+  write_words(run, capture);
 }
 
 }  // namespace conform::cli

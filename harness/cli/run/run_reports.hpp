@@ -2,8 +2,10 @@
 // The report files of a run: tried before the first frame, never stale, made at the end.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "can/capture.hpp"
@@ -12,6 +14,10 @@
 #include "result/run_result.hpp"
 
 namespace conform::cli {
+
+/// What was asked for of the formats, by their names: "junit" and a path; an empty one is not asked for.
+[[nodiscard]] journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
+                                                  const std::string& capture, const std::string& candump);
 
 /// `path` from the root on, so that it names the same file in another process; empty stays empty.
 [[nodiscard]] std::string absolute(const std::string& path);
@@ -22,8 +28,7 @@ class RunReports {
 
   [[nodiscard]] const journal::ReportPaths& paths() const { return paths_; }
   [[nodiscard]] bool none() const {
-    return paths_.junit.empty() && paths_.markdown.empty() && paths_.capture.empty() &&
-           paths_.candump.empty();
+    return paths_.reports.empty() && paths_.capture.empty() && paths_.candump.empty();
   }
   /// One that the user named first, or empty.
   [[nodiscard]] std::string first() const;
@@ -49,7 +54,8 @@ class RunReports {
   void put(result::RunResult& run, const std::string& path, ByteView bytes);
   void put(result::RunResult& run, const std::string& path, const std::string& text);
   [[nodiscard]] Result<void> say(const std::string& tool, const std::string& what);
-  void write_words(result::RunResult& run);
+  void write_words(result::RunResult& run, const can::Capture& capture);
+  [[nodiscard]] std::vector<std::string> all() const;
 
   journal::ReportPaths paths_;
   std::optional<can::CaptureStream> pcapng_, candump_;

@@ -54,7 +54,7 @@ Header header() {
           .profile = "/device.yaml",
           .eds = {},
           .epoch_ns = 12,
-          .reports = {.junit = "/j.xml", .markdown = {}, .capture = "/c.pcapng", .candump = {}}};
+          .reports = {.capture = "/c.pcapng", .candump = {}, .reports = {{"junit", "/j.xml"}}}};
 }
 
 /// A run that was killed in its second case.
@@ -82,6 +82,7 @@ TEST_CASE("a killed run keeps the verdicts it reached, and says of the others wh
   CHECK_FALSE(journal->reported);
   CHECK(journal->header.interface == "can0");
   CHECK(journal->header.reports.capture == "/c.pcapng");
+  CHECK(journal->header.reports.reports == std::map<std::string, std::string>{{"junit", "/j.xml"}});
   CHECK(journal->run.cases[0].verdict == Verdict::pass);
   CHECK(journal->run.cases[1].verdict == Verdict::error);
   CHECK(journal->run.cases[1].reason == "not run to its end: the runner was killed before the run had ended");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catch.hpp"
-#include "journal/run_json.hpp"
+#include "result/run_json.hpp"
 
 using namespace conform;
-using namespace conform::journal;
+using namespace conform::result;
 using namespace conform::result;
 
 namespace {
