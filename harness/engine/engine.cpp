@@ -17,6 +17,7 @@
 #include "engine/run_context.hpp"
 #include "engine/tries.hpp"
 #include "engine/trust.hpp"
+#include "monitor/stopwatch.hpp"
 #include "result/annotate.hpp"
 
 namespace conform::engine {
@@ -60,6 +61,11 @@ class Run {
     life_.tell_tries();
     judge_monitors();
     life_.tell_losses();
+    if (run_.options.measure) {
+      const auto& frames = run_.recorder.capture().frames();
+      out_.measurements = monitor::measure(frames, facts_of_run(run_.profile), life_.losses());
+      out_.load = monitor::load_of(frames, run_.recorder.transport().info().bit_rate);
+    }
     out_.elapsed = run_.recorder.now() - begin;
     if (run_.options.stop != nullptr) out_.signal = run_.options.stop->load();
     capture = std::move(run_.recorder.capture());

@@ -73,6 +73,12 @@ class Parser {
 
   Journal finish() {
     if (!out_.finished) {
+      for (const auto& each : out_.changed) {
+        const bool open =
+            std::ranges::find(out_.outstanding, each.object, &OldValue::object) != out_.outstanding.end();
+        out_.run.changes.push_back(
+            {.object = each.object, .before = each.before, .during = each.during, .put_back = !open});
+      }
       for (const auto& one : out_.run.cases) {
         if (one.finished)
           out_.run.elapsed = std::max(out_.run.elapsed, one.end - out_.run.cases.front().begin);

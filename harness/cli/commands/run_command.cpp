@@ -154,6 +154,7 @@ int run(const RunCommand& options, RunReports& reports) {
 
   engine::RunOptions run_options;
   run_options.strict = options.strict;
+  run_options.measure = !reports.none();
   run_options.stop = &stop_signal;
   constexpr Duration power_limit = std::chrono::seconds(60);
   if (!options.simulate && !profile->power_cycle.empty())
@@ -311,6 +312,7 @@ int run(const RunCommand& options, RunReports& reports) {
   }
   if (live) print("\r\x1B[K");
   facts.complete(run);
+  run.changes = watch.changes();
   if (options.cct)
     run.compared = cct_outcomes(run, suites->suite, suites->catalogue, known->description.get());
   if (journal) journal->finished(run);

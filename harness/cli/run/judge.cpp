@@ -15,6 +15,7 @@
 #include "canopen/decode.hpp"
 #include "canopen/nmt.hpp"
 #include "engine/monitor_cases.hpp"
+#include "monitor/stopwatch.hpp"
 #include "reports/text_tools.hpp"
 
 namespace conform::cli {
@@ -154,6 +155,8 @@ result::RunResult judge(const Recording& recording, const device::Profile& profi
   facts.senders_are_known = !recording.directions_inferred;
   engine::judge_trace(frames, {chosen, profile, catalogue, options.strict}, facts, switches_of_power(frames),
                       out);
+  out.measurements = monitor::measure(frames, facts, switches_of_power(frames));
+  out.load = monitor::load_of(frames, 0);
   if (recording.directions_inferred && !answers_in(frames, profile)) {
     const auto why = fmt::format(
         "nothing shows that node {} itself was there: no frame answers a request, and the capture does not tell who sent",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/run_watch.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/run/guardian.hpp"
@@ -51,6 +52,12 @@ void RunWatch::case_ended(const result::RunResult& run, std::size_t index) {
 }
 
 void RunWatch::changing(Multiplexer object, const Bytes& before) {
+  const auto known = std::ranges::find(changes_, object, &result::Change::object);
+  if (known == changes_.end()) {
+    changes_.push_back({.object = object, .before = before, .during = running_});
+  } else {
+    known->put_back = false;
+  }
   if (journal_ != nullptr) journal_->changing({object, before, running_.empty() ? "the run" : running_});
 }
 
@@ -59,6 +66,8 @@ void RunWatch::commanding(Multiplexer object) {
 }
 
 void RunWatch::put_back(Multiplexer object, const Bytes& value) {
+  const auto known = std::ranges::find(changes_, object, &result::Change::object);
+  if (known != changes_.end() && known->before == value) known->put_back = true;
   if (journal_ != nullptr) journal_->put_back(object, value);
 }
 

@@ -33,6 +33,9 @@ class RunWatch final : public engine::Observer {
   void commanding(Multiplexer object) override;
   void put_back(Multiplexer object, const Bytes& value) override;
 
+  /// Which entries the run has changed so far, and whether they hold again what they held.
+  [[nodiscard]] const std::vector<result::Change>& changes() const { return changes_; }
+
  private:
   Console console_;
   RunReports& reports_;
@@ -41,6 +44,7 @@ class RunWatch final : public engine::Observer {
   result::Counts counts_;  ///< of the cases that ended
   std::string running_;
   BusTime now_;
+  std::vector<result::Change> changes_;
 };
 
 }  // namespace conform::cli
