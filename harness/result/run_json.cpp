@@ -142,7 +142,9 @@ struct OptionalTraits<std::optional<T>> : std::true_type {};
 template <typename T>
 concept Bytewise = std::same_as<T, std::vector<std::uint8_t>> || std::same_as<T, std::array<std::uint8_t, 8>>;
 
-/// Empty lists and what is not there are left out: both come back by themselves, and lines stay short.
+/// Empty lists and what is not there: both come back by themselves, and lines stay short.
+bool is_left_out(const Json& json) { return json.is_null() || (json.is_array() && json.empty()); }
+
 template <typename T>
 Json write(const T& value) {
   if constexpr (std::same_as<T, std::string>) {
@@ -173,7 +175,7 @@ Json write(const T& value) {
     Json object = Json::object();
     members(value, [&](const char* name, const auto& member) {
       Json json = write(member);
-      if (!json.is_null() && !(json.is_array() && json.empty())) object[name] = std::move(json);
+      if (!is_left_out(json)) object[name] = std::move(json);
     });
     return object;
   }
@@ -266,7 +268,8 @@ Json to_json(const RunResult& run) { return write(run); }
 Json without_cases(const RunResult& run) {
   Json object = Json::object();
   members(run, [&](std::string_view name, const auto& member) {
-    if (name != "cases") object[std::string(name)] = write(member);
+    if (name == "cases") return;
+    if (Json json = write(member); !is_left_out(json)) object[std::string(name)] = std::move(json);
   });
   return object;
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs that die, reports that cannot be written, and what many cases cost; simulation only. Usage:
 journal_cli_test.py PROGRAM"""
+import json
 import os
 import resource
 import shutil
@@ -55,6 +56,40 @@ class Journal(unittest.TestCase):
         process.stderr.close()
         self.assertEqual(process.wait(60), -signal_number, rest[-500:] + errors)
         return seen + rest.splitlines(), errors
+
+    def test_every_report_is_made_anew_from_the_result(self):
+        first, markdown, result = (self.path(name) for name in ("a.xml", "a.md", "result.json"))
+        select = ["cia301/heartbeat/producer", "cia301/nmt"]
+        done = run("run", "--simulate", "--defect", "nmt-reset-communication-ignored-in-preop", "--junit", first, "--markdown", markdown, "--json",
+                   result, *select)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        with open(result, encoding="utf-8") as file:
+            told = json.load(file)
+        self.assertEqual(told["canopen_conform_result"], 1)
+        self.assertEqual(told["summary"]["exit_code"], 1)
+        self.assertTrue([rule for rule in told["requirements"] if rule["verdict"] == "pass" and rule["cases"]])
+        self.assertIn("1017h = 100 ms", [each["of"] for each in told["measurements"] if each["kind"] == "heartbeat"])
+        self.assertIn({"object": "1017h:00", "put_back": True},
+                      [{key: each[key] for key in ("object", "put_back")} for each in told["run"]["changes"]])
+        names = {"junit": self.junit, "markdown": self.path("m.md"), "json": self.path("again.json")}
+        again = run("report", result, *[f"--{name}={path}" for name, path in names.items()])
+        self.assertEqual(again.returncode, 1, again.stderr)
+        for before, after in ((first, names["junit"]), (markdown, names["markdown"]), (result, names["json"])):
+            with open(before, encoding="utf-8") as one, open(after, encoding="utf-8") as other:
+                self.assertEqual(one.read(), other.read(), after)
+        self.assertEqual(again.stdout[again.stdout.index("------"):], done.stdout[done.stdout.index("------"):])
+
+    def test_a_result_of_another_version_and_a_cut_one_are_refused(self):
+        result = self.path("result.json")
+        for text, message in (('{"canopen_conform_result":99}', "is a result that this version cannot read"),
+                              ('{"canopen_conform_result":1,', "is not a result")):
+            with open(result, "w", encoding="utf-8") as file:
+                file.write(text)
+            done = run("report", result, "--junit", self.junit)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(message, done.stderr)
+            self.assertIn(result, done.stderr)
+            self.assertFalse(os.path.exists(self.junit))
 
     def test_every_verdict_outlives_a_kill(self):
         for lines in (1, 40, 400):
