@@ -32,7 +32,8 @@ struct Column {
   std::string_view label;
   std::size_t Counts::* count;
 };
-constexpr std::array<Column, 6> verdict_columns{{{Verdict::pass, "pass", &Counts::pass},
+constexpr std::array<Column, 7> verdict_columns{{{Verdict::pass, "pass", &Counts::pass},
+                                                 {Verdict::waived, "waived", &Counts::waived},
                                                  {Verdict::warn, "warn", &Counts::warn},
                                                  {Verdict::fail, "fail", &Counts::fail},
                                                  {Verdict::inconclusive, "inconcl", &Counts::inconclusive},
@@ -57,10 +58,11 @@ std::string requirement_list(const CaseResult& one) {
 
 /// "3 fail, 1 warn, 20 pass": what is not there is not mentioned.
 std::string counts_text(const Counts& counts, const Style& style) {
-  constexpr std::array<std::size_t, 6> order{2, 4, 3, 1, 0, 5};
+  constexpr std::array order{Verdict::fail,   Verdict::error, Verdict::inconclusive,  Verdict::warn,
+                             Verdict::waived, Verdict::pass,  Verdict::not_applicable};
   std::string text;
-  for (const std::size_t i : order) {
-    const Column& column = verdict_columns[i];
+  for (const Verdict verdict : order) {
+    const Column& column = *std::ranges::find(verdict_columns, verdict, &Column::verdict);
     const std::size_t number = counts.*column.count;
     if (number == 0) continue;
     text += text.empty() ? "" : ", ";
@@ -121,11 +123,20 @@ void write_subject(Page& page, const RunResult& run) {
   }
 }
 
-void write_table_row(Page& page, const AreaTally& row, std::size_t area_width, Ink area_ink) {
+/// Most runs have no waivers, and the table should fit a terminal.
+std::vector<Column> columns_of(const AreaTally& total) {
+  std::vector<Column> out(verdict_columns.begin(), verdict_columns.end());
+  if (total.counts.waived == 0)
+    std::erase_if(out, [](const Column& each) { return each.verdict == Verdict::waived; });
+  return out;
+}
+
+void write_table_row(Page& page, const AreaTally& row, const std::vector<Column>& shown,
+                     std::size_t area_width, Ink area_ink) {
   bool first = true;
   for (const std::string& part : wrap(clip(prose(row.area), value_limit / 4), area_width)) {
     std::string line = paint(first ? pad_right(part, area_width) : part, area_ink, page.style());
-    for (const Column& column : verdict_columns) {
+    for (const Column& column : shown) {
       if (!first) break;
       const std::size_t number = row.counts.*column.count;
       const std::string cell = pad_left(number == 0 ? "." : fmt::format("{}", number), label_width + 2);
@@ -140,16 +151,17 @@ void write_areas(Page& page, const RunResult& run) {
   const std::vector<AreaTally> rows = tally_by_area(run);
   if (rows.empty()) return;
   page.heading("Requirements by area");
-  const std::size_t numbers = verdict_columns.size() * (label_width + 2);
+  const AreaTally total = sum(rows);
+  const std::vector<Column> shown = columns_of(total);
+  const std::size_t numbers = shown.size() * (label_width + 2);
   std::size_t area_width = columns("total");
   for (const AreaTally& row : rows) area_width = std::max(area_width, columns(prose(row.area)));
   area_width = page.width() > numbers + 8 ? std::min(area_width, page.width() - numbers) : 8;
   std::string head(area_width, ' ');
-  for (const Column& column : verdict_columns) head += pad_left(column.label, label_width + 2);
+  for (const Column& column : shown) head += pad_left(column.label, label_width + 2);
   page.line(paint(head, Ink::dim, page.style()));
-  for (const AreaTally& row : rows) write_table_row(page, row, area_width, Ink::plain);
-  const AreaTally total = sum(rows);
-  write_table_row(page, total, area_width, Ink::strong);
+  for (const AreaTally& row : rows) write_table_row(page, row, shown, area_width, Ink::plain);
+  write_table_row(page, total, shown, area_width, Ink::strong);
   if (total.not_judged != 0) {
     page.item(fmt::format("{} not judged: the device took a branch that does not decide {}.",
                           counted(total.not_judged, "requirement"), total.not_judged == 1 ? "it" : "them"),
@@ -282,18 +294,29 @@ void write_wants(Page& page, const RunResult& run) {
     page.item(fmt::format("and {} more, listed in the report files", wants.size() - most));
 }
 
+/// Each with what became of it; those that ask for a look first.
+void write_waivers(Page& page, const RunResult& run) {
+  if (run.waivers.empty()) return;
+  page.heading("Waivers");
+  auto all = run.waivers;
+  std::ranges::stable_sort(all, std::greater{}, &result::WaiverUse::verdict);
+  for (const auto& each : all) page.item(waiver_text(each));
+}
+
 /// What the exit code says, for a person who does not know the table.
 std::string exit_text(const RunResult& run, int code) {
   const Counts counts = run.counts();
   switch (code) {
     case 0:
       if (const auto waived = run.waived(); !waived.empty())
-        return fmt::format("what was judged conforms, but for {} that {} accepted as known: {}",
+        return fmt::format("what was judged conforms, but for {} that {} waived: {}",
                            counted(waived.size(), "violated requirement"), waived.size() == 1 ? "is" : "are",
                            join(waived, ", "));
       return counts.warn == 0 ? "everything that was judged conforms"
                               : "everything that was judged conforms, with warnings";
-    case 1: return "the device violates at least one requirement";
+    case 1:
+      return counts.fail == 0 ? "a waiver asks for a look (--strict)"
+                              : "the device violates at least one requirement";
     case 2:
       return run.cases.empty() ? "nothing was selected, so nothing was judged"
                                : "nothing selected applies to this device, so nothing was judged";
@@ -379,6 +402,7 @@ std::string summary(const RunResult& run, const Style& style) {
   write_causes(page, run, causes, Verdict::warn, "Warnings");
   write_causes(page, run, causes, Verdict::fail, "Failures");
   write_wants(page, run);
+  write_waivers(page, run);
   write_totals(page, run);
   return page.take();
 }

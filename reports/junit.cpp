@@ -247,10 +247,12 @@ void write_case(pugi::xml_node parent, const RunResult& run, const JUnitOptions&
       if (!one.tried.empty())
         set_text(node.append_child("system-out"), fmt::format("tried {}\n", prose(one.tried)));
       return;
+    case Verdict::waived:
     case Verdict::warn: {
       const std::string text = details(run, options, one, message);
       set_text(node.append_child("system-out"),
-               fmt::format("warning: {}\n\n{}", text, evidence_log(run, one)));
+               fmt::format("{}: {}\n\n{}", one.verdict == Verdict::warn ? "warning" : "waived", text,
+                           evidence_log(run, one)));
       return;
     }
     case Verdict::not_applicable: write_outcome(node, "skipped", "", message, message); return;
@@ -282,6 +284,8 @@ void write_properties(pugi::xml_node parent, const RunResult& run) {
   for (const result::Property& property : run.properties) add(property.name, property.value);
   for (std::size_t i = 0; i < run.notes.size(); ++i)
     add(fmt::format("run.note.{}", i + 1), prose(run.notes[i]));
+  for (std::size_t i = 0; i < run.waivers.size(); ++i)
+    add(fmt::format("run.waiver.{}", i + 1), waiver_text(run.waivers[i]));
   if (run.aborted) add("run.aborted", prose(*run.aborted));
 }
 

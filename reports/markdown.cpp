@@ -70,8 +70,8 @@ std::string banner(const RunResult& run, int exit_code) {
   switch (exit_code) {
     case 0:
       if (const auto waived = run.waived(); !waived.empty())
-        return fmt::format("conforms but for {}, accepted as known: {}",
-                           counted(waived.size(), "violated requirement"), escaped(join(waived, ", ")));
+        return fmt::format("conforms but for {}, waived: {}", counted(waived.size(), "violated requirement"),
+                           escaped(join(waived, ", ")));
       return "conforms";
     case 1: return "does not conform";
     case 2: return "nothing was judged";
@@ -84,10 +84,11 @@ std::string counts_text(const Counts& counts) {
     Verdict verdict;
     std::size_t number;
   };
-  const std::array<Part, 6> parts{{{Verdict::fail, counts.fail},
+  const std::array<Part, 7> parts{{{Verdict::fail, counts.fail},
                                    {Verdict::error, counts.error},
                                    {Verdict::inconclusive, counts.inconclusive},
                                    {Verdict::warn, counts.warn},
+                                   {Verdict::waived, counts.waived},
                                    {Verdict::pass, counts.pass},
                                    {Verdict::not_applicable, counts.not_applicable}}};
   std::string text;
@@ -101,18 +102,23 @@ std::string counts_text(const Counts& counts) {
 std::string areas_text(const RunResult& run) {
   const std::vector<AreaTally> rows = tally_by_area(run);
   if (rows.empty()) return {};
-  std::string text =
-      "\n| Requirements | pass | warn | fail | inconclusive | error | n/a |\n|---|--:|--:|--:|--:|--:|--:|\n";
+  const AreaTally total = sum(rows);
+  // Most runs have no waivers.
+  const bool waivers = total.counts.waived > 0;
+  std::string text = fmt::format(
+      "\n| Requirements | pass |{} warn | fail | inconclusive | error | n/a |\n|---|--:|{}--:|--:|--:|--:|--:|\n",
+      waivers ? " waived |" : "", waivers ? "--:|" : "");
   const auto cell = [](std::size_t number) {
     return number == 0 ? std::string() : fmt::format("{}", number);
   };
   const auto add = [&](std::string_view name, const Counts& counts) {
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, cell(counts.pass), cell(counts.warn),
-                        cell(counts.fail), cell(counts.inconclusive), cell(counts.error),
+    const auto waived = waivers ? fmt::format(" {} |", cell(counts.waived)) : std::string();
+    text += fmt::format("| {} | {} |{} {} | {} | {} | {} | {} |\n", name, cell(counts.pass), waived,
+                        cell(counts.warn), cell(counts.fail), cell(counts.inconclusive), cell(counts.error),
                         cell(counts.not_applicable));
   };
   for (const AreaTally& row : rows) add(escaped(row.area, 100), row.counts);
-  add("**total**", sum(rows).counts);
+  add("**total**", total.counts);
   return text;
 }
 
@@ -242,6 +248,13 @@ std::string compared_text(const RunResult& run) {
   return text;
 }
 
+std::string waivers_text(const RunResult& run) {
+  std::string text;
+  for (const auto& each : run.waivers)
+    text += fmt::format("{}- {}\n", text.empty() ? "\n### Waivers\n" : "", escaped(waiver_text(each)));
+  return text;
+}
+
 std::string facts_text(const RunResult& run) {
   if (run.properties.empty()) return {};
   std::string text = "\n<details><summary>device, bus and run</summary>\n\n| | |\n|---|---|\n";
@@ -265,6 +278,7 @@ std::string markdown(const RunResult& run, const MarkdownOptions& options) {
   const auto causes = result::causes_of(run);
   document.add(causes_text(causes));
   document.add(areas_text(run));
+  document.add(waivers_text(run));
   document.add(compared_text(run));
   document.add(not_applicable_text(run));
   document.add(facts_text(run));

@@ -33,6 +33,7 @@ enum class Ink : std::uint8_t { plain, strong, dim, good, doubtful, bad, unsure,
   switch (verdict) {
     case result::Verdict::not_applicable: return Ink::dim;
     case result::Verdict::pass: return Ink::good;
+    case result::Verdict::waived:
     case result::Verdict::warn: return Ink::doubtful;
     case result::Verdict::inconclusive: return Ink::unsure;
     case result::Verdict::error: return Ink::unsure;

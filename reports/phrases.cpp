@@ -54,6 +54,21 @@ std::string headline(const CaseResult& one) {
   return (front.empty() ? "" : front + ": ") + headline(*worst->finding);
 }
 
+std::string waiver_text(const result::WaiverUse& waiver) {
+  std::string text = log_safe(waiver.requirement);
+  if (!waiver.case_name.empty()) text += " in " + log_safe(waiver.case_name);
+  if (waiver.object) text += " of " + to_string(*waiver.object);
+  text += ": " + waiver.state;
+  if (!waiver.cases.empty()) text += fmt::format(" ({})", counted(waiver.cases.size(), "case"));
+  std::vector<std::string> more;
+  if (!waiver.ticket.empty()) more.push_back(log_safe(waiver.ticket));
+  if (!waiver.owner.empty()) more.push_back(log_safe(waiver.owner));
+  if (!waiver.expires.empty()) more.push_back("until " + waiver.expires);
+  if (!more.empty()) text += "; " + join(more, ", ");
+  text += ": " + prose(waiver.reason);
+  return waiver.place.empty() ? text : text + " (" + log_safe(waiver.place) + ")";
+}
+
 bool is_not_run(const CaseResult& one) {
   return one.verdict == Verdict::error && !one.finished && one.reason.starts_with("not run");
 }

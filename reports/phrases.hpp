@@ -28,6 +28,8 @@ struct LocatedFinding {
 [[nodiscard]] std::string_view verdict_words(result::Verdict verdict);
 /// "download 1003h:00 = 02h -> confirmed, expected abort 0609 0030h": sanitised, one line.
 [[nodiscard]] std::string headline(const result::Finding& finding);
+/// "OD-1014-06 in cia301/x: used (2 cases); ticket FW-12, drives team, until 2027-03-31: firmware 2.1"
+[[nodiscard]] std::string waiver_text(const result::WaiverUse& waiver);
 /// The headline of the finding that weighs most, its requirement (or "set-up") in front; the case's
 /// reason where there is none.
 [[nodiscard]] std::string headline(const result::CaseResult& one);

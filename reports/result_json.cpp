@@ -24,6 +24,7 @@ constexpr std::string_view opening = "{\n\"canopen_conform_result\":";
 
 Json counts_json(const result::Counts& counts) {
   return {{"pass", counts.pass},
+          {"waived", counts.waived},
           {"warn", counts.warn},
           {"fail", counts.fail},
           {"inconclusive", counts.inconclusive},

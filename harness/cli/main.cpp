@@ -55,6 +55,13 @@ struct EdsOptions {
   }
 };
 
+void add_waivers(CLI::App& app, std::vector<std::string>& into) {
+  app.add_option("--waivers", into,
+                 "File of accepted failures; repeatable (default: waivers.yaml beside the device profile)")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+}
+
 /// An option for each format of reports.
 void add_reports(CLI::App& app, conform::cli::Reports& into) {
   for (const auto& format : conform::reports::formats()) {
@@ -115,6 +122,7 @@ int dispatch(int argc, char** argv) {
           "--allow", run.allow,
           "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")
       ->type_name("RISK");
+  add_waivers(*run_sub, run.waivers);
   add_reports(*run_sub, run.reports);
   run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark, while they come")
       ->type_name("FILE");
@@ -163,6 +171,25 @@ int dispatch(int argc, char** argv) {
   report_sub->add_option("--color", report.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
+
+  WaiveCommand waive;
+  auto* waive_sub =
+      app.add_subcommand("waive", "Accept a failure of a run by name: add it to a file of waivers");
+  waive_sub->add_option("result", waive.result, "Result (run --json) or journal of the run")
+      ->required()
+      ->type_name("RESULT|JOURNAL");
+  waive_sub->add_option("-r,--requirement", waive.requirement, "The requirement that failed")
+      ->required()
+      ->type_name("ID");
+  waive_sub->add_option("--reason", waive.reason, "Why it is accepted")->required()->type_name("TEXT");
+  waive_sub->add_option("--case", waive.case_name, "Only in these cases (* and ? allowed; default: all)")
+      ->type_name("ID");
+  waive_sub->add_option("--object", waive.object, "Only what is about this object")->type_name("INDEX");
+  waive_sub->add_option("--owner", waive.owner, "Who answers for it")->type_name("TEXT");
+  waive_sub->add_option("--ticket", waive.ticket, "Where it is followed")->type_name("TEXT");
+  waive_sub->add_option("--expires", waive.expires, "The last day on which it holds, as 2027-03-31")
+      ->type_name("DATE");
+  waive_sub->add_option("--file", waive.file, "File of waivers (default: waivers.yaml)")->type_name("FILE");
 
   RecoverCommand recover;
   auto* recover_sub = app.add_subcommand("recover", "Put back what a killed run left changed in the device");
@@ -217,6 +244,7 @@ int dispatch(int argc, char** argv) {
       ->add_option("-x,--exclude", judge.exclude, "Leave out these monitors (* and ? allowed); repeatable")
       ->allow_extra_args(false)
       ->type_name("ID");
+  add_waivers(*judge_sub, judge.waivers);
   add_reports(*judge_sub, judge.reports);
   judge_sub->add_flag(
       "--strict", judge.strict,
@@ -372,6 +400,7 @@ int dispatch(int argc, char** argv) {
   if (guard_sub->parsed()) return guard_command(guarded);
   if (run_sub->parsed()) return run_command(run);
   if (report_sub->parsed()) return report_command(report);
+  if (waive_sub->parsed()) return waive_command(waive);
   if (recover_sub->parsed()) return recover_command(recover);
   if (judge_sub->parsed()) return judge_command(judge);
   if (lint_sub->parsed()) return lint_command(lint);

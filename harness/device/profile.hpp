@@ -18,6 +18,7 @@
 #include "base/strong.hpp"
 #include "base/time.hpp"
 #include "device/dictionary.hpp"
+#include "device/waiver.hpp"
 #include "yaml/diagnostic.hpp"
 #include "yaml/loader.hpp"
 
@@ -85,13 +86,6 @@ struct DeviceInfo {
   std::vector<std::uint32_t> bit_rates;  ///< kbit/s, ascending; empty: not said
 };
 
-/// A deviation the user accepts by name, with the reason that reports print.
-struct KnownDeviation {
-  std::string requirement;  ///< "OD-1014-06"
-  std::string case_name;    ///< case id; empty: every case of the requirement
-  std::string reason;
-};
-
 struct Profile {
   std::string name;  ///< of the device, for reports
   std::string about;
@@ -129,7 +123,7 @@ struct Profile {
   std::shared_ptr<const eds::EdsFile> description;
   DeviceInfo device_info;
   Identity identity;
-  std::vector<KnownDeviation> deviations;
+  std::vector<Waiver> waivers;  ///< known_deviations, and those of files of waivers
 
   /// What the profile says of its own and what its device description shows add up.
   [[nodiscard]] bool claimed(std::string_view feature) const { return claims.contains(feature); }

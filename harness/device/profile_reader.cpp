@@ -145,7 +145,7 @@ class Reader {
     profile_.factory_defaults = fields_.optional("factory_defaults").boolean().value_or(false);
     read_identity();
     read_device_info();
-    read_deviations();
+    profile_.waivers = read_waivers(fields_.optional("known_deviations"));
     fields_.finish();
     return std::move(profile_);
   }
@@ -442,23 +442,6 @@ class Reader {
     }
     std::ranges::sort(info.bit_rates);
     fields.finish();
-  }
-
-  void read_deviations() {
-    for (const Field& item : fields_.optional("known_deviations").items()) {
-      Fields fields = item.fields("known deviation");
-      KnownDeviation deviation;
-      deviation.requirement = fields.required("requirement").text().value_or("");
-      deviation.case_name = fields.optional("case").text().value_or("");
-      deviation.reason = fields.required("reason").text().value_or("");
-      fields.finish();
-      const bool twice = std::ranges::any_of(profile_.deviations, [&](const KnownDeviation& other) {
-        return other.requirement == deviation.requirement && other.case_name == deviation.case_name;
-      });
-      if (twice) item.error(fmt::format("the deviation from {} is listed twice", deviation.requirement));
-      if (!deviation.requirement.empty() && !deviation.reason.empty())
-        profile_.deviations.push_back(std::move(deviation));
-    }
   }
 
   Fields fields_;

@@ -18,7 +18,10 @@ const Channels::Broken* Channels::broken_for(const scenario::Scenario& scenario)
 void Channels::note(const scenario::Scenario& scenario, const result::CaseResult& result) {
   for (const auto channel : scenario.establishes) {
     if (broken_.contains(channel)) continue;
-    const auto failed = std::ranges::find(result.judgements, Verdict::fail, &result::Judgement::verdict);
+    // Waived or not, it cannot be seen through.
+    const auto failed = std::ranges::find_if(result.judgements, [](const result::Judgement& each) {
+      return each.verdict == Verdict::fail || each.verdict == Verdict::waived;
+    });
     if (failed != result.judgements.end()) {
       broken_[channel] = {failed->requirement, result.name()};
     } else if (result.verdict == Verdict::inconclusive && !result.rests_on.empty()) {

@@ -61,6 +61,9 @@ class Run {
     life_.tell_tries();
     judge_monitors();
     life_.tell_losses();
+    out_.waivers = run_.waivers.uses(
+        out_, [this](std::string_view pattern) { return names_a_case(suite_, pattern); },
+        run_.options.strict);
     if (run_.options.measure) {
       const auto& frames = run_.recorder.capture().frames();
       out_.measurements = monitor::measure(frames, facts_of_run(run_.profile), life_.losses());
@@ -199,7 +202,7 @@ class Run {
     }
     result = tries.outcome();
     if (!result.tried.empty()) life_.tried_again(result);
-    accept_known_deviations(run_.profile, run_.catalogue, result);
+    run_.waivers.apply(result);
     return {};
   }
 
@@ -289,7 +292,8 @@ class Run {
     const auto& frames = run_.recorder.capture().frames();
     run_.live.follow(frames);
     conclude_trace(run_.live.watch(), frames,
-                   {run_.monitors, run_.profile, run_.catalogue, run_.options.strict}, life_.losses(), out_);
+                   {run_.monitors, run_.profile, run_.catalogue, run_.waivers, run_.options.strict},
+                   life_.losses(), out_);
     // The preparation is no test of anything, unless only monitors were asked for.
     const auto scenarios = std::span(out_.cases).first(plan_.size());
     const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };

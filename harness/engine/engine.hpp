@@ -19,7 +19,8 @@ namespace conform::engine {
 
 struct RunOptions {
   PlanOptions plan;
-  bool strict = false;   ///< recommended and optional rules fail as well
+  bool strict = false;            ///< recommended and optional rules fail as well
+  std::chrono::sys_days today{};  ///< by which waivers expire; 1970: none does
   bool measure = false;  ///< the result tells times and the load of the bus, for reports that show them
   /// Takes the power of the device away and gives it back, where a scenario wants it, and when the device
   /// does not come back by a reset. Empty: by hand only. Its error is none of the device.

@@ -25,8 +25,8 @@ struct ConcludedCases {
         scenarios(std::span(out.cases).first(out.cases.size() - used.monitors.size())),
         own(std::span(out.cases).last(used.monitors.size())) {}
 
-  void accept_deviations() const {
-    for (auto& each : own) accept_known_deviations(rules.profile, rules.catalogue, each);
+  void apply_waivers() const {
+    for (auto& each : own) rules.waivers.apply(each);
   }
 
   const TraceRules& rules;
@@ -80,7 +80,7 @@ void judge_trace(std::span<const can::CapturedFrame> frames, const TraceRules& r
   const ConcludedCases cases(out, rules);
   monitor::judge(frames, facts, rules.monitors, cap_of(rules.catalogue, rules.strict), losses,
                  cases.scenarios, cases.own);
-  cases.accept_deviations();
+  cases.apply_waivers();
 }
 
 void conclude_trace(monitor::Watch& watch, std::span<const can::CapturedFrame> frames,
@@ -88,7 +88,7 @@ void conclude_trace(monitor::Watch& watch, std::span<const can::CapturedFrame> f
   const ConcludedCases cases(out, rules);
   monitor::conclude(watch, frames, rules.profile.node, rules.monitors, cap_of(rules.catalogue, rules.strict),
                     losses, cases.scenarios, cases.own);
-  cases.accept_deviations();
+  cases.apply_waivers();
 }
 
 void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why) {
@@ -117,25 +117,16 @@ void withdraw_all(std::span<result::CaseResult> monitors, const std::string& why
   }
 }
 
-void accept_known_deviations(const device::Profile& profile, const scenario::Catalogue& catalogue,
-                             result::CaseResult& out) {
-  auto verdict = Verdict::not_applicable;
-  for (auto& judgement : out.judgements) {
-    for (const auto& deviation : profile.deviations) {
-      const auto id = catalogue.canonical(deviation.requirement).value_or(deviation.requirement);
-      if (id != judgement.requirement || judgement.verdict != Verdict::fail) continue;
-      if (!deviation.case_name.empty() && !scenario::matches_pattern(deviation.case_name, out.name()))
-        continue;
-      judgement.verdict = Verdict::warn;
-      judgement.waived = deviation.reason;
-      for (auto& finding : judgement.findings) {
-        if (finding.verdict == Verdict::fail) finding.verdict = Verdict::warn;
-        finding.reason += "; accepted as known deviation: " + deviation.reason;
-      }
-    }
-    verdict = worst(verdict, judgement.verdict);
-  }
-  if (out.verdict == Verdict::fail) out.verdict = verdict;
+bool names_a_case(const scenario::Suite& suite, std::string_view pattern) {
+  // An instance in brackets belongs to a case that there may be on this device.
+  const auto id = pattern.substr(0, pattern.find('['));
+  const auto matches = [id](std::string_view each) { return scenario::matches_pattern(id, each); };
+  const auto holds = [&](const auto& file) {
+    return std::ranges::any_of(file.scenarios, matches, &scenario::Scenario::id);
+  };
+  return std::ranges::any_of(suite.files, holds) ||
+         std::ranges::any_of(monitor::rules(),
+                             [&](const auto& rule) { return matches(monitor::case_id(rule)); });
 }
 
 void describe_requirements(const scenario::Catalogue& catalogue, result::RunResult& out) {

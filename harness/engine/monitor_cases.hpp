@@ -8,9 +8,11 @@
 
 #include "can/capture.hpp"
 #include "device/profile.hpp"
+#include "engine/waivers.hpp"
 #include "monitor/watch.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
+#include "scenario/loader.hpp"
 #include "scenario/selection.hpp"
 
 namespace conform::engine {
@@ -37,6 +39,7 @@ struct TraceRules {
   const Monitors& monitors;
   const device::Profile& profile;
   const scenario::Catalogue& catalogue;
+  Waivers& waivers;
   bool strict = false;
 };
 /// Judges a recorded trace by `facts`: the last cases of `out` are those of the monitors.
@@ -51,9 +54,8 @@ void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& 
 /// Nor does it count what they found.
 void withdraw_all(std::span<result::CaseResult> monitors, const std::string& why);
 
-/// Turns failures that the profile lists as known deviations into warnings.
-void accept_known_deviations(const device::Profile& profile, const scenario::Catalogue& catalogue,
-                             result::CaseResult& out);
+/// Whether a pattern names a scenario or a monitor that there is.
+[[nodiscard]] bool names_a_case(const scenario::Suite& suite, std::string_view pattern);
 
 /// Fills RunResult::requirements with what the cases mention.
 void describe_requirements(const scenario::Catalogue& catalogue, result::RunResult& out);

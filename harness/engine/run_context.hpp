@@ -12,6 +12,7 @@
 #include "engine/monitor_cases.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_session.hpp"
+#include "engine/waivers.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
 
@@ -26,7 +27,8 @@ struct RunContext {
         recorder(transport, wanted.stop),
         session(recorder, profile, device::dictionary_of(profile)),
         monitors(chosen_monitors(options.plan.selection, catalogue)),
-        live(facts_of_run(profile), monitors) {
+        live(facts_of_run(profile), monitors),
+        waivers(profile.waivers, catalogue, options.today) {
     session.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder.set_observer(*options.observer);
     session.allow(options.plan.allowed);
@@ -41,6 +43,7 @@ struct RunContext {
   RunSession session;
   Monitors monitors;  ///< those that are cases of this run
   LiveMonitors live;
+  Waivers waivers;
   result::RunResult out;
   /// The latest reset of the engine itself that ended with a boot-up message.
   struct Reset {

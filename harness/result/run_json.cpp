@@ -121,14 +121,20 @@ void members(Same<Change> auto& it, auto&& see) {
   auto& [object, before, during, put_back] = it;
   see("object", object), see("before", before), see("during", during), see("put_back", put_back);
 }
+void members(Same<WaiverUse> auto& it, auto&& see) {
+  auto& [requirement, case_name, object, reason, owner, ticket, expires, place, cases, state, verdict] = it;
+  see("requirement", requirement), see("case", case_name), see("object", object), see("reason", reason),
+      see("owner", owner), see("ticket", ticket), see("expires", expires), see("place", place),
+      see("cases", cases), see("state", state), see("verdict", verdict);
+}
 void members(Same<RunResult> auto& it, auto&& see) {
   auto& [tool, host, started_utc_ns, elapsed, device, properties, cases, requirements, notes, aborted, signal,
-         unwritten, compared, measurements, load, changes] = it;
+         unwritten, compared, measurements, load, changes, waivers] = it;
   see("tool", tool), see("host", host), see("started", started_utc_ns), see("elapsed", elapsed),
       see("device", device), see("properties", properties), see("cases", cases),
       see("requirements", requirements), see("notes", notes), see("aborted", aborted), see("signal", signal),
       see("unwritten", unwritten), see("compared", compared), see("measurements", measurements),
-      see("load", load), see("changes", changes);
+      see("load", load), see("changes", changes), see("waivers", waivers);
 }
 
 template <typename T>
@@ -188,8 +194,8 @@ void read(const Json& json, T& value) {
   } else if constexpr (std::same_as<T, Verdict>) {
     value = Verdict::error;
     const auto word = json.get<std::string>();
-    for (const auto each : {Verdict::not_applicable, Verdict::pass, Verdict::warn, Verdict::inconclusive,
-                            Verdict::error, Verdict::fail}) {
+    for (const auto each : {Verdict::not_applicable, Verdict::pass, Verdict::waived, Verdict::warn,
+                            Verdict::inconclusive, Verdict::error, Verdict::fail}) {
       if (to_string(each) == word) value = each;
     }
   } else if constexpr (std::same_as<T, can::Direction>) {

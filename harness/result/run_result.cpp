@@ -10,6 +10,7 @@ std::string_view to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::not_applicable: return "not_applicable";
     case Verdict::pass: return "pass";
+    case Verdict::waived: return "waived";
     case Verdict::warn: return "warn";
     case Verdict::inconclusive: return "inconclusive";
     case Verdict::error: return "error";
@@ -22,6 +23,7 @@ void Counts::add(Verdict verdict) {
   switch (verdict) {
     case Verdict::not_applicable: ++not_applicable; break;
     case Verdict::pass: ++pass; break;
+    case Verdict::waived: ++waived; break;
     case Verdict::warn: ++warn; break;
     case Verdict::inconclusive: ++inconclusive; break;
     case Verdict::error: ++error; break;
@@ -55,6 +57,8 @@ int exit_code(const RunResult& run) {
   if (run.signal != 0) return 128 + run.signal;  // the shell's convention: 130 for SIGINT, 143 for SIGTERM
   const Counts counts = run.counts();
   if (counts.fail != 0) return 1;
+  const auto is_wrong = [](const WaiverUse& each) { return each.verdict == Verdict::fail; };
+  if (std::ranges::any_of(run.waivers, is_wrong)) return 1;
   if (counts.error != 0 || counts.inconclusive != 0) return 3;
   // A run that stopped early is never green, and it says so even when nothing had been planned yet.
   if (run.aborted) return 3;
@@ -65,7 +69,7 @@ int exit_code(const RunResult& run) {
   const bool only_monitors = std::ranges::none_of(run.cases, is_scenario);
   const auto is_judged = [&](const CaseResult& one) {
     return (only_monitors || is_scenario(one)) &&
-           (one.verdict == Verdict::pass || one.verdict == Verdict::warn);
+           (one.verdict == Verdict::pass || one.verdict == Verdict::waived || one.verdict == Verdict::warn);
   };
   if (std::ranges::none_of(run.cases, is_judged)) return 2;
   return 0;

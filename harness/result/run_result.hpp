@@ -82,7 +82,7 @@ struct Judgement {
   std::optional<DecidingStep> decided_by{};
   /// Why it is not applicable or inconclusive, where that is not the case's own reason.
   std::string reason{};
-  /// Why this failure is accepted (known_deviations of the profile); its verdict is then `warn`.
+  /// Why this failure is accepted, and by whom; its verdict is then `waived`.
   std::string waived{};
 };
 
@@ -177,10 +177,23 @@ struct Change {
   bool put_back = false;  ///< it holds `before` again
 };
 
+/// A failure that somebody answers for, and what became of it in the run.
+struct WaiverUse {
+  std::string requirement;
+  std::string case_name;          ///< pattern; empty: every case
+  std::optional<Index> object{};  ///< only findings about it
+  std::string reason, owner, ticket;
+  std::string expires;                        ///< "2027-03-31", the last day; empty: for ever
+  std::string place;                          ///< "waivers.yaml:7"
+  std::vector<std::string> cases;             ///< whose failure it covers
+  std::string state{};                        ///< "used", "expired", "not needed any more: ..."
+  Verdict verdict = Verdict::not_applicable;  ///< waived: used; warn: to be looked at; fail: it fails the run
+};
+
 struct Counts {
-  std::size_t pass = 0, warn = 0, fail = 0, inconclusive = 0, not_applicable = 0, error = 0;
+  std::size_t pass = 0, waived = 0, warn = 0, fail = 0, inconclusive = 0, not_applicable = 0, error = 0;
   [[nodiscard]] std::size_t total() const {
-    return pass + warn + fail + inconclusive + not_applicable + error;
+    return pass + waived + warn + fail + inconclusive + not_applicable + error;
   }
   void add(Verdict verdict);  ///< one more of it
 };
@@ -202,10 +215,10 @@ struct RunResult {
   std::vector<Measurement> measurements{};    ///< by kind, then by what they are of
   std::vector<BusLoad> load{};                ///< over the run, in stretches of one length
   std::vector<Change> changes{};              ///< in the order in which they were made, each entry once
+  std::vector<WaiverUse> waivers{};           ///< in the order in which they are written down
 
   [[nodiscard]] Counts counts() const;
-  /// Requirements whose failure the profile accepts, sorted, each once: a run with some does not simply
-  /// conform.
+  /// Requirements whose failure is waived, sorted, each once: a run with some does not simply conform.
   [[nodiscard]] std::vector<std::string> waived() const;
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;
 };

@@ -11,6 +11,7 @@ namespace conform::result {
 enum class Verdict : std::uint8_t {
   not_applicable,  ///< the rule does not concern this device (the reason is given)
   pass,            ///< as the standard names it
+  waived,          ///< the device violates the requirement, and somebody answers for it
   warn,            ///< tolerated, or a recommendation not followed
   inconclusive,    ///< a precondition was not reached, the host was late, frames were lost
   error,           ///< the environment failed, or the case was not run to its end

@@ -38,6 +38,7 @@ struct RunCommand {
   std::string allow;   ///< risk tier; empty: by interface
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> shuffle;  ///< seed of a random order of the cases
+  std::vector<std::string> waivers;      ///< files
   bool strict = false;
   bool all_objects = false;
   bool cct = false;  ///< the cases of CiA's tool, in its order
@@ -60,6 +61,15 @@ struct ReportCommand {
 };
 /// The exit code of the run that the journal tells of.
 [[nodiscard]] int report_command(const ReportCommand& options);
+
+struct WaiveCommand {
+  std::string result;  ///< result.json or journal of the run that failed
+  std::string requirement, case_name, object;
+  std::string reason, owner, ticket, expires;
+  std::string file = "waivers.yaml";  ///< to which the entry is added
+};
+/// 0: it is written; exit_usage: nothing of the run is covered by it, or the file cannot take it.
+[[nodiscard]] int waive_command(const WaiveCommand& options);
 
 struct RecoverCommand {
   std::string journal;    ///< empty: the usual place for interface and node
@@ -95,9 +105,10 @@ struct JudgeCommand {
   std::vector<std::string> exclude;
   std::vector<std::string> suites;
   std::optional<std::uint32_t> node;
-  std::string profile;    ///< device profile file
-  std::string eds;        ///< description of the device
-  std::string interface;  ///< of a capture with several
+  std::string profile;               ///< device profile file
+  std::string eds;                   ///< description of the device
+  std::string interface;             ///< of a capture with several
+  std::vector<std::string> waivers;  ///< files
   bool strict = false;
   bool quiet = false;
   std::string color = "auto";

@@ -33,7 +33,7 @@ int judge_command(const JudgeCommand& options) {
   if (!root) return refuse(root.error());
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return refuse(suites.error());
-  auto known = known_device({options.profile, options.eds, options.node}, std::nullopt);
+  auto known = known_device({options.profile, options.eds, options.node, options.waivers}, std::nullopt);
   if (!known) return refuse(known.error());
   auto content = read_file(options.capture, most_bytes);
   if (!content) return refuse(content.error());

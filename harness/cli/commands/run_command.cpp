@@ -55,7 +55,7 @@ void catch_signals() {
 }
 
 Result<KnownDevice> device_of(const RunCommand& options, const std::string& suites) {
-  DeviceWords words{options.device, options.eds, options.node};
+  DeviceWords words{options.device, options.eds, options.node, options.waivers};
   const bool of_reference_node = options.simulate && words.profile.empty() && words.eds.empty();
   if (of_reference_node) words.profile = suites + "/devices/reference-node.yaml";
   auto known = known_device(words, options.simulate ? std::optional(NodeId(5)) : std::nullopt);
@@ -154,6 +154,7 @@ int run(const RunCommand& options, RunReports& reports) {
 
   engine::RunOptions run_options;
   run_options.strict = options.strict;
+  run_options.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   run_options.measure = !reports.none();
   run_options.stop = &stop_signal;
   constexpr Duration power_limit = std::chrono::seconds(60);

@@ -24,6 +24,7 @@ std::string_view outcome_of(Verdict verdict) {
     case Verdict::fail: return "failed";
     case Verdict::error:
     case Verdict::inconclusive: return "not decided";
+    case Verdict::waived:
     case Verdict::warn: return "warning";
     case Verdict::pass: return "passed";
     case Verdict::not_applicable: break;

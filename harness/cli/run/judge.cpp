@@ -151,10 +151,11 @@ result::RunResult judge(const Recording& recording, const device::Profile& profi
     out.aborted = fmt::format("nothing was heard of node {}{}", profile.node.value(), others_in(frames));
     return out;
   }
+  engine::Waivers waivers(profile.waivers, catalogue, options.today);
   auto facts = engine::facts_of(profile);
   facts.senders_are_known = !recording.directions_inferred;
-  engine::judge_trace(frames, {chosen, profile, catalogue, options.strict}, facts, switches_of_power(frames),
-                      out);
+  engine::judge_trace(frames, {chosen, profile, catalogue, waivers, options.strict}, facts,
+                      switches_of_power(frames), out);
   out.measurements = monitor::measure(frames, facts, switches_of_power(frames));
   out.load = monitor::load_of(frames, 0);
   if (recording.directions_inferred && !answers_in(frames, profile)) {

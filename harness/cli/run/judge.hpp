@@ -2,6 +2,7 @@
 // The monitors over a recorded trace.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,8 @@ struct Recording {
 struct JudgeOptions {
   scenario::Selection selection;
   bool strict = false;
+  /// Today, by which waivers expire.
+  std::chrono::sys_days today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
 };
 [[nodiscard]] result::RunResult judge(const Recording& recording, const device::Profile& profile,
                                       const scenario::Catalogue& catalogue, const JudgeOptions& options);

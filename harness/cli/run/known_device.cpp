@@ -32,6 +32,25 @@ std::vector<std::string> notes_of(const device::Description& description) {
   return out;
 }
 
+Result<void> add_waivers(device::Profile& profile, const std::string& path) {
+  auto document = device::load_waiver_file(path);
+  if (!document) return std::unexpected(document.error());
+  if (document->diagnostics.has_errors())
+    return fail("the file of waivers has mistakes:\n" + document->diagnostics.render(false), path);
+  for (auto& each : document->waivers) profile.waivers.push_back(std::move(each));
+  return {};
+}
+
+Result<void> add_waivers(device::Profile& profile, const DeviceWords& words) {
+  for (const auto& path : words.waivers) {
+    if (auto done = add_waivers(profile, path); !done) return done;
+  }
+  if (words.profile.empty() || !words.waivers.empty()) return {};
+  const auto beside = fs::path(words.profile).parent_path() / "waivers.yaml";
+  std::error_code ignored;
+  return fs::exists(beside, ignored) ? add_waivers(profile, beside.string()) : Result<void>{};
+}
+
 }  // namespace
 
 Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId> fallback) {
@@ -72,6 +91,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     error.where = words.profile + ":" + error.where;
     return std::unexpected(std::move(error));
   }
+  if (auto done = add_waivers(out.profile, words); !done) return std::unexpected(done.error());
   if (words.node) {
     out.profile.node = NodeId(static_cast<std::uint8_t>(*words.node));
   } else if (!node_known) {

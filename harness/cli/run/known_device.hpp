@@ -18,6 +18,8 @@ struct DeviceWords {
   std::string profile;                ///< file; empty: none
   std::string eds;                    ///< file; empty: the one the profile names, if any
   std::optional<std::uint32_t> node;  ///< goes above what the files say
+  /// Files of waivers beside those that the profile lists; empty: waivers.yaml beside the profile, if there.
+  std::vector<std::string> waivers{};
 };
 
 struct KnownDevice {

@@ -407,6 +407,50 @@ class CommandLine(unittest.TestCase):
         waiver = self.own("device.yaml", "format: 1\nname: Mine\nnode: 5\nknown_deviations:\n  - {requirement: MINE-01, reason: later}\n")
         self.assertEqual(run("run", "--simulate", "--suites", self.path("a"), "--device", waiver, "mine").returncode, 0)
 
+    def test_a_failure_is_waived_by_name_until_its_day_and_as_long_as_it_is_needed(self):
+        result, file = self.path("result.json"), self.path("waivers.yaml")
+        device = self.own("device.yaml", "format: 1\nname: Mine\nnode: 5\n")
+        defect = ["run", "--simulate", "--defect", "1003-nonzero-write-accepted", "cia301/dictionary/1003*", "--json", result]
+        self.assertEqual(run(*defect).returncode, 1)
+        waive = ["waive", result, "-r", "OD-1003-06", "--reason", 'firmware "2.1"', "--owner", "drives team", "--ticket", "FW-12",
+                 "--file", file]
+        done = run(*waive, "--expires", "2099-12-31")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("OD-1003-06 waived in ", done.stdout)
+        again = run(*waive)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("OD-1003-06 is waived already", again.stderr)
+        for arguments, words in ((["-r", "OD-1003-99", "--reason", "x"], "failed: OD-1003-06"),
+                                 (["-r", "OD-1003-06", "--reason", "x", "--expires", "2099-02-30"], "is no date"),
+                                 (["-r", "OD-1003-06", "--reason", "x", "--case", "cia301/nmt"], "no failure of the run is covered")):
+            refused = run("waive", result, *arguments, "--file", file)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(words, refused.stderr)
+        # Beside the profile it is found.
+        for how in (["--waivers", file], ["--device", device]):
+            done = run(*defect, *how)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn("OD-1003-06: used (", done.stdout)
+            self.assertIn('FW-12, drives team, until 2099-12-31: firmware "2.1"', done.stdout)
+            self.assertIn("what was judged conforms, but for 1 violated requirement that is waived: OD-1003-06", done.stdout)
+        # Without the fault it is not needed any more, which --strict takes for a mistake.
+        right = ["run", "--simulate", "cia301/dictionary/1003*", "--waivers", file]
+        done = run(*right)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("OD-1003-06: not needed any more", done.stdout)
+        self.assertEqual(run(*right, "--strict").returncode, 1)
+        self.assertEqual(run("run", "--simulate", "cia301/nmt", "--waivers", file, "--strict").returncode, 0)
+        self.own("waivers.yaml", "format: 1\nwaivers:\n  - {requirement: OD-1003-06, reason: old, expires: '2020-01-31'}\n"
+                                 "  - {requirement: OD-9999-01, reason: typo}\n")
+        done = run(*defect, "--waivers", file)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("it was waived until 2020-01-31: old", done.stdout)
+        self.assertIn("OD-9999-01: there is no such requirement", done.stdout)
+        self.own("waivers.yaml", "format: 1\nwaivers:\n  - {requirement: OD-1003-06}\n")
+        done = run(*defect, "--waivers", file)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("waivers.yaml:3:5: error: the waiver needs a key 'reason'", done.stderr)
+
     def test_suites_beside_the_device_profile_are_found(self):
         device = self.own("machine/device.yaml", "format: 1\nname: Mine\nnode: 5\n")
         self.own("machine/suites/requirements/mine.yaml", self.RULE.format("MINE-01"))

@@ -139,7 +139,7 @@ known_deviations:
   CHECK(profile.told("lss") == 0U);
   CHECK_FALSE(profile.told("tpdos").has_value());
   CHECK(profile.device_info.bit_rates == std::vector<std::uint32_t>{125, 500});
-  CHECK(profile.deviations.size() == 2);
+  CHECK(profile.waivers.size() == 2);
 }
 
 TEST_CASE("The dictionary lays the profile over the standard and adds the node-ID") {
@@ -245,7 +245,7 @@ node_id: 3
   CHECK(contains(loaded.messages, "device.yaml:14:5: error: 1017h:00 is listed twice"));
   CHECK(contains(loaded.messages, "the type of 2F00h:01 is not known"));
   CHECK(contains(loaded.messages, "the error trigger needs one of raise or heartbeat"));
-  CHECK(contains(loaded.messages, "the known deviation needs a key 'reason'"));
+  CHECK(contains(loaded.messages, "the waiver needs a key 'reason'"));
   CHECK(contains(loaded.messages, "device.yaml:20:1: error: unknown key 'node_id' in the device profile"));
 }
 

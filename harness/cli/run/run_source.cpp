@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/run_source.hpp"
+
+#include "base/files.hpp"
+#include "journal/reader.hpp"
+#include "reports/result_json.hpp"
+
+namespace conform::cli {
+namespace {
+
+constexpr std::uint64_t largest = std::uint64_t{4} << 30U;
+
+}  // namespace
+
+Result<RunSource> read_run(const std::string& path) {
+  auto text = read_file(path, largest);
+  if (!text) return std::unexpected(text.error());
+  if (reports::is_result_json(*text)) {
+    auto run = reports::read_result_json(*text, path);
+    if (!run) return std::unexpected(run.error());
+    return RunSource{std::move(*run), {}};
+  }
+  auto journal = journal::read(path);
+  if (!journal) return std::unexpected(journal.error());
+  return RunSource{std::move(journal->run), std::move(journal->header.reports)};
+}
+
+}  // namespace conform::cli

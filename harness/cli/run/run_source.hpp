@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run that is over, as a command is given it: its result.json or its journal.
+#pragma once
+
+#include <string>
+
+#include "base/error.hpp"
+#include "journal/writer.hpp"
+#include "result/run_result.hpp"
+
+namespace conform::cli {
+
+struct RunSource {
+  result::RunResult run;
+  journal::ReportPaths reports;  ///< those that the run was asked for; a result does not know them
+};
+
+/// Error: a file that cannot be read, or is neither.
+[[nodiscard]] Result<RunSource> read_run(const std::string& path);
+
+}  // namespace conform::cli
