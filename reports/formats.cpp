@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/annotations.hpp"
+#include "reports/badge.hpp"
 #include "reports/console.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
+#include "reports/requirements_csv.hpp"
 #include "reports/result_json.hpp"
+#include "reports/tap.hpp"
 
 namespace conform::reports {
 namespace {
@@ -23,11 +27,24 @@ std::string write_json(const result::RunResult& run, const can::Capture& /*captu
   return result_json(run);
 }
 
+std::string write_csv(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return requirements_csv(run);
+}
+std::string write_tap(const result::RunResult& run, const can::Capture& /*capture*/) { return tap(run); }
+std::string write_code_quality(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return code_quality(run);
+}
+std::string write_badge(const result::RunResult& run, const can::Capture& /*capture*/) { return badge(run); }
+
 // A table and not self-registration: the linker drops registrars from static libraries.
-constexpr std::array<Format, 4> table{{
+constexpr std::array<Format, 8> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
     {"json", "everything that was found, for other programs and for 'report' later", ".json", write_json},
     {"markdown", "short report for pull requests and job summaries", ".md", write_markdown},
+    {"csv", "a row for each requirement, with its verdict and what decided it", ".csv", write_csv},
+    {"tap", "Test Anything Protocol, a line for each case", ".tap", write_tap},
+    {"code-quality", "GitLab's code quality report: an issue for each cause", ".json", write_code_quality},
+    {"badge", "picture for a page: how many of the judged requirements passed", ".svg", write_badge},
     {"text", "the summary of the terminal, without colours", ".txt", write_text},
 }};
 

@@ -148,6 +148,7 @@ int dispatch(int argc, char** argv) {
                    "The cases in a random order, drawn by this seed: no verdict may depend on it")
       ->type_name("NUMBER")
       ->excludes(cct);
+  run_sub->add_flag("--annotate", run.annotate, "Print the causes as annotations for GitHub Actions, too");
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
       ->type_name("NUMBER");

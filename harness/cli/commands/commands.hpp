@@ -44,6 +44,7 @@ struct RunCommand {
   bool cct = false;  ///< the cases of CiA's tool, in its order
   bool slow = false;
   bool dry_run = false;
+  bool annotate = false;  ///< workflow commands of GitHub Actions
   bool quiet = false;
   std::string color = "auto";  ///< auto, always, never
   Reports reports;

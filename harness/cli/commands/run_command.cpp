@@ -28,6 +28,7 @@
 #include "cli/suite_folder.hpp"
 #include "engine/monitor_cases.hpp"
 #include "node/node.hpp"
+#include "reports/annotations.hpp"
 #include "reports/console.hpp"
 
 namespace conform::cli {
@@ -324,6 +325,7 @@ int run(const RunCommand& options, RunReports& reports) {
   reports.write(run, capture, info);
   if (journal) journal->reported();
   print(reports::summary(run, style));
+  if (options.annotate) print(reports::github_annotations(run));
   std::fflush(stdout);
   return result::exit_code(run);
 }

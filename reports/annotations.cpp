@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/annotations.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/text.hpp"
+#include "reports/cause_lines.hpp"
+#include "reports/phrases.hpp"
+#include "reports/text_tools.hpp"
+#include "result/causes.hpp"
+
+namespace conform::reports {
+namespace {
+
+using result::Cause;
+using result::Verdict;
+
+struct Place {
+  std::string file;
+  int line = 1;
+};
+
+/// The line of the device description that claims what is not so, for that is the user's own file; else the
+/// step that judged.
+Place place_of(const Cause& cause) {
+  const auto& finding = *cause.primary.finding;
+  const auto colon = finding.declared_at.rfind(':');
+  if (colon != std::string::npos) {
+    int line = 0;
+    const auto digits = std::string_view(finding.declared_at).substr(colon + 1);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), line);
+    if (error == std::errc{} && end == digits.data() + digits.size() && line > 0)
+      return {finding.declared_at.substr(0, colon), line};
+  }
+  const auto& position = finding.position.file.empty() ? cause.primary.owner->position : finding.position;
+  return {position.file.empty() ? "canopen-conform" : position.file, std::max(position.line, 1)};
+}
+
+std::string message_of(const Cause& cause) {
+  const auto& finding = *cause.primary.finding;
+  return fmt::format("{}: {} ({})", log_safe(finding.requirement), headline(finding), extent(cause));
+}
+
+/// FNV-1a: short, and the same on every machine and in every version.
+std::string fingerprint(const Cause& cause) {
+  std::uint64_t hash = 0xCBF29CE484222325U;
+  const auto add = [&hash](std::string_view text) {
+    for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001B3U;
+    hash = (hash ^ 0xFFU) * 0x100000001B3U;
+  };
+  const auto& finding = *cause.primary.finding;
+  add(finding.requirement);
+  add(cause.about);
+  add(finding.object ? to_string(*finding.object) : "");
+  return fmt::format("{:016x}", hash);
+}
+
+std::string command_text(std::string_view text, bool property) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '%')
+      out += "%25";
+    else if (property && c == ':')
+      out += "%3A";
+    else if (property && c == ',')
+      out += "%2C";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string code_quality(const result::RunResult& run) {
+  auto issues = nlohmann::json::array();
+  for (const auto& cause : result::causes_of(run)) {
+    const auto place = place_of(cause);
+    issues.push_back({{"description", message_of(cause)},
+                      {"check_name", log_safe(cause.primary.finding->requirement)},
+                      {"fingerprint", fingerprint(cause)},
+                      {"severity", cause.verdict == Verdict::fail ? "major" : "minor"},
+                      {"location", {{"path", printable(place.file)}, {"lines", {{"begin", place.line}}}}}});
+  }
+  return issues.dump(2) + "\n";
+}
+
+std::string github_annotations(const result::RunResult& run) {
+  std::string out;
+  for (const auto& cause : result::causes_of(run)) {
+    const auto place = place_of(cause);
+    out += fmt::format("::{} file={},line={},title={}::{}\n",
+                       cause.verdict == Verdict::fail ? "error" : "warning",
+                       command_text(printable(place.file), true), place.line,
+                       command_text(log_safe(cause.primary.finding->requirement), true),
+                       command_text(message_of(cause), false));
+  }
+  return out;
+}
+
+}  // namespace conform::reports
