@@ -69,7 +69,7 @@ std::string tap(const RunResult& run) {
       case Verdict::not_applicable: out += line("ok") + " # SKIP " + escaped(prose(one.reason)) + "\n"; break;
       case Verdict::waived:
         out +=
-            line("not ok") + " # TODO waived: " + escaped(prose(waived_reason(one))) + "\n" + diagnosis(one);
+            line("not ok") + " # todo waived: " + escaped(prose(waived_reason(one))) + "\n" + diagnosis(one);
         break;
       case Verdict::fail:
       case Verdict::inconclusive:

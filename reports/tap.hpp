@@ -8,9 +8,9 @@
 
 namespace conform::reports {
 
-/// fail, error, inconclusive and not run: `not ok`; waived: `not ok ... # TODO`, which does not fail; not
-/// applicable: `ok ... # SKIP`; a warning: `ok` with a comment. A run that stopped early ends with `Bail
-/// out!`.
+/// fail, error, inconclusive and not run: `not ok`; waived: `not ok ... # todo` (directives know no case),
+/// which does not fail; not applicable: `ok ... # SKIP`; a warning: `ok` with a comment. A run that stopped
+/// early ends with `Bail out!`.
 [[nodiscard]] std::string tap(const result::RunResult& run);
 
 }  // namespace conform::reports

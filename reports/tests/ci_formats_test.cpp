@@ -70,7 +70,7 @@ TEST_CASE("TAP has a line for each case, and its directives cannot be forged") {
   CHECK(count(tap(forged), "\nok ") == 0);
   auto waived = small_run(Verdict::waived);
   waived.cases[0].judgements[0].waived = "later";
-  CHECK(contains(tap(waived), "not ok 1 - a # TODO waived: later\n"));
+  CHECK(contains(tap(waived), "not ok 1 - a # todo waived: later\n"));
   CHECK(contains(tap(testing::aborted_run()), "\nBail out! "));
 }
 
