@@ -5,6 +5,7 @@
 #include <array>
 
 #include "reports/console.hpp"
+#include "reports/html/html.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
 #include "reports/result_json.hpp"
@@ -23,9 +24,15 @@ std::string write_json(const result::RunResult& run, const can::Capture& /*captu
   return result_json(run);
 }
 
+std::string write_html(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return html_report(run);
+}
+
 // A table and not self-registration: the linker drops registrars from static libraries.
-constexpr std::array<Format, 4> table{{
+constexpr std::array<Format, 5> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
+    {"html", "report for people in one file: opens from an e-mail, prints, works offline", ".html",
+     write_html},
     {"json", "everything that was found, for other programs and for 'report' later", ".json", write_json},
     {"markdown", "short report for pull requests and job summaries", ".md", write_markdown},
     {"text", "the summary of the terminal, without colours", ".txt", write_text},
