@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
 #include "reports/html/markup.hpp"
+#include "reports/html/outcomes.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
 
 namespace conform::reports::html {
-namespace {
 
-/// The class whose shape an outcome of the other tool is shown with.
-std::string_view kind_of(std::string_view outcome) {
-  struct Row {
-    std::string_view outcome, kind;
-  };
-  constexpr std::array rows{Row{"passed", "pass"}, Row{"warning", "warn"}, Row{"failed", "fail"},
-                            Row{"not decided", "inconclusive"}};
-  for (const auto& row : rows) {
-    if (row.outcome == outcome) return row.kind;
-  }
-  return "na";
+std::span<const std::string_view> outcomes_of_the_other_tool() {
+  static constexpr std::array<std::string_view, 6> all{"failed", "warning", "not decided",
+                                                       "passed", "skipped", "no counterpart"};
+  return all;
 }
+
+std::string outcome_badge(std::string_view outcome) {
+  constexpr std::array<std::string_view, 4> kinds{"fail", "warn", "inconclusive", "pass"};
+  const auto all = outcomes_of_the_other_tool();
+  const auto at = static_cast<std::size_t>(std::ranges::find(all, outcome) - all.begin());
+  return badge(at < kinds.size() ? kinds.at(at) : "na", outcome);
+}
+
+namespace {
 
 /// The cases here that it rests on; of many the first ones, and the rest to unfold.
 std::string cases_of(const Book& book, const result::ComparedCase& one) {
@@ -40,10 +43,9 @@ std::string compared_section(const Book& book) {
   if (compared.empty()) return {};
   std::string rows;
   for (const auto& each : compared) {
-    rows +=
-        fmt::format("<tr><td>{}</td><td>{}</td><td>{}: {}{}{}</td><td>{}</td></tr>\n", text(each.number),
-                    badge(kind_of(each.outcome), each.outcome), sentence(each.group), sentence(each.title),
-                    each.because.empty() ? "" : "<br/>", sentence(each.because), cases_of(book, each));
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}: {}{}{}</td><td>{}</td></tr>\n", text(each.number),
+                        outcome_badge(each.outcome), sentence(each.group), sentence(each.title),
+                        each.because.empty() ? "" : "<br/>", sentence(each.because), cases_of(book, each));
   }
   return fmt::format(
       "<section id=\"compared\" aria-labelledby=\"compared-title\">\n<h2 id=\"compared-title\">What CiA's tool would say"

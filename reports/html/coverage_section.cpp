@@ -60,12 +60,13 @@ std::string table(const Book& book) {
     if (!loud) ++quiet_count;
   }
   std::string out(head);
-  out += fmt::format("<tbody>{}</tbody>\n<tbody class=\"rest\">\n{}</tbody>\n",
+  out += fmt::format("<tbody class=\"all\">{}</tbody>\n<tbody class=\"rest\">\n{}</tbody>\n",
                      row(sum(rows), book.run().waived().size(), "all", "th"), open);
   out += "</table></div>\n";
   if (quiet_count > 0)
-    out += folded(fmt::format("{} more without any deviation", counted(quiet_count, "area")),
-                  fmt::format("{}<tbody>{}</tbody></table></div>\n", head, quiet));
+    out += folded(
+        fmt::format("{} more {} without any deviation", quiet_count, quiet_count == 1 ? "area" : "areas"),
+        fmt::format("{}<tbody>{}</tbody></table></div>\n", head, quiet));
   return out;
 }
 
@@ -98,12 +99,18 @@ std::string reasons(const Book& book) {
   if (groups.empty()) return {};
   std::ranges::stable_sort(groups, std::greater{},
                            [](const ReasonGroup& group) { return group.cases.size(); });
-  std::string items;
-  for (const auto& group : groups)
-    items += folded(fmt::format("<b>{}</b>: {}{}", counted(group.cases.size(), "case"),
-                                clipped(prose(group.reason), 500), group.varies ? ", and the like" : ""),
-                    book.case_list(group.cases));
-  return fmt::format("<h3>Not applicable, and why</h3>\n<div class=\"folds\">\n{}</div>\n", items);
+  // Reasons of one case each can be many.
+  constexpr std::size_t shown = 12;
+  std::string first, rest;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const auto& group = groups[i];
+    (i < shown ? first : rest) +=
+        folded(fmt::format("<b>{}</b>: {}{}", counted(group.cases.size(), "case"),
+                           clipped(prose(group.reason), 500), group.varies ? ", and the like" : ""),
+               book.case_list(group.cases));
+  }
+  if (!rest.empty()) first += folded(fmt::format("and {} more reasons", groups.size() - shown), rest);
+  return fmt::format("<h3>Not applicable, and why</h3>\n<div class=\"folds\">\n{}</div>\n", first);
 }
 
 }  // namespace

@@ -47,8 +47,10 @@ std::string filter_bar(const result::RunResult& run) {
                                Choice{"pass", "pass", &result::Counts::pass},
                                Choice{"na", "not applicable", &result::Counts::not_applicable}};
   const auto counts = run.counts();
+  const auto requirements = sum(tally_by_area(run)).counts;
   std::string boxes;
   for (const auto& choice : choices) {
+    if (counts.*choice.count + requirements.*choice.count == 0) continue;
     boxes += fmt::format(
         "<label><input type=\"checkbox\" name=\"v\" value=\"{}\"/>{}<span class=\"n\">{}</span></label>\n",
         choice.kind, badge(choice.kind, choice.words), counts.*choice.count);

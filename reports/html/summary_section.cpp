@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
 #include "reports/html/bar.hpp"
 #include "reports/html/markup.hpp"
+#include "reports/html/outcomes.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
@@ -136,16 +136,35 @@ std::string causes_list(const Book& book) {
       items);
 }
 
-/// One line for what has a section of its own.
-std::string compared_line(const Book& book) {
+/// The outcomes of the other tool counted, and where they are told one by one.
+std::string compared_panel(const Book& book) {
   const auto& compared = book.run().compared;
   if (compared.empty()) return {};
-  std::map<std::string, std::size_t> tally;
-  for (const auto& each : compared) ++tally[each.outcome];
   std::string counts;
-  for (const auto& [outcome, number] : tally)
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", number, text(outcome));
-  return fmt::format("<p>{}: {}.</p>\n", link("compared", "What CiA's tool would say"), counts);
+  for (const std::string_view outcome : outcomes_of_the_other_tool()) {
+    const auto number = std::ranges::count(compared, outcome, &result::ComparedCase::outcome);
+    if (number > 0) counts += fmt::format("<li><b>{}</b> {}</li>\n", number, outcome_badge(outcome));
+  }
+  return fmt::format("<div class=\"panel\">\n<h2>{}</h2>\n<ul class=\"counts\">\n{}</ul>\n</div>\n",
+                     link("compared", "What CiA's tool would say"), counts);
+}
+
+/// What would have more judged, the most rewarding first.
+std::string wants_panel(const RunResult& run) {
+  const auto wants = tally_wants(run);
+  const auto counts = run.counts();
+  if (counts.not_applicable == 0) return {};
+  constexpr std::size_t shown = 4;
+  std::string items;
+  for (std::size_t i = 0; i < std::min(wants.size(), shown); ++i)
+    items += fmt::format("<li><b>{}</b>: {}</li>\n", counted(wants[i].cases, "case"),
+                         clipped(prose(wants[i].want.text), 200));
+  if (wants.size() > shown) items += fmt::format("<li>and {} more</li>\n", wants.size() - shown);
+  const auto title = items.empty()
+                         ? fmt::format("{} not applicable, and why", counted(counts.not_applicable, "case"))
+                         : std::string("What to give to have more judged");
+  return fmt::format("<div class=\"panel\">\n<h2>{}</h2>\n{}</div>\n", link("coverage", title),
+                     items.empty() ? items : fmt::format("<ul class=\"list\">\n{}</ul>\n", items));
 }
 
 }  // namespace
@@ -155,11 +174,11 @@ std::string summary_section(const Book& book) {
   std::string out =
       fmt::format("<section id=\"summary\" aria-labelledby=\"title\">\n<h1 id=\"title\">{}</h1>\n",
                   run.device.empty() ? "CANopen conformance" : clipped(prose(run.device), 200));
-  out += "<div class=\"first\">\n<div>\n" + verdict_card(book) + causes_list(book) + "</div>\n";
+  out += "<div class=\"first\">\n<div>\n" + verdict_card(book) + causes_list(book) + compared_panel(book) +
+         wants_panel(run) + "</div>\n";
   out += fmt::format(
       "<div class=\"panel tested\">\n<h2>What was tested</h2>\n<dl class=\"facts\">\n{}</dl>\n</div>\n</div>\n",
       facts(run));
-  out += compared_line(book);
   if (!run.notes.empty() || !run.unwritten.empty()) {
     out += "<ul class=\"notes\">\n";
     for (const auto& note : run.notes) out += fmt::format("<li>{}</li>\n", clipped(prose(note), 1000));
