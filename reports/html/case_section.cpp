@@ -122,11 +122,12 @@ std::string case_section(const Book& book) {
   }
   std::string out;
   for (const auto& [suite, members] : suites) {
-    out += fmt::format(
-        "<div class=\"group\">\n<h3>{} <span class=\"quiet\">{}</span></h3>\n<ul class=\"rows\">\n",
-        suite.empty() ? "(no suite)" : clipped(suite, text_limit), counted(members.size(), "case"));
-    for (const auto* one : members) out += row(book, *one);
-    out += "</ul>\n</div>\n";
+    out += fmt::format("<div class=\"group\">\n<h3>{} <span class=\"quiet\">{}</span></h3>\n",
+                       suite.empty() ? "(no suite)" : clipped(suite, text_limit),
+                       counted(members.size(), "case"));
+    std::vector<std::string> rows;
+    for (const auto* one : members) rows.push_back(row(book, *one));
+    out += row_lists("cases", rows) + "</div>\n";
   }
   return fmt::format(
       "<section id=\"cases\" aria-labelledby=\"cases-title\">\n<h2 id=\"cases-title\">Cases</h2>\n{}</section>\n",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/html/markup.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -57,6 +58,20 @@ std::string link(std::string_view target, std::string_view content) {
 
 std::string folded(std::string_view summary, std::string_view content) {
   return fmt::format("<details><summary>{}</summary>\n{}</details>\n", summary, content);
+}
+
+std::string row_lists(std::string_view kind, const std::vector<std::string>& rows) {
+  constexpr std::size_t size = 40;
+  constexpr std::size_t few = 10;
+  std::string out;
+  for (std::size_t from = 0; from < rows.size(); from += size) {
+    const std::size_t to = std::min(from + size, rows.size());
+    // The class lets the style guess the height before it is known.
+    out += fmt::format("<ul class=\"rows {}{}\">\n", kind, to - from <= few ? " few" : "");
+    for (std::size_t i = from; i < to; ++i) out += rows[i];
+    out += "</ul>\n";
+  }
+  return out;
 }
 
 std::string fact(std::string_view label, std::string_view value) {

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "result/run_result.hpp"
 
@@ -31,6 +32,9 @@ namespace conform::reports::html {
 [[nodiscard]] std::string link(std::string_view target, std::string_view content);
 /// Something to unfold: the summary and what is behind it, both markup.
 [[nodiscard]] std::string folded(std::string_view summary, std::string_view content);
+/// <li> elements as lists of a size that a browser lays out at once when it comes into view: thousands of
+/// elements of which each waits for that by itself take it seconds to hide.
+[[nodiscard]] std::string row_lists(std::string_view kind, const std::vector<std::string>& rows);
 /// One line of a list of facts: <dt>label</dt><dd>value</dd>, both markup; nothing where there is no value.
 [[nodiscard]] std::string fact(std::string_view label, std::string_view value);
 

@@ -24,7 +24,9 @@
   all("#causes article").forEach(function (e) { kinds.cause.push({ element: e }); });
   all("#requirements li[data-v]").forEach(function (e) { kinds.requirement.push({ element: e }); });
   all("#cases li[data-v]").forEach(function (e) { kinds["case"].push({ element: e }); });
-  var groups = all("#requirements .group, #cases .group");
+  // Lists first: a group is empty when its lists are.
+  var groups = all("#requirements .rows, #cases .rows").concat(all("#requirements .group, #cases .group"));
+  var few = 400;
 
   function textOf(entry) {
     if (entry.text === undefined) {
@@ -43,7 +45,7 @@
   }
   function apply() {
     var want = wanted();
-    var counts = [];
+    var counts = [], rows = 0;
     ["case", "requirement", "cause"].forEach(function (kind) {
       var visible = 0;
       kinds[kind].forEach(function (entry) {
@@ -52,9 +54,12 @@
         hide(entry.element, !fits);
         if (fits) visible += 1;
       });
+      rows += visible;
       var total = kinds[kind].length;
       if (total) counts.push(visible + " of " + total + " " + kind + (total === 1 ? "" : "s"));
     });
+    // So many are laid out at once: the page then has its true length.
+    document.querySelector("main").classList.toggle("narrowed", rows < few);
     groups.forEach(function (group) { hide(group, !group.querySelector("li[data-v]:not([hidden])")); });
     var active = want.words.length || want.verdicts.length;
     shown.textContent = active ? counts.join(", ") : "";

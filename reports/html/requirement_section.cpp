@@ -45,13 +45,13 @@ std::string requirement_section(const Book& book) {
   };
   std::string out;
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    out +=
-        fmt::format("<div class=\"group\">\n<h3 id=\"area-{}\">{}</h3>\n<ul class=\"rows requirements\">\n",
-                    i + 1, clipped(prose(areas[i].area), 200));
+    out += fmt::format("<div class=\"group\">\n<h3 id=\"area-{}\">{}</h3>\n", i + 1,
+                       clipped(prose(areas[i].area), 200));
+    std::vector<std::string> rows;
     for (const auto& one : book.requirements()) {
-      if (area_of(one.id) == areas[i].area) out += one_requirement(book, one);
+      if (area_of(one.id) == areas[i].area) rows.push_back(one_requirement(book, one));
     }
-    out += "</ul>\n</div>\n";
+    out += row_lists("requirements", rows) + "</div>\n";
   }
   return fmt::format(
       "<section id=\"requirements\" aria-labelledby=\"requirements-title\">\n<h2 id=\"requirements-title\">"

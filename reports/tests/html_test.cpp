@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -214,6 +215,24 @@ TEST_CASE("A run on virtual time is called a simulation and given no date") {
   const std::string page = html_report(testing::sample_run());
   CHECK(contains(page, "simulation, on virtual time"));
   CHECK_FALSE(contains(page, "1970"));
+}
+
+TEST_CASE("A page of 5000 cases stays small enough for an e-mail") {
+  RunResult run = testing::sample_run();
+  const auto cases = run.cases;
+  while (run.cases.size() < 5000) {
+    // Nine of ten pass, as in a run against a device that is nearly right.
+    const auto i = run.cases.size();
+    auto one = i % 10 == 0 ? cases[i / 10 % cases.size()] : cases[0];
+    one.instance = fmt::format("{}", i);
+    if (!one.judgements.empty() && i % 10 != 0)
+      one.judgements[0].decided_by = result::DecidingStep{one.position, "upload 1000h:00", "00020192h", i};
+    run.cases.push_back(std::move(one));
+  }
+  const auto page = html_report(run);
+  CHECK(page.size() < 6'000'000);
+  // Read by the test in a browser.
+  std::ofstream(CONFORM_BINARY_DIR "/report-5000.html", std::ios::binary) << page;
 }
 
 TEST_CASE("An axis marks round values, also of a range of nothing") {
