@@ -56,7 +56,7 @@ std::string axes(const Axis& x, const Axis& y, double to, std::string_view unit)
     lines += fmt::format("M{} {}v4", coordinate(x.at(tick)), bottom);
     words += label(x.at(tick), bottom + 17, "t", fmt::format("{:g}", tick));
   }
-  words += label(4, top + 6, "t start", unit) + label(left - 6, bottom + 17, "t end", "s");
+  words += label(4, top + 6, "t start", unit) + label(4, bottom + 17, "t start", "s");
   return fmt::format("<path class=\"grid\" d=\"{}\"/><path class=\"axis\" d=\"{}\"/>{}\n", grid, lines,
                      words);
 }
@@ -87,7 +87,7 @@ std::string limit_lines(const Limits& limits, const Axis& y, double highest) {
     if (!value || ms(*value) > highest) continue;
     const double at = y.at(ms(*value));
     out += fmt::format("<path class=\"{}\" d=\"M{} {}H{}\"/>{}", name == "nominal" ? "nominal" : "limit",
-                       left, coordinate(at), right, label(strip_right - 2, at - 3, "t end", name));
+                       left, coordinate(at), right, label(right, at - 4, "t end halo", name));
   }
   return out;
 }
