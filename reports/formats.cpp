@@ -7,6 +7,7 @@
 #include "reports/annotations.hpp"
 #include "reports/badge.hpp"
 #include "reports/console.hpp"
+#include "reports/html/html.hpp"
 #include "reports/junit.hpp"
 #include "reports/markdown.hpp"
 #include "reports/requirements_csv.hpp"
@@ -35,10 +36,15 @@ std::string write_code_quality(const result::RunResult& run, const can::Capture&
   return code_quality(run);
 }
 std::string write_badge(const result::RunResult& run, const can::Capture& /*capture*/) { return badge(run); }
+std::string write_html(const result::RunResult& run, const can::Capture& /*capture*/) {
+  return html_report(run);
+}
 
 // A table and not self-registration: the linker drops registrars from static libraries.
-constexpr std::array<Format, 8> table{{
+constexpr std::array<Format, 9> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
+    {"html", "report for people in one file: opens from an e-mail, prints, works offline", ".html",
+     write_html},
     {"json", "everything that was found, for other programs and for 'report' later", ".json", write_json},
     {"markdown", "short report for pull requests and job summaries", ".md", write_markdown},
     {"csv", "a row for each requirement, with its verdict and what decided it", ".csv", write_csv},

@@ -144,6 +144,11 @@ class Documents(unittest.TestCase):
         rest = ON_BUS.sub(lambda found: "--simulate" if found[2] else found[0], line.split(" #")[0])
         return self.succeeds(place, rest if "--simulate" in rest else rest + " --simulate", (0, 1, 3))
 
+    def accepts_waivers(self, block):
+        with open(f"{self.folder}/shown-waivers.yaml", "w", encoding="utf-8") as file:
+            file.write(block.text)
+        self.succeeds(block, "canopen-conform run --simulate cia301/dictionary/1003* --waivers shown-waivers.yaml")
+
     def run_steps(self, block):
         names = ", ".join(name.replace("=", ": ") for name in block.says.split())
         lines = block.text.splitlines()
@@ -205,6 +210,8 @@ class Documents(unittest.TestCase):
                     self.compare(block)
                 elif block.key == "shown" and block.kind in ("", "text") and block.says:
                     pass
+                elif block.key == "shown" and block.kind == "yaml" and "\nwaivers:" in block.text:
+                    self.accepts_waivers(block)
                 elif block.kind == "sh":
                     typed += self.run_commands(block)
                 else:

@@ -80,7 +80,7 @@ class Schema(unittest.TestCase):
                 if not re.search("^format: 1$", block, re.MULTILINE):
                     continue
                 found += 1
-                kind = next((name for key, name in (("scenarios", "scenario"), ("requirements", "requirement"))
+                kind = next((name for key, name in (("scenarios", "scenario"), ("requirements", "requirement"), ("waivers", "waivers"))
                              if re.search(f"^{key}:", block, re.MULTILINE)), "device")
                 with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
                     file.write(block)
@@ -201,12 +201,14 @@ class Documents(unittest.TestCase):
 
     def test_the_schema_of_the_profile_has_the_keys_that_the_program_reads(self):
         device = json.loads((SUITES / "schema/device.schema.json").read_text(encoding="utf-8"))
-        reader = (ROOT / "harness/device/profile_reader.cpp").read_text(encoding="utf-8")
+        reader = "".join((ROOT / "harness/device" / name).read_text(encoding="utf-8") for name in ("profile_reader.cpp", "waiver.cpp"))
         table = (ROOT / "harness/device/profile.cpp").read_text(encoding="utf-8")
         read = set(re.findall(r'(?:required|optional|has|read_entries|number)\("([a-z_]+)"\)', reader))
         read |= set(re.findall(r'exactly_one_of\(\{"([a-z_]+)"', reader))
         read |= set(re.findall(r'\{"([a-z_]+)", "T_[A-Z]+"', table))
-        self.assertEqual(read, keys_of(device))
+        waivers = json.loads((SUITES / "schema/waivers.schema.json").read_text(encoding="utf-8"))
+        self.assertEqual(read, keys_of(device) | {"waivers"})
+        self.assertEqual(waivers["properties"]["waivers"]["items"], device["properties"]["known_deviations"]["items"])
 
 
 def keys_of(schema_part):

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/html/card.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "reports/html/markup.hpp"
+#include "reports/html/timeline.hpp"
+#include "reports/text_tools.hpp"
+
+namespace conform::reports::html {
+namespace {
+
+using result::CaseResult;
+using result::Finding;
+using result::RunResult;
+using result::Verdict;
+
+constexpr std::size_t value_limit = 2000;
+
+std::string value_of(const RunResult& run, std::string_view name) {
+  const auto found = std::ranges::find(run.properties, name, &result::Property::name);
+  return found == run.properties.end() ? std::string() : found->value;
+}
+
+/// A word of a command line of a POSIX shell.
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_./:=").find(c) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : printable(word)) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string values(const std::vector<std::string>& all) {
+  std::string out;
+  for (const auto& each : all) out += fmt::format("<li>{}</li>\n", clipped(each, value_limit));
+  return out.empty() ? out : fmt::format("<ul class=\"values\">\n{}</ul>\n", out);
+}
+
+/// Where one text was expected and a similar one came: the part of it that differs, marked.
+std::string actual_text(const Finding& finding) {
+  const std::string came = clip(printable(finding.actual), value_limit);
+  const std::string wanted = finding.accepts.size() == 1 ? printable(finding.accepts.front()) : std::string();
+  // Of "unchanged: "abc"" only the quoted part is a value.
+  const auto from = wanted.find('"');
+  if (from == std::string::npos || !came.starts_with('"')) return text(came);
+  const std::string_view value = std::string_view(wanted).substr(from);
+  std::size_t begin = 0;
+  while (begin < std::min(came.size(), value.size()) && came[begin] == value[begin]) ++begin;
+  std::size_t end = 0;
+  while (end < std::min(came.size(), value.size()) - begin &&
+         came[came.size() - 1 - end] == value[value.size() - 1 - end])
+    ++end;
+  // Only whole characters are cut out.
+  while (begin > 0 && begin < came.size() && is_utf8_continuation(came[begin])) --begin;
+  while (end > 0 && is_utf8_continuation(came[came.size() - end])) --end;
+  if (begin + end < 4 || begin + end >= came.size()) return text(came);
+  const std::string_view view = came;
+  return fmt::format("{}<mark>{}</mark>{}", text(view.substr(0, begin)),
+                     text(view.substr(begin, came.size() - begin - end)),
+                     text(view.substr(came.size() - end)));
+}
+
+std::string grades(const Finding& finding) {
+  std::string expected;
+  if (!finding.accepts.empty()) expected += "<h5>passes</h5>\n" + values(finding.accepts);
+  if (!finding.tolerates.empty()) expected += "<h5>tolerated</h5>\n" + values(finding.tolerates);
+  if (!expected.empty())
+    expected += fmt::format("<p class=\"quiet\">{}</p>\n",
+                            finding.requirement.empty() ? "Otherwise the case cannot judge what it is about."
+                                                        : "Everything else fails.");
+  std::string came = fmt::format("<p class=\"came\">{}</p>\n", actual_text(finding));
+  if (!finding.actual_bytes.empty()) {
+    came += "<pre>";
+    for (const auto& row : byte_rows(finding.actual_bytes)) came += text(row) + "\n";
+    came += "</pre>\n";
+  }
+  return fmt::format("<div class=\"versus\"><div class=\"expected\"><h4>Expected</h4>\n{}</div>"
+                     "<div class=\"actual\"><h4>Actual</h4>\n{}</div></div>\n",
+                     expected.empty() ? "<p class=\"quiet\">see the rule</p>\n" : expected, came);
+}
+
+std::string rule(const Book& book, const Finding& finding) {
+  if (finding.requirement.empty()) return "none: this step only prepares the case";
+  const auto* info = book.run().requirement(finding.requirement);
+  std::string out = fmt::format("<b>{}</b>", book.requirement_link(finding.requirement));
+  if (info == nullptr) return out;
+  if (!info->clause.empty()) out += ", " + sentence(info->clause);
+  if (!info->level.empty()) out += fmt::format(" ({})", sentence(info->level));
+  return out + "<br/>" + sentence(info->statement);
+}
+
+}  // namespace
+
+std::string repeat_command(const RunResult& run, const CaseResult& one, const std::string& during,
+                           const std::string& requirement) {
+  std::string out = "canopen-conform run";
+  const std::string interface = value_of(run, "can.interface");
+  if (run.started_utc_ns == 0 && (interface.empty() || interface == "simulated")) {
+    out += " --simulate";
+    for (const char* kind : {"defect", "variant"}) {
+      const std::string list = value_of(run, fmt::format("simulation.{}s", kind));
+      for (const auto word : split(list, ' ')) {
+        if (!word.empty()) out += fmt::format(" --{} {}", kind, quoted(std::string(word)));
+      }
+    }
+  } else {
+    if (!interface.empty()) out += " -i " + quoted(interface);
+    if (const auto node = value_of(run, "dut.node_id"); !node.empty()) out += " -n " + quoted(node);
+  }
+  if (const auto description = value_of(run, "dut.description"); !description.empty())
+    out += " --eds " + quoted(description);
+  if (const auto allowed = value_of(run, "run.allowed"); !allowed.empty())
+    out += " --allow " + quoted(allowed);
+  if (const auto seed = value_of(run, "run.seed"); !seed.empty()) out += " --seed " + quoted(seed);
+  if (one.suite != "monitor") return out + " " + quoted(one.name());
+  // A monitor is no case of its own: it judges whatever goes on, also before the first case.
+  if (std::ranges::any_of(run.cases, [&](const CaseResult& each) { return each.name() == during; }))
+    return out + " " + quoted(during);
+  return requirement.empty() ? out : out + " -r " + quoted(requirement);
+}
+
+std::string card(const Book& book, const LocatedFinding& located) {
+  const Finding& finding = *located.finding;
+  const CaseResult& one = *located.owner;
+  const std::string position = position_text(finding.position.file.empty() ? one.position : finding.position);
+  std::string out = "<dl class=\"facts\">\n";
+  out += fact("Rule", rule(book, finding));
+  out += fact("Case", fmt::format("{}<br/>{}", book.case_link(one), sentence(one.title)));
+  if (!finding.during.empty()) out += fact("During", book.case_link(finding.during));
+  out += fact("Step", clipped(finding.step, value_limit));
+  out += fact("Why", sentence(finding.reason));
+  if (!finding.declared_at.empty()) out += fact("Described", text(finding.declared_at));
+  if (!one.cct.empty()) out += fact("CiA's tool", "case " + text(join(one.cct, ", ")));
+  out += "</dl>\n";
+  out += grades(finding);
+  out += frames(book, one, finding.evidence);
+  out += "<dl class=\"facts\">\n";
+  if (!position.empty()) out += fact("Scenario", fmt::format("<code>{}</code>", text(position)));
+  out +=
+      fact("Repeat", fmt::format("<code class=\"copy\">{}</code>",
+                                 text(repeat_command(book.run(), one, finding.during, finding.requirement))));
+  return out + "</dl>\n";
+}
+
+}  // namespace conform::reports::html

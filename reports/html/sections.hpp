@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of the page in their order. Each is markup for one <section>, or empty where the run has nothing
+// to say there.
+#pragma once
+
+#include <string>
+
+#include "reports/html/book.hpp"
+
+namespace conform::reports::html {
+
+/// Verdict, what was tested, causes as a list: the first screen.
+[[nodiscard]] std::string summary_section(const Book& book);
+/// Requirements by area, what was waived, what is not applicable, and what one could give to have more
+/// judged.
+[[nodiscard]] std::string coverage_section(const Book& book);
+[[nodiscard]] std::string cause_section(const Book& book);
+/// What the cases say for those of CiA's tool.
+[[nodiscard]] std::string compared_section(const Book& book);
+/// Times that were measured, load of the bus, where the time of the run went.
+[[nodiscard]] std::string measurement_section(const Book& book);
+[[nodiscard]] std::string change_section(const Book& book);
+[[nodiscard]] std::string requirement_section(const Book& book);
+[[nodiscard]] std::string case_section(const Book& book);
+
+}  // namespace conform::reports::html

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "reports/html/bar.hpp"
+#include "reports/html/markup.hpp"
+#include "reports/html/outcomes.hpp"
+#include "reports/html/sections.hpp"
+#include "reports/phrases.hpp"
+#include "reports/text_tools.hpp"
+
+namespace conform::reports::html {
+namespace {
+
+using result::RunResult;
+
+struct Label {
+  std::string_view name, shown;
+};
+/// Properties by the names under which a reader knows them; others keep the names they have.
+constexpr std::array labels{
+    Label{"dut.node_id", "Node-ID"},
+    Label{"dut.device_type", "Device type (1000h)"},
+    Label{"dut.vendor_id", "Vendor-ID (1018h:01)"},
+    Label{"dut.product_code", "Product code (1018h:02)"},
+    Label{"dut.revision", "Revision (1018h:03)"},
+    Label{"dut.serial", "Serial number (1018h:04)"},
+    Label{"dut.name", "Device name (1008h)"},
+    Label{"dut.hardware_version", "Hardware version (1009h)"},
+    Label{"dut.software_version", "Software version (100Ah)"},
+    Label{"dut.description", "Device description"},
+    Label{"dut.description_digest", "Hash of the description"},
+    Label{"can.interface", "Interface"},
+    Label{"can.driver", "Adapter, driver"},
+    Label{"can.bit_rate", "Bit rate (bit/s)"},
+    Label{"can.receive_buffer", "Receive buffer (bytes)"},
+    Label{"suite.digest", "Digest of the suite"},
+    Label{"suite.own", "Own scenarios"},
+    Label{"run.seed", "Seed"},
+    Label{"run.shuffle", "Order of the cases drawn by"},
+    Label{"run.allowed", "Highest risk allowed"},
+    Label{"run.command", "Command"},
+    Label{"simulation.defects", "Defects simulated"},
+    Label{"simulation.variants", "Variants simulated"},
+};
+
+std::string verdict_sentence(const RunResult& run, int code) {
+  switch (code) {
+    case 0:
+      if (const auto waived = run.waived(); !waived.empty())
+        return fmt::format("What was judged conforms, but for {} accepted as known: {}.",
+                           counted(waived.size(), "violated requirement"), text(join(waived, ", ")));
+      return "Everything that was judged conforms.";
+    case 1: return "The device violates at least one requirement.";
+    case 2: return "Nothing selected applies to this device, so nothing was judged.";
+    case 3:
+      return run.aborted ? "The run stopped early. No requirement is known to be violated."
+                         : "No requirement is known to be violated, but not everything could be judged.";
+    default: return "The run was interrupted; this is what it had found until then.";
+  }
+}
+
+struct Banner {
+  std::string_view kind, words;
+};
+
+Banner banner_of(const RunResult& run, int code) {
+  switch (code) {
+    case 0:
+      return run.waived().empty() ? Banner{"pass", "Conforms"} : Banner{"warn", "Conforms, with waivers"};
+    case 1: return {"fail", "Does not conform"};
+    case 2: return {"inconclusive", "Nothing was judged"};
+    default: return {"inconclusive", "Not fully judged"};
+  }
+}
+
+std::string verdict_card(const Book& book) {
+  const RunResult& run = book.run();
+  const int code = result::exit_code(run);
+  const auto [kind, words] = banner_of(run, code);
+  const AreaTally total = sum(tally_by_area(run));
+  std::string out = fmt::format(
+      "<div class=\"verdict {}\">\n<p class=\"word\"><span class=\"shape\" aria-hidden=\"true\"></span>{}</p>\n<p>{}</p>\n",
+      kind, words, verdict_sentence(run, code));
+  if (run.aborted)
+    out += fmt::format("<p><b>Stopped early:</b> {}</p>\n", clipped(prose(*run.aborted), 1000));
+  out += fmt::format("<h2>{}</h2>\n{}{}", counted(total.counts.total() + total.not_judged, "requirement"),
+                     bar(total.counts), count_badges(total.counts));
+  out += fmt::format("<h2>{}</h2>\n{}{}", counted(run.cases.size(), "case"), bar(run.counts()),
+                     count_badges(run.counts()));
+  return out + "</div>\n";
+}
+
+std::string facts(const RunResult& run) {
+  std::string out;
+  const auto add = [&](std::string_view label, std::string_view value) {
+    out += fact(sentence(label), clipped(value, 1000));
+  };
+  // The device first, then the bus, then what was asked for.
+  const auto rank = [](const result::Property& property) {
+    constexpr std::array<std::string_view, 6> order{"dut.", "eds.", "can.", "simulation.", "run.", "suite."};
+    return std::ranges::find_if(order, [&](auto front) { return property.name.starts_with(front); }) -
+           order.begin();
+  };
+  auto properties = run.properties;
+  std::ranges::stable_sort(properties, {}, rank);
+  for (const auto& property : properties) {
+    const auto known = std::ranges::find(labels, property.name, &Label::name);
+    const std::string name = clip(prose(property.name), 100);
+    add(known == labels.end() ? std::string_view(name) : known->shown, property.value);
+  }
+  add("Tool", run.tool);
+  add("Host", run.host);
+  const bool simulated = run.started_utc_ns == 0;
+  add("Started", simulated ? "simulation, on virtual time" : utc_timestamp(run.started_utc_ns));
+  add("Bus time", brief_duration(run.elapsed));
+  add("Exit code", std::to_string(result::exit_code(run)));
+  return out;
+}
+
+std::string causes_list(const Book& book) {
+  if (book.causes().empty()) return {};
+  std::string items;
+  for (const auto& cause : book.causes()) {
+    const auto& finding = *cause.primary.finding;
+    items +=
+        fmt::format("<li>{} <a href=\"#{}\">{}</a> <span class=\"quiet\">{}, {}</span><br/>{}</li>\n",
+                    badge(cause.verdict), book.anchor(cause), clipped(cause.about, 200),
+                    clipped(finding.requirement, 100), text(extent(cause)), clipped(headline(finding), 200));
+  }
+  return fmt::format(
+      "<div class=\"panel\">\n<h2>Causes, the heaviest first</h2>\n<ol class=\"causes\">\n{}</ol>\n</div>\n",
+      items);
+}
+
+/// The outcomes of the other tool counted, and where they are told one by one.
+std::string compared_panel(const Book& book) {
+  const auto& compared = book.run().compared;
+  if (compared.empty()) return {};
+  std::string counts;
+  for (const std::string_view outcome : outcomes_of_the_other_tool()) {
+    const auto number = std::ranges::count(compared, outcome, &result::ComparedCase::outcome);
+    if (number > 0) counts += fmt::format("<li><b>{}</b> {}</li>\n", number, outcome_badge(outcome));
+  }
+  return fmt::format("<div class=\"panel\">\n<h2>{}</h2>\n<ul class=\"counts\">\n{}</ul>\n</div>\n",
+                     link("compared", "What CiA's tool would say"), counts);
+}
+
+/// What would have more judged, the most rewarding first.
+std::string wants_panel(const RunResult& run) {
+  const auto wants = tally_wants(run);
+  const auto counts = run.counts();
+  if (counts.not_applicable == 0) return {};
+  constexpr std::size_t shown = 4;
+  std::string items;
+  for (std::size_t i = 0; i < std::min(wants.size(), shown); ++i)
+    items += fmt::format("<li><b>{}</b>: {}</li>\n", counted(wants[i].cases, "case"),
+                         clipped(prose(wants[i].want.text), 200));
+  if (wants.size() > shown) items += fmt::format("<li>and {} more</li>\n", wants.size() - shown);
+  const auto title = items.empty()
+                         ? fmt::format("{} not applicable, and why", counted(counts.not_applicable, "case"))
+                         : std::string("What to give to have more judged");
+  return fmt::format("<div class=\"panel\">\n<h2>{}</h2>\n{}</div>\n", link("coverage", title),
+                     items.empty() ? items : fmt::format("<ul class=\"list\">\n{}</ul>\n", items));
+}
+
+}  // namespace
+
+std::string summary_section(const Book& book) {
+  const RunResult& run = book.run();
+  std::string out =
+      fmt::format("<section id=\"summary\" aria-labelledby=\"title\">\n<h1 id=\"title\">{}</h1>\n",
+                  run.device.empty() ? "CANopen conformance" : clipped(prose(run.device), 200));
+  out += "<div class=\"first\">\n<div>\n" + verdict_card(book) + causes_list(book) + compared_panel(book) +
+         wants_panel(run) + "</div>\n";
+  out += fmt::format(
+      "<div class=\"panel tested\">\n<h2>What was tested</h2>\n<dl class=\"facts\">\n{}</dl>\n</div>\n</div>\n",
+      facts(run));
+  if (!run.notes.empty() || !run.unwritten.empty()) {
+    out += "<ul class=\"notes\">\n";
+    for (const auto& note : run.notes) out += fmt::format("<li>{}</li>\n", clipped(prose(note), 1000));
+    for (const auto& each : run.unwritten)
+      out += fmt::format("<li>not written: {}</li>\n", clipped(each, 1000));
+    out += "</ul>\n";
+  }
+  out +=
+      "<p class=\"quiet\">This report comes from a test against CiA 301. It is no certificate, and none of CiA.</p>\n";
+  return out + "</section>\n";
+}
+
+}  // namespace conform::reports::html

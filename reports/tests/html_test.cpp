@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/html/html.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include "catch.hpp"
+#include "fixture.hpp"
+#include "reports/html/axis.hpp"
+#include "reports/html/card.hpp"
+#include "reports/html/markup.hpp"
+
+using namespace conform;
+using namespace conform::reports;
+using namespace std::chrono_literals;
+using result::RunResult;
+
+namespace {
+
+bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+pugi::xml_document parsed(const std::string& page) {
+  pugi::xml_document document;
+  const auto outcome = document.load_buffer(page.data(), page.size(),
+                                            pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+  INFO(outcome.description() << " at " << page.substr(static_cast<std::size_t>(outcome.offset), 80));
+  REQUIRE(outcome);
+  return document;
+}
+
+std::string text_of(const pugi::xml_node& node) {
+  std::string out;
+  for (const auto& found : node.select_nodes(".//text()")) out += found.node().value();
+  return out;
+}
+
+/// A run with everything that a page can show.
+RunResult full_run() {
+  RunResult run = testing::sample_run();
+  const BusTime begin{1s};
+  result::Measurement heartbeat{"heartbeat", "1017h = 100 ms", 100ms, 90ms, 110ms, 3, 99ms, 130ms, 110ms, {}};
+  heartbeat.samples = {{begin, 99ms}, {begin + 1s, 101ms}, {begin + 2s, 130ms}};
+  run.measurements.push_back(heartbeat);
+  for (int i = 0; i < 300; ++i) {
+    result::Measurement answer{
+        "SDO answer", fmt::format("20{:02X}h:00", i), {}, {}, {}, 10, 300us, 1ms + i * 1us, 500us, {}};
+    for (int k = 0; k < 10; ++k) answer.samples.push_back({begin + k * 10ms, 300us + k * 10us});
+    run.measurements.push_back(answer);
+  }
+  run.load = {{begin, 1s, 100, 20ms}, {begin + 1s, 1s, 300, 60ms}};
+  run.changes = {{{Index(0x1017), SubIndex(0)}, {0x64, 0x00}, run.cases[1].name(), true},
+                 {{Index(0x1005), SubIndex(0)}, {0x80, 0, 0, 0}, "<i>", false}};
+  run.compared = {{"4.1", "OD", "the device type is read", "passed", "", {run.cases[0].name()}},
+                  {"4.9", "OD", "not here", "no counterpart", "nothing corresponds", {}}};
+  run.cases[0].judgements[0].decided_by =
+      result::DecidingStep{run.cases[0].position, "upload 1000h:00", "00020192h", std::size_t{7}};
+  run.cases[5].wants = {{"object", "a TPDO with <mapping>"}};
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("A page is well-formed, its ids are unique and its links lead somewhere") {
+  for (const auto& run :
+       {full_run(), testing::hostile_run(testing::hostile_text()), testing::aborted_run(), RunResult{}}) {
+    const auto document = parsed(html_report(run));
+    std::set<std::string> ids;
+    for (const auto& found : document.select_nodes("//@id"))
+      CHECK(ids.insert(found.attribute().value()).second);
+    for (const auto& found : document.select_nodes("//@href")) {
+      const std::string target = found.attribute().value();
+      INFO(target);
+      REQUIRE(target.starts_with("#"));
+      CHECK(ids.contains(target.substr(1)));
+    }
+    for (const auto& found : document.select_nodes("//@aria-labelledby"))
+      CHECK(ids.contains(found.attribute().value()));
+    for (const auto& found : document.select_nodes("//label/@for"))
+      CHECK(ids.contains(found.attribute().value()));
+  }
+}
+
+TEST_CASE("Headings of a page begin with one of the first level and skip none") {
+  const auto document = parsed(html_report(full_run()));
+  int before = 0;
+  for (const auto& found : document.select_nodes("//h1|//h2|//h3|//h4|//h5")) {
+    const int level = found.node().name()[1] - '0';
+    INFO(text_of(found.node()));
+    CHECK(level <= before + 1);
+    before = level;
+  }
+  CHECK(document.select_nodes("//h1").size() == 1);
+  CHECK(document.select_nodes("//main").size() == 1);
+}
+
+TEST_CASE("Nothing on a page is fetched, and only our own style and script are obeyed") {
+  const auto document =
+      parsed(html_report(testing::hostile_run("<script>alert(1)</script><style>*{}</style>")));
+  CHECK(document.select_nodes("//@src|//link|//iframe|//object|//embed|//img|//base").empty());
+  // A policy without 'unsafe-inline' ignores these, so a page that needed them would be broken.
+  CHECK(document.select_nodes("//@style|//@onclick|//@onload").empty());
+  CHECK(document.select_nodes("//script").size() == 1);
+  CHECK(document.select_nodes("//style").size() == 1);
+  const std::string policy =
+      document.select_node("//meta[@http-equiv='Content-Security-Policy']/@content").attribute().value();
+  CHECK(policy.starts_with("default-src 'none'; style-src 'sha256-"));
+  CHECK(contains(policy, "script-src 'sha256-"));
+  CHECK_FALSE(contains(policy, "unsafe"));
+}
+
+TEST_CASE("Strings of a device stay text on a page") {
+  const std::string hostile = "\"><img src=x onerror=alert(1)> '&amp; ]]> <!-- {{x}}";
+  const std::string page = html_report(testing::hostile_run(hostile));
+  CHECK_FALSE(contains(page, "<img"));
+  const auto document = parsed(page);
+  CHECK(document.select_nodes("//img").empty());
+  CHECK(text_of(document.select_node("//h1").node()) == hostile);
+}
+
+TEST_CASE("No byte of a device reaches a page as a control character") {
+  const std::string page = html_report(testing::hostile_run(testing::hostile_text()));
+  CHECK(std::ranges::none_of(page, [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F;
+  }));
+  CHECK(contains(page, "\\x00\\x01\\x02"));
+}
+
+TEST_CASE("What passed names the step and the frame that decided it, counted as Wireshark counts") {
+  const auto document = parsed(html_report(full_run()));
+  const auto row = text_of(document.select_node("//section[@id='cases']//li[@data-v='pass']").node());
+  CHECK(contains(row, "readable"));
+  CHECK(contains(row, "OD-1000-01"));
+  CHECK(contains(row, "upload 1000h:00 \xE2\x86\x92 00020192h, frame 8"));
+}
+
+TEST_CASE("A cause is told with the rule, what was expected, what came, the frames and how to repeat it") {
+  const auto document = parsed(html_report(full_run()));
+  const auto cause = document.select_node("//article[@id='cause-1']").node();
+  const auto text = text_of(cause);
+  for (const auto* part : {"OD-1003-06", "CiA 301 v4.2.0, 7.5.2.4", "abort 0609 0030h (invalid value)",
+                           "confirmed", "60 03 10 00 00 00 00 00", "SDO download 1003h:00 confirmed",
+                           "decided", "cia301/dictionary/1003-error-history.yaml:14:19"}) {
+    INFO(part);
+    CHECK(contains(text, part));
+  }
+  CHECK(cause.select_nodes(".//svg[@class='lanes']//path[@class='host']").size() == 2);
+  CHECK(cause.select_nodes(".//svg[@class='lanes']//path[@class='dev']").size() == 3);
+  CHECK(cause.select_nodes(".//svg[@class='lanes']//circle[@class='ring']").size() == 1);
+}
+
+TEST_CASE("Of two texts the part that differs is marked") {
+  const auto document = parsed(html_report(full_run()));
+  const auto mark = document.select_node("//mark").node();
+  CHECK(text_of(mark) == "B");
+  CHECK(text_of(mark.parent()) == "\"Conforming drive, variant B\"");
+}
+
+TEST_CASE("Causes, requirements and cases are linked to each other") {
+  const auto document = parsed(html_report(full_run()));
+  CHECK_FALSE(document.select_nodes("//article[@id='cause-1']//a[@href='#r-OD-1003-06']").empty());
+  CHECK_FALSE(document.select_nodes("//article[@id='cause-1']//a[@href='#c2']").empty());
+  CHECK_FALSE(document.select_nodes("//li[@id='r-OD-1003-06']//a[@href='#cause-1']").empty());
+  CHECK_FALSE(document.select_nodes("//li[@id='r-OD-1003-06']//a[@href='#c2']").empty());
+  CHECK_FALSE(document.select_nodes("//li[@id='c2']//a[@href='#cause-1']").empty());
+  CHECK_FALSE(document.select_nodes("//li[@id='c2']//a[@href='#r-OD-1003-07']").empty());
+}
+
+TEST_CASE("The command that repeats a case names what the run was given") {
+  RunResult run = testing::sample_run();
+  const auto& one = run.cases[1];
+  CHECK(
+      html::repeat_command(run, one, "", "OD-1003-06") ==
+      "canopen-conform run -i vcan0 -n 03h --seed 1 'cia301/dictionary/1003-error-history/non-zero-write[02h]'");
+  run.properties = {
+      {"can.interface", "simulated"}, {"simulation.defects", "a-b c-d"}, {"run.allowed", "motion"}};
+  CHECK(html::repeat_command(run, one, "", "") ==
+        "canopen-conform run --simulate --defect a-b --defect c-d --allow motion "
+        "'cia301/dictionary/1003-error-history/non-zero-write[02h]'");
+  result::CaseResult monitor;
+  monitor.suite = "monitor";
+  CHECK(
+      html::repeat_command(run, monitor, run.cases[0].name(), "SDO-1").ends_with(" " + run.cases[0].name()));
+  CHECK(html::repeat_command(run, monitor, "before the first case", "SDO-1").ends_with(" -r SDO-1"));
+}
+
+TEST_CASE("Measurements are drawn against their limits, and many of a kind together") {
+  const auto document = parsed(html_report(full_run()));
+  const auto section = document.select_node("//section[@id='measurements']").node();
+  CHECK(section.select_nodes(".//path[@class='limit']").size() == 2);
+  CHECK(section.select_nodes(".//path[@class='nominal']").size() == 1);
+  CHECK(section.select_nodes(".//path[@class='outside']").size() == 1);
+  CHECK(contains(text_of(section), "1 outside of the limits"));
+  CHECK(section.select_nodes(".//svg[@class='plot']").size() == 3);  // heartbeat, all SDO answers, load
+  CHECK(section.select_nodes(".//svg[@class='range']").size() == 200);
+  CHECK(contains(text_of(section), "100 more, all of them faster"));
+}
+
+TEST_CASE("What a run does not hold leaves no empty section behind") {
+  const auto document = parsed(html_report(testing::aborted_run()));
+  for (const auto* id : {"compared", "measurements", "changes"})
+    CHECK(document.select_nodes(fmt::format("//section[@id='{}']", id).c_str()).empty());
+  CHECK(contains(text_of(document.select_node("//section[@id='summary']").node()), "nothing was ever heard"));
+  CHECK(contains(text_of(document), "2026-11-21T23:55:01Z"));
+}
+
+TEST_CASE("A run on virtual time is called a simulation and given no date") {
+  const std::string page = html_report(testing::sample_run());
+  CHECK(contains(page, "simulation, on virtual time"));
+  CHECK_FALSE(contains(page, "1970"));
+}
+
+TEST_CASE("A page of 5000 cases stays small enough for an e-mail") {
+  RunResult run = testing::sample_run();
+  const auto cases = run.cases;
+  while (run.cases.size() < 5000) {
+    // Nine of ten pass, as in a run against a device that is nearly right.
+    const auto i = run.cases.size();
+    auto one = i % 10 == 0 ? cases[i / 10 % cases.size()] : cases[0];
+    one.instance = fmt::format("{}", i);
+    if (!one.judgements.empty() && i % 10 != 0)
+      one.judgements[0].decided_by = result::DecidingStep{one.position, "upload 1000h:00", "00020192h", i};
+    run.cases.push_back(std::move(one));
+  }
+  const auto page = html_report(run);
+  CHECK(page.size() < 6'000'000);
+  // Read by the test in a browser.
+  std::ofstream(CONFORM_BINARY_DIR "/report-5000.html", std::ios::binary) << page;
+}
+
+TEST_CASE("An axis marks round values, also of a range of nothing") {
+  const html::Axis axis(0.2, 1.1, 0, 100);
+  const auto ticks = axis.ticks(4);
+  REQUIRE(ticks.size() == 5);
+  CHECK(ticks.front() == Approx(0.2));
+  CHECK(ticks.back() == Approx(1.0));
+  CHECK(axis.at(0.2) == 0);
+  CHECK(axis.at(5) == 100);
+  CHECK(html::Axis(5, 5, 0, 100).at(5) == 50);
+  CHECK_FALSE(html::Axis(0, 0, 0, 100).ticks(4).empty());
+}
