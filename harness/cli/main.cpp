@@ -135,6 +135,10 @@ int dispatch(int argc, char** argv) {
           "--journal", run.journal,
           "Keep the journal here (default: ~/.local/state/canopen-conform, for each interface and node)")
       ->type_name("FILE");
+  run_sub
+      ->add_option("--baseline", run.baseline,
+                   "Compare with this run (result.json or journal): only what is new makes the exit code 1")
+      ->type_name("RESULT|JOURNAL");
   run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
   run_sub->add_flag(
       "--strict", run.strict,

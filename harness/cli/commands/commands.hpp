@@ -49,7 +49,8 @@ struct RunCommand {
   std::string color = "auto";  ///< auto, always, never
   Reports reports;
   std::string capture, candump;
-  std::string journal;  ///< file; empty: the usual place
+  std::string journal;   ///< file; empty: the usual place
+  std::string baseline;  ///< result.json or journal of an earlier run: red is only what is new; empty: none
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
