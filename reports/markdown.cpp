@@ -12,6 +12,7 @@
 #include "base/text.hpp"
 #include "reports/cause_lines.hpp"
 #include "reports/console.hpp"
+#include "reports/markdown_text.hpp"
 #include "reports/phrases.hpp"
 #include "reports/tally.hpp"
 #include "reports/text_tools.hpp"
@@ -24,44 +25,6 @@ using result::Cause;
 using result::Counts;
 using result::RunResult;
 using result::Verdict;
-
-/// Text of others between our marks: nothing in it is a heading, link, mention, HTML or the end of a table
-/// cell.
-std::string escaped(std::string_view text, std::size_t width = 400) {
-  constexpr std::string_view marks = "\\`*_{}[]>#!|~$";
-  std::string out;
-  for (const char c : clip(prose(text), width)) {
-    if (c == '@') {
-      out += "&#64;";  // a backslash does not keep a mention from notifying somebody
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else {
-      if (marks.find(c) != std::string_view::npos) out += '\\';
-      out += c;
-    }
-  }
-  return out;
-}
-
-/// A code span that holds anything: its fence is longer than every run of backticks in it.
-std::string code(std::string_view text) {
-  const std::string content = clip(log_safe(text), 400);
-  std::size_t longest = 0;
-  std::size_t run = 0;
-  for (const char c : content) {
-    run = c == '`' ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  const std::string fence(longest + 1, '`');
-  std::string out = fence;
-  const bool padded = content.empty() || content.starts_with('`') || content.ends_with('`');
-  if (padded) out += ' ';
-  out += content;
-  if (padded) out += ' ';
-  return out += fence;
-}
 
 /// A block of text whose fence cannot occur in it: log_safe() lines never hold a line of tildes alone.
 std::string block(std::string_view text) { return fmt::format("~~~~~~text\n{}~~~~~~\n", text); }

@@ -3,23 +3,16 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "result/requirement_verdicts.hpp"
 #include "result/run_result.hpp"
 
 namespace conform::reports {
 
-/// A requirement over all cases of the run that can judge it.
-struct RequirementVerdict {
-  std::string id;
-  std::optional<result::Verdict>
-      verdict;  ///< the worst; none if only branches that were not taken would judge it
-};
-
-/// Every requirement the cases mention, in the order of RunResult::requirements, strays behind them.
-[[nodiscard]] std::vector<RequirementVerdict> requirement_verdicts(const result::RunResult& run);
+using result::requirement_verdicts;
+using result::RequirementVerdict;
 
 struct AreaTally {
   std::string area;

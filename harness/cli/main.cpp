@@ -135,6 +135,10 @@ int dispatch(int argc, char** argv) {
           "--journal", run.journal,
           "Keep the journal here (default: ~/.local/state/canopen-conform, for each interface and node)")
       ->type_name("FILE");
+  run_sub
+      ->add_option("--baseline", run.baseline,
+                   "Compare with this run (result.json or journal): only what is new makes the exit code 1")
+      ->type_name("RESULT|JOURNAL");
   run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
   run_sub->add_flag(
       "--strict", run.strict,
@@ -191,6 +195,23 @@ int dispatch(int argc, char** argv) {
   waive_sub->add_option("--expires", waive.expires, "The last day on which it holds, as 2027-03-31")
       ->type_name("DATE");
   waive_sub->add_option("--file", waive.file, "File of waivers (default: waivers.yaml)")->type_name("FILE");
+
+  CompareCommand compare;
+  auto* compare_sub = app.add_subcommand(
+      "compare", "Tell what changed between two runs; exits with 1 where the new one is worse");
+  compare_sub->add_option("old", compare.before, "Result (run --json) or journal of the run before")
+      ->required()
+      ->type_name("OLD");
+  compare_sub->add_option("new", compare.after, "Result or journal of the run after")
+      ->required()
+      ->type_name("NEW");
+  compare_sub->add_option("-f,--format", compare.format, "Output: text, markdown or json")
+      ->check(CLI::IsMember({"text", "markdown", "json"}).description(""))
+      ->type_name("FORMAT");
+  compare_sub->add_flag("--strict", compare.strict, "A new warning is worse, too");
+  compare_sub->add_option("--color", compare.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
 
   RecoverCommand recover;
   auto* recover_sub = app.add_subcommand("recover", "Put back what a killed run left changed in the device");
@@ -402,6 +423,7 @@ int dispatch(int argc, char** argv) {
   if (run_sub->parsed()) return run_command(run);
   if (report_sub->parsed()) return report_command(report);
   if (waive_sub->parsed()) return waive_command(waive);
+  if (compare_sub->parsed()) return compare_command(compare);
   if (recover_sub->parsed()) return recover_command(recover);
   if (judge_sub->parsed()) return judge_command(judge);
   if (lint_sub->parsed()) return lint_command(lint);

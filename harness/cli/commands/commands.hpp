@@ -49,7 +49,8 @@ struct RunCommand {
   std::string color = "auto";  ///< auto, always, never
   Reports reports;
   std::string capture, candump;
-  std::string journal;  ///< file; empty: the usual place
+  std::string journal;   ///< file; empty: the usual place
+  std::string baseline;  ///< result.json or journal of an earlier run: red is only what is new; empty: none
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
@@ -71,6 +72,15 @@ struct WaiveCommand {
 };
 /// 0: it is written; exit_usage: nothing of the run is covered by it, or the file cannot take it.
 [[nodiscard]] int waive_command(const WaiveCommand& options);
+
+struct CompareCommand {
+  std::string before, after;    ///< result.json or journal
+  std::string format = "text";  ///< text, markdown, json
+  bool strict = false;          ///< new warnings are worse
+  std::string color = "auto";
+};
+/// 0: the same, better, or different only; 1: worse; exit_environment: not worse as far as it was judged.
+[[nodiscard]] int compare_command(const CompareCommand& options);
 
 struct RecoverCommand {
   std::string journal;    ///< empty: the usual place for interface and node

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -22,6 +23,7 @@
 #include "cli/run/known_device.hpp"
 #include "cli/run/run_journal.hpp"
 #include "cli/run/run_reports.hpp"
+#include "cli/run/run_source.hpp"
 #include "cli/run/run_watch.hpp"
 #include "cli/run/shell.hpp"
 #include "cli/run/terminal.hpp"
@@ -29,6 +31,7 @@
 #include "engine/monitor_cases.hpp"
 #include "node/node.hpp"
 #include "reports/annotations.hpp"
+#include "reports/compare.hpp"
 #include "reports/console.hpp"
 
 namespace conform::cli {
@@ -126,6 +129,24 @@ void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Moni
   print(out);
 }
 
+/// Prints what is different. What the baseline failed as well is no reason for the exit code any more; that
+/// the run was ended, judged nothing, or is not whole remains one.
+int compare_with(const result::RunResult& baseline, const result::RunResult& run, const RunCommand& options,
+                 const reports::Style& style) {
+  const auto comparison = result::compare(baseline, run);
+  const int own = result::exit_code(run);
+  int code = result::exit_code(comparison, options.strict);
+  // The file of waivers is wrong, whatever the device does.
+  if (std::ranges::any_of(run.waivers, [](const auto& each) { return each.verdict == result::Verdict::fail; }))
+    code = 1;
+  if (code == 0 && (run.aborted || !run.unwritten.empty())) code = exit_environment;
+  if (run.signal != 0 || own == exit_usage) code = own;
+  print(fmt::format("\nAgainst the baseline\n--------------------\n{}exit code {} instead of {}\n",
+                    reports::compare_text(comparison, {options.strict, options.baseline, "this run"}, style),
+                    code, own));
+  return code;
+}
+
 int run(const RunCommand& options, RunReports& reports) {
   const auto refuse = [&reports](const Error& error, int code) {
     reports.not_begun(Facts::tool, error);
@@ -144,6 +165,14 @@ int run(const RunCommand& options, RunReports& reports) {
                    std::string("on a real interface: canopen-refnode ") + option + " ID"},
                   exit_usage);
   }
+  std::optional<result::RunResult> baseline;
+  if (!options.baseline.empty()) {
+    if (absolute(options.baseline) == absolute(options.journal))
+      return refuse({"the journal would be written over the baseline", options.baseline, {}}, exit_usage);
+    auto read = read_run_to_compare(options.baseline);
+    if (!read) return refuse(read.error(), exit_usage);
+    baseline.emplace(std::move(*read));
+  }
   auto root = find_suites(options.suites, options.device);
   if (!root) return refuse(root.error(), exit_usage);
   const bool colour = use_colour(options.color, 1);
@@ -156,7 +185,7 @@ int run(const RunCommand& options, RunReports& reports) {
   engine::RunOptions run_options;
   run_options.strict = options.strict;
   run_options.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
-  run_options.measure = !reports.none();
+  run_options.measure = !reports.none() || baseline.has_value();
   run_options.stop = &stop_signal;
   constexpr Duration power_limit = std::chrono::seconds(60);
   if (!options.simulate && !profile->power_cycle.empty())
@@ -326,8 +355,9 @@ int run(const RunCommand& options, RunReports& reports) {
   if (journal) journal->reported();
   print(reports::summary(run, style));
   if (options.annotate) print(reports::github_annotations(run));
+  const int code = baseline ? compare_with(*baseline, run, options, style) : result::exit_code(run);
   std::fflush(stdout);
-  return result::exit_code(run);
+  return code;
 }
 
 }  // namespace
@@ -341,7 +371,9 @@ int run_command(const RunCommand& options) {
     RunReports none({});
     return run(options, none);
   }
-  if (auto begun = reports.begin(Facts::tool, {options.device, options.eds, options.journal}); !begun)
+  if (auto begun =
+          reports.begin(Facts::tool, {options.device, options.eds, options.journal, options.baseline});
+      !begun)
     return report_error(begun.error(), exit_environment);
   return run(options, reports);
 }

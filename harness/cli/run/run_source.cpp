@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/run_source.hpp"
 
+#include <utility>
+
 #include "base/files.hpp"
 #include "journal/reader.hpp"
 #include "reports/result_json.hpp"
@@ -23,6 +25,17 @@ Result<RunSource> read_run(const std::string& path) {
   auto journal = journal::read(path);
   if (!journal) return std::unexpected(journal.error());
   return RunSource{std::move(journal->run), std::move(journal->header.reports)};
+}
+
+Result<result::RunResult> read_run_to_compare(const std::string& path) {
+  auto source = read_run(path);
+  if (!source) return std::unexpected(source.error());
+  if (source->run.cases.empty()) {
+    return fail("the run has no cases to compare" +
+                    (source->run.aborted ? ": " + *source->run.aborted : std::string()),
+                path, "a result of 'run --json', or the journal of a run");
+  }
+  return std::move(source->run);
 }
 
 }  // namespace conform::cli

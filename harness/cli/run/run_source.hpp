@@ -17,5 +17,8 @@ struct RunSource {
 
 /// Error: a file that cannot be read, or is neither.
 [[nodiscard]] Result<RunSource> read_run(const std::string& path);
+/// To compare another run with it: an error as well where it has no cases, as a file that says that its run
+/// has not ended.
+[[nodiscard]] Result<result::RunResult> read_run_to_compare(const std::string& path);
 
 }  // namespace conform::cli

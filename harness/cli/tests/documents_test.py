@@ -105,7 +105,8 @@ class Documents(unittest.TestCase):
         # What a reader has: what scripts/quickstart wrote, a description of his device, and traces of it.
         made = cls.type("mkdir out && canopen-refnode --print-eds > device.eds && cp device.eds old.eds && cp device.eds new.eds && "
                         "cp device.eds released.eds && "
-                        "canopen-conform run --simulate -q --junit out/junit.xml --capture out/run.pcapng --candump out/run.log && "
+                        "canopen-conform run --simulate -q --junit out/junit.xml --json old.json --capture out/run.pcapng --candump out/run.log && "
+                        "cp old.json new.json && "
                         "canopen-conform run --simulate -n 5 -q cia301/sdo/upload --capture trace.pcapng --candump candump.log")
         assert made.returncode == 0, made.stdout + made.stderr
         for block in cls.blocks:
