@@ -107,7 +107,8 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
   }
   if (!aborted_ || !is_abort(frame) || count_ == 0) return false;
   const auto aborted = *std::exchange(aborted_, std::nullopt);
-  if (asked || aborted != got) {
+  // 0000h:00 is what servers name that do not know the command, whatever its bytes 1 to 3 are.
+  if (asked || aborted != got || got == Multiplexer{}) {
     // Whoever was asked last; an abort of an unknown command may name anything.
     spare_ = pending_[count_ - 1].has_multiplexer() ? object_of(pending_[count_ - 1].data) : got;
     return false;

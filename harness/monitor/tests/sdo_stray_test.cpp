@@ -41,6 +41,10 @@ TEST_CASE("Where an abort may answer the client's abort or its next request, one
   CHECK(told(after_exchanges({"> 80 17 10 00 00 00 00 08", upload, "< 80 00 00 00 01 00 04 05", answer, other,
                               other_answer}))
             .empty());
+  // The client gave up 0000h:00, which is also what an unknown command is said to be about.
+  CHECK(told(after_exchanges({"> 80 00 00 00 00 00 00 08", "> B8 00 10 00 14 00 00 00",
+                              "< 80 00 00 00 01 00 04 05", other, other_answer}))
+            .empty());
   // The client took the abort for the answer and gave up in its turn.
   CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", upload, "< 80 00 10 00 01 00 04 05",
                               "> 80 00 10 00 00 00 00 08", answer, other, other_answer}))
