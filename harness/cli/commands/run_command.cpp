@@ -335,7 +335,11 @@ int run(const RunCommand& options, RunReports& reports) {
         {.defects = options.defects, .variants = options.variants, .description = known->description},
         *profile, suites->suite, suites->catalogue, run_options, options.seed);
     stop_watching();
-    if (!simulated) return refuse(simulated.error(), exit_usage);
+    if (!simulated) {
+      // The reports say why it did not begin; the guardian has nothing to add.
+      if (journal) journal->reported();
+      return refuse(simulated.error(), exit_usage);
+    }
     run = std::move(simulated->result);
     capture = std::move(simulated->capture);
   } else {

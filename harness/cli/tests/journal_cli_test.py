@@ -79,6 +79,14 @@ class Journal(unittest.TestCase):
                 self.assertEqual(one.read(), other.read(), after)
         self.assertEqual(again.stdout[again.stdout.index("------"):], done.stdout[done.stdout.index("------"):])
 
+    def test_a_run_that_is_refused_is_not_called_killed(self):
+        done = run("run", "--simulate", "--defect", "no-such-defect", "--junit", self.junit)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("there is no defect 'no-such-defect'", done.stderr)
+        self.assertNotIn("killed", done.stderr)
+        with open(self.junit, encoding="utf-8") as file:
+            self.assertIn("the run did not begin: there is no defect", file.read())
+
     def test_a_result_of_another_version_and_a_cut_one_are_refused(self):
         result = self.path("result.json")
         for text, message in (('{"canopen_conform_result":99}', "is a result that this version cannot read"),
