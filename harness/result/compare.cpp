@@ -138,7 +138,8 @@ class Comparing {
       for (const auto& place : cause.findings) {
         const auto now = new_.unit(place.finding->requirement, place.owner->name());
         if (is_decided(now)) {
-          ++(*now < place.verdict ? one.mended : one.left);
+          // What somebody answers for is there still.
+          ++(*now < place.verdict && now != Verdict::waived ? one.mended : one.left);
         } else if (is_undecided(now)) {
           ++one.left;
         } else if (!place.is_monitor() && new_.has_case(place.owner->name())) {
@@ -191,8 +192,8 @@ class Comparing {
     Turn turn{rule, was, now, worst_case(rule)};
     if (is_decided(was) && is_decided(now)) {
       if (*now > *was) {
-        // Failures that are known by other cases do not count as turned.
-        if (is_fresh(rule)) out_.worse.push_back(turn);
+        // Failures that are known by other cases do not count as turned; a waived one is no cause.
+        if (now == Verdict::waived || is_fresh(rule)) out_.worse.push_back(turn);
       } else if ((turn.where = evidence(rule, true, true, true)) != nullptr) {
         out_.better.push_back(turn);
       }

@@ -151,6 +151,18 @@ TEST_CASE("a new warning is told, and red only where that is asked for") {
   CHECK(exit_code(comparison, true) == 1);
 }
 
+TEST_CASE("a waived failure is told and not red, and is one again when nobody answers for it") {
+  const auto good = run_of({judged("a", "OD-1017-05", Verdict::pass)});
+  const auto waived = run_of({judged("a", "OD-1017-05", Verdict::waived)});
+  const auto failed = run_of({judged("a", "OD-1017-05", Verdict::fail)});
+  CHECK(compare(waived, waived).is_same());
+  CHECK(compare(good, waived).worse.size() == 1);
+  CHECK(exit_code(compare(good, waived), true) == 0);
+  CHECK(exit_code(compare(waived, failed), false) == 1);
+  CHECK(compare(failed, waived).better.size() == 1);
+  CHECK(compare(failed, waived).gone_causes.empty());
+}
+
 TEST_CASE("a warning that fails now is new") {
   const auto old = run_of({judged("a", "OD-1017-05", Verdict::warn)});
   const auto now = run_of({judged("a", "OD-1017-05", Verdict::fail)});
