@@ -129,7 +129,7 @@ class Drawing {
 /// | ...".
 std::string bytes_of(const EvidenceFrame& frame) {
   const ByteView bytes = frame.frame.bytes();
-  const auto plain = fmt::format("<code class=\"bytes\">{}</code>", text(payload_text(frame.frame)));
+  auto plain = fmt::format("<code class=\"bytes\">{}</code>", text(payload_text(frame.frame)));
   if (frame.frame.error || bytes.size() != 8 || !frame.meaning.starts_with("SDO ")) return plain;
   const Multiplexer mux{Index(static_cast<std::uint16_t>(bytes[1] | (bytes[2] << 8U))), SubIndex(bytes[3])};
   if (frame.meaning.find(to_string(mux)) == std::string::npos) return plain;
