@@ -194,8 +194,9 @@ class Comparing {
       if (*now > *was) {
         // Failures that are known by other cases do not count as turned; a waived one is no cause.
         if (now == Verdict::waived || is_fresh(rule)) out_.worse.push_back(turn);
-      } else if ((turn.where = evidence(rule, true, true, true)) != nullptr) {
-        out_.better.push_back(turn);
+      } else {
+        turn.where = evidence(rule, true, true, true);
+        if (turn.where != nullptr) out_.better.push_back(turn);
       }
     } else if (is_decided(was)) {
       if (!is_undecided(now)) turn.where = evidence(rule, true, false, false);
