@@ -60,11 +60,17 @@ std::string fingerprint(const Cause& cause) {
   return fmt::format("{:016x}", hash);
 }
 
-std::string command_text(std::string_view text, bool property) {
+}  // namespace
+
+std::string github_text(std::string_view text, bool property) {
   std::string out;
   for (const char c : text) {
     if (c == '%')
       out += "%25";
+    else if (c == '\n')
+      out += "%0A";
+    else if (c == '\r')
+      out += "%0D";
     else if (property && c == ':')
       out += "%3A";
     else if (property && c == ',')
@@ -74,8 +80,6 @@ std::string command_text(std::string_view text, bool property) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string code_quality(const result::RunResult& run) {
   auto issues = nlohmann::json::array();
@@ -96,9 +100,9 @@ std::string github_annotations(const result::RunResult& run) {
     const auto place = place_of(cause);
     out += fmt::format("::{} file={},line={},title={}::{}\n",
                        cause.verdict == Verdict::fail ? "error" : "warning",
-                       command_text(printable(place.file), true), place.line,
-                       command_text(log_safe(cause.primary.finding->requirement), true),
-                       command_text(message_of(cause), false));
+                       github_text(printable(place.file), true), place.line,
+                       github_text(log_safe(cause.primary.finding->requirement), true),
+                       github_text(message_of(cause), false));
   }
   return out;
 }

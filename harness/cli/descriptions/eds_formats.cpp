@@ -10,6 +10,7 @@
 
 #include "base/excerpt.hpp"
 #include "base/text.hpp"
+#include "reports/annotations.hpp"
 
 namespace conform::cli {
 namespace {
@@ -36,22 +37,7 @@ std::string totals(const std::vector<EdsLinted>& files) {
 
 /// Escapes of workflow commands; in a property a colon and a comma would end it.
 std::string github_escaped(std::string_view text, bool property) {
-  std::string out;
-  for (const char c : printable(text)) {
-    if (c == '%')
-      out += "%25";
-    else if (c == '\n')
-      out += "%0A";
-    else if (c == '\r')
-      out += "%0D";
-    else if (property && c == ':')
-      out += "%3A";
-    else if (property && c == ',')
-      out += "%2C";
-    else
-      out += c;
-  }
-  return out;
+  return reports::github_text(printable(text), property);
 }
 
 /// A relative reference or a file URI (RFC 3986); every byte that is not unreserved or a slash is escaped.
