@@ -107,12 +107,13 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
   }
   if (!aborted_ || !is_abort(frame) || count_ == 0) return false;
   const auto aborted = *std::exchange(aborted_, std::nullopt);
-  // 0000h:00 is what servers name that do not know the command, whatever its bytes 1 to 3 are.
-  if (asked || aborted != got || got == Multiplexer{}) {
+  if (asked || aborted != got) {
     // Whoever was asked last; an abort of an unknown command may name anything.
     spare_ = pending_[count_ - 1].has_multiplexer() ? object_of(pending_[count_ - 1].data) : got;
     return false;
   }
+  // 0000h:00 is what servers name that do not know the command, whatever its bytes 1 to 3 are.
+  if (got == Multiplexer{}) return false;
   const bool both_gave_up = !aborted_idle_ && code_of(frame) == canopen::abort::timed_out;
   out.to = both_gave_up ? SdoAnswer::To::itself : SdoAnswer::To::nothing;
   out.cause = both_gave_up    ? SdoAnswer::Cause::none
