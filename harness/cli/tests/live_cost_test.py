@@ -30,7 +30,7 @@ def seconds(folder, *arguments):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        reports = [f"--{name}={folder}/{name}" for name in ("junit", "markdown", "capture", "candump")]
+        reports = [f"--{name}={folder}/{name}" for name in ("junit", "markdown", "json", "html", "capture", "candump")]
         pairs = [(seconds(folder), seconds(folder, *reports)) for _ in range(2)]
     without, with_all = min(pair[0] for pair in pairs), min(pair[1] for pair in pairs)
     print(f"without reports {without:.1f} s, with all {with_all:.1f} s: {with_all / without:.3f} times", flush=True)
