@@ -33,12 +33,7 @@ std::vector<AreaTally> tally_by_area(const RunResult& run) {
 AreaTally sum(const std::vector<AreaTally>& rows) {
   AreaTally total{"total", {}, 0};
   for (const AreaTally& row : rows) {
-    total.counts.pass += row.counts.pass;
-    total.counts.warn += row.counts.warn;
-    total.counts.fail += row.counts.fail;
-    total.counts.inconclusive += row.counts.inconclusive;
-    total.counts.not_applicable += row.counts.not_applicable;
-    total.counts.error += row.counts.error;
+    total.counts += row.counts;
     total.not_judged += row.not_judged;
   }
   return total;

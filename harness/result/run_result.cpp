@@ -31,6 +31,19 @@ void Counts::add(Verdict verdict) {
   }
 }
 
+Counts& Counts::operator+=(const Counts& more) {
+  // A verdict that is new does not compile until it is added here.
+  const auto& [a, b, c, d, e, f, g] = more;
+  pass += a;
+  waived += b;
+  warn += c;
+  fail += d;
+  inconclusive += e;
+  not_applicable += f;
+  error += g;
+  return *this;
+}
+
 Counts RunResult::counts() const {
   Counts counts;
   for (const CaseResult& one : cases) counts.add(one.verdict);
@@ -47,6 +60,10 @@ std::vector<std::string> RunResult::waived() const {
   return {out.begin(), out.end()};
 }
 
+bool RunResult::has_wrong_waiver() const {
+  return std::ranges::any_of(waivers, [](const WaiverUse& each) { return each.verdict == Verdict::fail; });
+}
+
 const RequirementInfo* RunResult::requirement(const std::string& id) const {
   // The list is sorted by whoever made it; a linear search does not depend on that and the list is short.
   const auto found = std::ranges::find(requirements, id, &RequirementInfo::id);
@@ -57,8 +74,7 @@ int exit_code(const RunResult& run) {
   if (run.signal != 0) return 128 + run.signal;  // the shell's convention: 130 for SIGINT, 143 for SIGTERM
   const Counts counts = run.counts();
   if (counts.fail != 0) return 1;
-  const auto is_wrong = [](const WaiverUse& each) { return each.verdict == Verdict::fail; };
-  if (std::ranges::any_of(run.waivers, is_wrong)) return 1;
+  if (run.has_wrong_waiver()) return 1;
   if (counts.error != 0 || counts.inconclusive != 0) return 3;
   // A run that stopped early is never green, and it says so even when nothing had been planned yet.
   if (run.aborted) return 3;

@@ -196,6 +196,7 @@ struct Counts {
     return pass + waived + warn + fail + inconclusive + not_applicable + error;
   }
   void add(Verdict verdict);  ///< one more of it
+  Counts& operator+=(const Counts& more);
 };
 
 struct RunResult {
@@ -220,6 +221,8 @@ struct RunResult {
   [[nodiscard]] Counts counts() const;
   /// Requirements whose failure is waived, sorted, each once: a run with some does not simply conform.
   [[nodiscard]] std::vector<std::string> waived() const;
+  /// A waiver has expired or, with --strict, asks for a look: that fails the run by itself.
+  [[nodiscard]] bool has_wrong_waiver() const;
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;
 };
 

@@ -3,6 +3,8 @@
 
 #include "catch.hpp"
 #include "fixture.hpp"
+#include "reports/console.hpp"
+#include "reports/markdown.hpp"
 #include "reports/phrases.hpp"
 
 using namespace conform;
@@ -97,6 +99,22 @@ TEST_CASE("Areas count requirements and add up") {
   CHECK(rows[2].counts.warn == 1);
   CHECK(rows[2].counts.pass == 1);
   CHECK(sum(rows).counts.total() == run.requirements.size());
+}
+
+TEST_CASE("What is waived is counted in the sum of the areas, and shown by every table") {
+  auto run = testing::sample_run();
+  for (auto& one : run.cases) {
+    for (auto& judgement : one.judgements) {
+      if (judgement.verdict != Verdict::fail) continue;
+      judgement.verdict = one.verdict = Verdict::waived;
+      judgement.waived = "later";
+    }
+  }
+  const auto total = sum(tally_by_area(run));
+  CHECK(total.counts.waived > 0);
+  CHECK(total.counts.fail == 0);
+  CHECK(summary(run, Style{}).find("   waived") != std::string::npos);
+  CHECK(markdown(run, {}).find("| pass | waived | warn |") != std::string::npos);
 }
 
 TEST_CASE("Cases with the same reason are one group") {
