@@ -17,10 +17,7 @@ struct Words {
 };
 
 Words words_of(const result::RunResult& run) {
-  result::Counts counts;
-  for (const auto& one : requirement_verdicts(run)) {
-    if (one.verdict) counts.add(*one.verdict);
-  }
+  const auto counts = sum(tally_by_area(run)).counts;
   const auto open = counts.inconclusive + counts.error;
   const auto right = counts.pass + counts.warn;
   const auto judged = right + counts.waived + counts.fail;

@@ -45,17 +45,9 @@ Json names_of(const std::vector<const CaseResult*>& cases) {
 }
 
 Json summary_of(const RunResult& run) {
-  result::Counts requirements;
-  std::size_t not_judged = 0;
-  for (const auto& one : requirement_verdicts(run)) {
-    if (one.verdict) {
-      requirements.add(*one.verdict);
-    } else {
-      ++not_judged;
-    }
-  }
-  auto rules = counts_json(requirements);
-  rules["not judged"] = not_judged;
+  const AreaTally total = sum(tally_by_area(run));
+  auto rules = counts_json(total.counts);
+  rules["not judged"] = total.not_judged;
   return {{"exit_code", result::exit_code(run)},
           {"cases", counts_json(run.counts())},
           {"requirements", std::move(rules)},

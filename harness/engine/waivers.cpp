@@ -38,6 +38,15 @@ bool was_judged(const device::Waiver& waiver, const std::string& requirement, co
 
 }  // namespace
 
+bool covers(const device::Waiver& waiver, std::string_view requirement, const result::CaseResult& one,
+            const result::Judgement& judgement) {
+  if (requirement != judgement.requirement || !is_about(waiver, one)) return false;
+  // Of several objects that fail in one case every one has to be waived.
+  return !waiver.object || std::ranges::all_of(judgement.findings, [&](const result::Finding& finding) {
+    return finding.verdict != Verdict::fail || finding.object == waiver.object;
+  });
+}
+
 Waivers::Waivers(std::span<const device::Waiver> waivers, const scenario::Catalogue& catalogue,
                  std::chrono::sys_days today)
     : waivers_(waivers), today_(today) {
@@ -45,22 +54,12 @@ Waivers::Waivers(std::span<const device::Waiver> waivers, const scenario::Catalo
     work_.push_back({.requirement = catalogue.canonical(each.requirement).value_or("")});
 }
 
-bool Waivers::covers(std::size_t index, const result::CaseResult& one,
-                     const result::Judgement& judgement) const {
-  const auto& waiver = waivers_[index];
-  if (work_[index].requirement != judgement.requirement || !is_about(waiver, one)) return false;
-  // Of several objects that fail in one case every one has to be waived.
-  return !waiver.object || std::ranges::all_of(judgement.findings, [&](const result::Finding& finding) {
-    return finding.verdict != Verdict::fail || finding.object == waiver.object;
-  });
-}
-
 void Waivers::apply(result::CaseResult& one) {
   auto verdict = Verdict::not_applicable;
   for (auto& judgement : one.judgements) {
     for (std::size_t i = 0; i < waivers_.size() && judgement.verdict == Verdict::fail; ++i) {
-      if (!covers(i, one, judgement)) continue;
       const auto& waiver = waivers_[i];
+      if (!covers(waiver, work_[i].requirement, one, judgement)) continue;
       if (has_expired(waiver)) {
         work_[i].refused = true;
         for (auto& finding : judgement.findings) {

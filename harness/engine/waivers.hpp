@@ -15,6 +15,10 @@
 
 namespace conform::engine {
 
+/// Whether the waiver is about this judgement of `requirement` in the case, expired or not.
+[[nodiscard]] bool covers(const device::Waiver& waiver, std::string_view requirement,
+                          const result::CaseResult& one, const result::Judgement& judgement);
+
 class Waivers {
  public:
   /// `waivers` and `catalogue` live longer than this.
@@ -37,8 +41,6 @@ class Waivers {
     bool refused = false;              ///< it would have covered something, but has expired
   };
 
-  [[nodiscard]] bool covers(std::size_t index, const result::CaseResult& one,
-                            const result::Judgement& judgement) const;
   [[nodiscard]] bool has_expired(const device::Waiver& waiver) const {
     return waiver.expires && *waiver.expires < today_;
   }

@@ -161,17 +161,19 @@ Result<Journal> parse(std::string_view text, const std::string& where) {
 }
 
 Result<Journal> read(const std::string& path) {
-  auto text = read_file(path, largest);
+  const auto text = read_file(path, largest);
   if (!text) return std::unexpected(text.error());
-  if (text->starts_with(std::string("{\"") + lines::elsewhere)) {
-    const auto line = Json::parse(text->substr(0, text->find('\n')), nullptr, false);
-    if (line.is_discarded() || !line.is_object()) return fail("does not say where the journal is", path);
-    const auto place = text_of(line.at(lines::elsewhere));
-    text = read_file(place, largest);
-    if (!text) return std::unexpected(text.error());
-    return parse(*text, place);
-  }
-  return parse(*text, path);
+  return read(path, *text);
+}
+
+Result<Journal> read(const std::string& path, std::string_view text) {
+  if (!text.starts_with(std::string("{\"") + lines::elsewhere)) return parse(text, path);
+  const auto line = Json::parse(text.substr(0, text.find('\n')), nullptr, false);
+  if (line.is_discarded() || !line.is_object()) return fail("does not say where the journal is", path);
+  const auto place = text_of(line.at(lines::elsewhere));
+  const auto there = read_file(place, largest);
+  if (!there) return std::unexpected(there.error());
+  return parse(*there, place);
 }
 
 std::string pointer_to(const std::string& path) {

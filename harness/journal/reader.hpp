@@ -32,6 +32,8 @@ struct Journal {
 [[nodiscard]] Result<Journal> parse(std::string_view text, const std::string& where);
 /// Follows a file that only says where the journal is.
 [[nodiscard]] Result<Journal> read(const std::string& path);
+/// The same of a file whose content was read already.
+[[nodiscard]] Result<Journal> read(const std::string& path, std::string_view text);
 
 /// What stands in place of a journal that the user wants elsewhere, so that the next run finds it.
 [[nodiscard]] std::string pointer_to(const std::string& path);

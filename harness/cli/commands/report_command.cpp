@@ -7,6 +7,7 @@
 #include "reports/console.hpp"
 
 namespace conform::cli {
+
 int report_command(const ReportCommand& options) {
   auto source = read_run(options.source);
   if (!source) return report_error(source.error(), exit_usage);

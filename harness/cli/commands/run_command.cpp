@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -137,9 +136,7 @@ int compare_with(const result::RunResult& baseline, const result::RunResult& run
   const int own = result::exit_code(run);
   int code = result::exit_code(comparison, options.strict);
   // The file of waivers is wrong, whatever the device does.
-  if (std::ranges::any_of(run.waivers,
-                          [](const auto& each) { return each.verdict == result::Verdict::fail; }))
-    code = 1;
+  if (run.has_wrong_waiver()) code = 1;
   if (code == 0 && (run.aborted || !run.unwritten.empty())) code = exit_environment;
   if (run.signal != 0 || own == exit_usage) code = own;
   print(fmt::format("\nAgainst the baseline\n--------------------\n{}exit code {} instead of {}\n",

@@ -13,9 +13,9 @@
 #include "cli/run/run_source.hpp"
 #include "cli/run/terminal.hpp"
 #include "device/waiver.hpp"
+#include "engine/waivers.hpp"
 #include "reports/text_tools.hpp"
 #include "result/run_json.hpp"
-#include "scenario/selection.hpp"
 
 namespace conform::cli {
 namespace {
@@ -23,16 +23,12 @@ namespace {
 constexpr std::uint64_t largest = std::uint64_t{1} << 20U;
 
 /// The cases of the run whose failure it would cover.
-std::vector<std::string> covered(const result::RunResult& run, const WaiveCommand& options,
-                                 const std::optional<Index>& object) {
+std::vector<std::string> covered(const result::RunResult& run, const device::Waiver& waiver) {
   std::vector<std::string> out;
   for (const auto& one : run.cases) {
-    if (!options.case_name.empty() && !scenario::matches_pattern(options.case_name, one.name())) continue;
     const bool failed = std::ranges::any_of(one.judgements, [&](const result::Judgement& judgement) {
-      return judgement.requirement == options.requirement && judgement.verdict == result::Verdict::fail &&
-             (!object || std::ranges::all_of(judgement.findings, [&](const result::Finding& finding) {
-               return finding.verdict != result::Verdict::fail || finding.object == object;
-             }));
+      return judgement.verdict == result::Verdict::fail &&
+             engine::covers(waiver, waiver.requirement, one, judgement);
     });
     if (failed) out.push_back(one.name());
   }
@@ -89,7 +85,11 @@ int waive_command(const WaiveCommand& options) {
   }
   const auto source = read_run(options.result);
   if (!source) return refuse(source.error());
-  const auto cases = covered(source->run, options, object);
+  device::Waiver waiver;
+  waiver.requirement = options.requirement;
+  waiver.case_name = options.case_name;
+  waiver.object = object;
+  const auto cases = covered(source->run, waiver);
   if (cases.empty())
     return refuse({"no failure of the run is covered: " + options.requirement, options.result,
                    failed_requirements(source->run)});

@@ -22,7 +22,7 @@ Result<RunSource> read_run(const std::string& path) {
     if (!run) return std::unexpected(run.error());
     return RunSource{std::move(*run), {}};
   }
-  auto journal = journal::read(path);
+  auto journal = journal::read(path, *text);
   if (!journal) return std::unexpected(journal.error());
   return RunSource{std::move(journal->run), std::move(journal->header.reports)};
 }

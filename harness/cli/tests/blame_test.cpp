@@ -9,25 +9,14 @@
 
 #include "base/text.hpp"
 #include "catch.hpp"
-#include "cli/suite_folder.hpp"
 #include "defects/defect.hpp"
-#include "device/profile.hpp"
 #include "result/relations.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
+using cli::shipped::suites;
 
 namespace {
-
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
-const cli::LoadedSuites& suites() {
-  static const auto loaded = [] {
-    auto out = cli::load_suites(suites_folder, false);
-    REQUIRE(out.has_value());
-    return std::move(*out);
-  }();
-  return loaded;
-}
 
 /// Ids, or beginnings of ids, that no requirement has.
 std::vector<std::string> unknown(std::string_view list) {
@@ -43,8 +32,6 @@ std::vector<std::string> unknown(std::string_view list) {
 
 const cli::KillMatrix& sample() {
   static const auto computed = [] {
-    const auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-    REQUIRE(profile.has_value());
     // Every 17th: from each table, and quick enough for CTest.
     constexpr std::size_t stride = 17;
     cli::KillOptions options;
@@ -52,7 +39,7 @@ const cli::KillMatrix& sample() {
     options.pairs = 40;
     const auto all = refnode::defects();
     for (std::size_t i = 3; i < all.size(); i += stride) options.only.emplace_back(all[i].id);
-    auto out = cli::kill_matrix(profile->profile, suites().suite, suites().catalogue, options);
+    auto out = cli::kill_matrix(cli::shipped::reference(), suites().suite, suites().catalogue, options);
     REQUIRE(out.has_value());
     return std::move(*out);
   }();

@@ -8,37 +8,24 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "cli/proof/selftest.hpp"
-#include "cli/suite_folder.hpp"
 #include "defects/defect.hpp"
-#include "device/profile.hpp"
 #include "reports/compare.hpp"
 #include "result/compare.hpp"
+#include "shipped.hpp"
 
 using namespace conform;
+using cli::shipped::suites;
 
 namespace {
 
-const std::string suites_folder = std::string(CONFORM_SOURCE_DIR) + "/suites";
-
-const cli::LoadedSuites& suites() {
-  static const auto loaded = [] {
-    auto out = cli::load_suites(suites_folder, false);
-    REQUIRE(out.has_value());
-    return std::move(*out);
-  }();
-  return loaded;
-}
-
 result::RunResult run_of(std::vector<std::string> defects, std::uint64_t seed = 1, bool slow = false,
                          std::optional<std::uint64_t> shuffle = {}) {
-  const auto profile = device::load_profile_file(suites_folder + "/devices/reference-node.yaml");
-  REQUIRE(profile.has_value());
   engine::RunOptions options;
   options.measure = true;
   options.plan.seed = seed;
   options.plan.slow = slow;
   options.plan.shuffle = shuffle;
-  auto out = cli::simulate({.defects = std::move(defects)}, profile->profile, suites().suite,
+  auto out = cli::simulate({.defects = std::move(defects)}, cli::shipped::reference(), suites().suite,
                            suites().catalogue, std::move(options), seed);
   REQUIRE(out.has_value());
   return std::move(out->result);
