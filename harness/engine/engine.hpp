@@ -26,6 +26,8 @@ struct RunOptions {
   /// Takes the power of the device away and gives it back, where a scenario wants it, and when the device
   /// does not come back by a reset. Empty: by hand only. Its error is none of the device.
   std::function<Result<void>()> power_cycle;
+  /// How long the power stays away after `power_cycle` has returned; the device's boot_time begins behind it.
+  Duration power_away{};
   /// false: only where a scenario wants it. A simulated device that is dead is to be seen so.
   bool power_revives = true;
   const std::atomic<int>* stop = nullptr;  ///< a signal number ends the run in good order

@@ -35,7 +35,8 @@ std::function<Result<void>()> Life::power_switch() {
     run_.live.lose_track();
     losses_.push_back({frames.size(), frames.size()});
     run_.recorder.mark_next_frame(can::power_was_switched);
-    return {};
+    if (run_.options.power_away.count() == 0) return {};
+    return run_.recorder.wait_until(run_.recorder.now() + run_.options.power_away);
   };
 }
 

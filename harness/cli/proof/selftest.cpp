@@ -37,6 +37,7 @@ Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profil
     bus.attach(**node, "reference node");
     return {};
   };
+  options.power_away = refnode::PoweredNode::off_time;
   device::Profile claimed = profile;
   for (const auto& id : switches.defects) {
     const refnode::Defect* defect = refnode::find_defect(id);

@@ -12,7 +12,7 @@
 #include "cli/proof/variant_profile.hpp"
 #include "engine/engine.hpp"
 #include "neighbours.hpp"
-#include "node/node.hpp"
+#include "node/powered_node.hpp"
 #include "variants/variant.hpp"
 
 namespace conform::cli {
@@ -66,6 +66,7 @@ std::string Combination::text() const {
   if (!described) out += " --undescribed";
   if (neighbours) out += " --neighbours";
   if (shuffled) out += " --shuffled";
+  if (switched) out += " --switched";
   if (!variants.empty()) out += " --variants " + join(variants, ",");
   return out;
 }
@@ -112,21 +113,23 @@ Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
     if (takes_hours(*row)) out.neighbours = false;
   }
   out.shuffled = below(random, 4) == 0;
+  out.switched = below(random, 2) == 0;
   return out;
 }
 
 Result<std::vector<Complaint>> judge_combination(const Combination& combination, const LoadedSuites& suites,
                                                  const device::Profile& reference,
                                                  const std::vector<std::string>& only, can::Capture* frames) {
-  auto node = refnode::Node::create({.node_id = static_cast<std::uint8_t>(combination.node),
-                                     .defects = {},
-                                     .storage = {},
-                                     .variants = combination.variants});
+  auto node = refnode::PoweredNode::create({.node_id = static_cast<std::uint8_t>(combination.node),
+                                            .defects = {},
+                                            .storage = {},
+                                            .variants = combination.variants});
   if (!node) return std::unexpected(node.error());
   const NodeId node_id(static_cast<std::uint8_t>(combination.node));
-  device::Profile profile = combination.described
-                                ? profile_of_variants(reference, (*node)->dictionary(), combination.variants)
-                                : device::default_profile(node_id);
+  device::Profile profile =
+      combination.described
+          ? profile_of_variants(reference, (*node)->node().dictionary(), combination.variants)
+          : device::default_profile(node_id);
   if (combination.described && combination.neighbours) profile.claims.erase("only node on the bus");
   profile.node = node_id;
 
@@ -141,6 +144,14 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
   options.plan.seed = combination.seed;
   options.plan.selection.patterns = only;
   if (combination.shuffled) options.plan.shuffle = combination.seed;
+  if (combination.switched) {
+    options.power_cycle = [&bus, &node]() -> Result<void> {
+      bus.unplug(**node);
+      bus.attach(**node, "reference node");
+      return {};
+    };
+    options.power_away = refnode::PoweredNode::off_time;
+  }
   can::Capture capture;
   const auto run = engine::run(bus.transport(), profile, suites.suite, suites.catalogue, options, capture);
   if (frames != nullptr) *frames = capture;
@@ -180,6 +191,7 @@ Combination shrink(Combination combination, const std::string& what, const Loade
   }
   attempt([](Combination& candidate) { candidate.neighbours = false; });
   attempt([](Combination& candidate) { candidate.shuffled = false; });
+  attempt([](Combination& candidate) { candidate.switched = false; });
   attempt([](Combination& candidate) { candidate.bit_rate = 500'000; });
   attempt([](Combination& candidate) { candidate.node = 1; });
   attempt([](Combination& candidate) { candidate.described = true; });

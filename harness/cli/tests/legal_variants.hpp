@@ -26,6 +26,7 @@ struct Combination {
   std::uint32_t bit_rate = 500'000;
   std::uint64_t seed = 1;  ///< of the bus and of the plan
   bool shuffled = false;   ///< the cases in a random order, drawn by the seed
+  bool switched = false;   ///< the power of the node can be switched
 
   /// As options of the program legal_variants.
   [[nodiscard]] std::string text() const;

@@ -138,6 +138,7 @@ int main(int argc, char** argv) {
   app.add_flag("--undescribed", undescribed, "without a profile");
   app.add_flag("--neighbours", one.neighbours, "with other nodes on the bus");
   app.add_flag("--shuffled", one.shuffled, "the cases in a random order, drawn by the seed of the bus");
+  app.add_flag("--switched", one.switched, "the power of the node can be switched");
   app.add_option("--candump", candump, "file for the frames; with one combination");
   app.add_option("cases", only, "only these cases; with one combination");
   CLI11_PARSE(app, argc, argv);

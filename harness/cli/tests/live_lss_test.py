@@ -65,7 +65,7 @@ class LiveLss(unittest.TestCase):
             text = file.read()
         with tempfile.TemporaryDirectory() as folder, Node() as node:
             profile = os.path.join(folder, "device.yaml")
-            for command, code in ((f"kill -USR1 {node.process.pid}", 0), ("exit 7", 3)):
+            for command, code in ((f"kill -USR1 {node.process.pid} && sleep 0.6", 0), ("exit 7", 3)):
                 with open(profile, "w", encoding="utf-8") as file:
                     file.write(text + f"\npower_cycle: {command}\n")
                 for _ in range(3):
