@@ -31,6 +31,7 @@ void Entries::asked(Multiplexer object, std::optional<std::uint32_t> value, BusT
     restoring_ = true;
     return forget_values();
   }
+  asked_.insert(key_of(object));
   auto& entry = entries_[key_of(object)];
   if (entry.doubts < 0xFF) ++entry.doubts;
   touched_[index] = time;
@@ -55,7 +56,7 @@ void Entries::written(Multiplexer object, std::uint32_t value, BusTime time) {
     certain = was_known && (!is_active(object, entry.value) || ((entry.value ^ value) & id_and_format) == 0);
   }
   entry = {.value = value, .since = time, .by_write = true, .known = certain, .doubts = 0};
-  note(object, value);
+  note(object, value, false);
 }
 
 void Entries::refused(Multiplexer object, BusTime time) {
@@ -73,7 +74,7 @@ void Entries::read(Multiplexer object, std::uint32_t value, BusTime time) {
   if (entry.known && entry.doubts == 0 && entry.value == value) return;
   absent_.erase(key_of(object));
   entry = {.value = value, .since = time, .by_write = false, .known = true, .doubts = 0};
-  note(object, value);
+  note(object, value, started_ && !asked_.contains(key_of(object)));
 }
 
 void Entries::absent(Multiplexer object) {
@@ -84,11 +85,13 @@ void Entries::reset() {
   // What comes back then nobody has seen.
   if (restored_ || restoring_) seen_bits_.clear();
   restored_ = restoring_ = false;
+  started_ = true;
   forget_values();
 }
 
 void Entries::lose_track() {
   seen_bits_.clear();
+  started_ = false;
   forget_values();
 }
 
@@ -97,6 +100,7 @@ void Entries::forget_values() {
     if (entry.doubts > 0) open_.insert(place);
   }
   entries_.clear();
+  asked_.clear();
 }
 
 bool Entries::never_had(std::uint16_t index, std::uint8_t sub, std::uint32_t bits) const {
@@ -109,10 +113,14 @@ bool Entries::never_had(std::uint16_t index, std::uint8_t sub, std::uint32_t bit
   return entry == entries_.end() || entry->second.doubts == 0;
 }
 
-void Entries::note(Multiplexer object, std::uint32_t value) {
+void Entries::note(Multiplexer object, std::uint32_t value, bool of_start) {
   auto& most = most_[key_of(object)];
   most = std::max(most, value);
-  seen_bits_[key_of(object)] |= value;
+  const auto seen = seen_bits_.find(key_of(object));
+  if (seen != seen_bits_.end())
+    seen->second |= value;
+  else if (of_start)
+    seen_bits_.emplace(key_of(object), value);
   note_can_id(object, value, is_active(object, value));
 }
 

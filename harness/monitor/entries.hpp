@@ -72,13 +72,17 @@ class Entries {
   static Place key_of(Multiplexer object) { return key_of(object.index.value(), object.sub.value()); }
   static bool concerns(Multiplexer object);
   void forget_values();
-  void note(Multiplexer object, std::uint32_t value);
+  void note(Multiplexer object, std::uint32_t value, bool of_start);
   void note_can_id(Multiplexer object, std::uint32_t value, bool in_use);
 
   std::map<Place, Entry> entries_;
   std::map<Place, std::uint32_t> most_;
-  std::map<Place, std::uint32_t> seen_bits_;  ///< of all values
-  std::set<Place> open_;                      ///< downloads of which nobody knows what became of them
+  /// Of all values. Begins with one that a start gave: behind a download nobody knows what the next start
+  /// brings back.
+  std::map<Place, std::uint32_t> seen_bits_;
+  bool started_ = false;   ///< the trace shows the start that these values come from
+  std::set<Place> asked_;  ///< for a download since then
+  std::set<Place> open_;   ///< downloads of which nobody knows what became of them
   /// Defaults may have come back that nobody has seen: by a confirmed command, by one that is not answered
   /// yet.
   bool restored_ = false, restoring_ = false;

@@ -67,3 +67,20 @@ TEST_CASE("Who does not produce TIME sends none") {
         Told{"fail TIME-PRO-01"});
   CHECK(Story().later(time_frame).told().empty());
 }
+
+TEST_CASE("What a start brings back that nobody has seen may produce TIME") {
+  // A device that stores by itself had stored C000 0100h before the trace was interrupted (its power was
+  // switched), and TIME-PRO-03 was failed when the next reset brought it back:
+  //   601 [8] 23 12 10 00 00 01 00 00   581 [8] 60 12 10 00 ..   000 [2] 82 01   701 [1] 00   100 [6] ..
+  const std::string reset = "> 000: 82 01", boot_up = "< 701: 00";
+  CHECK(Story().write(0x1012, 0, 0x100).line(reset).line(boot_up).later(time_frame).told().empty());
+  CHECK(Story()
+            .line(reset)
+            .line(boot_up)
+            .read(0x1012, 0, 0x8000'0100)
+            .write(0x1012, 0, 0x100)
+            .line(reset)
+            .line(boot_up)
+            .later(time_frame)
+            .told() == Told{"fail TIME-PRO-03"});
+}
