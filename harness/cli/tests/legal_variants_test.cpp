@@ -106,6 +106,17 @@ TEST_CASE("a device whose power can be switched has its boot_time from when the 
   check(combination);
 }
 
+TEST_CASE("a device that stores by itself and brings back a COB-ID EMCY that is not valid is not failed") {
+  // EMCY-INH-02 was failed: what another case had made of 1014h was stored while it lasted.
+  //   601 [8] 23 14 10 00 81 00 00 00   581 [8] 60 14 10 00 ..   601 [8] 2B 15 10 00 E8 FD 00 00
+  //   77E [1] 05   081 [8] 30 81 11 7E 01 ..   000 [2] 82 01   701 [1] 00   77E [1] 05, no EMCY, and
+  //   601 [8] 40 14 10 00 ..   581 [8] 43 14 10 00 81 00 00 80
+  cli::Combination combination;
+  combination.described = false;
+  combination.variants = {"1010-autonomous-02-only", "sdo-turnaround-400ms"};
+  check(combination);
+}
+
 TEST_CASE("rows of the variants are sound") {
   std::set<std::string_view> ids, groups;
   for (const auto& variant : refnode::variants()) {
