@@ -17,36 +17,33 @@
 namespace conform::reports {
 namespace {
 
-std::string write_junit(const result::RunResult& run, const can::Capture& /*capture*/) { return junit(run); }
-std::string write_markdown(const result::RunResult& run, const can::Capture& /*capture*/) {
-  return markdown(run);
+std::string write_junit(const result::RunResult& run, const Beside& /*beside*/) { return junit(run); }
+std::string write_evidence(const result::RunResult& run, const Beside& /*beside*/) {
+  return markdown_evidence(run);
 }
-std::string write_text(const result::RunResult& run, const can::Capture& /*capture*/) {
+std::string write_text(const result::RunResult& run, const Beside& /*beside*/) {
   return summary(run, Style{});
 }
-std::string write_json(const result::RunResult& run, const can::Capture& /*capture*/) {
-  return result_json(run);
-}
+std::string write_json(const result::RunResult& run, const Beside& /*beside*/) { return result_json(run); }
 
-std::string write_csv(const result::RunResult& run, const can::Capture& /*capture*/) {
+std::string write_csv(const result::RunResult& run, const Beside& /*beside*/) {
   return requirements_csv(run);
 }
-std::string write_tap(const result::RunResult& run, const can::Capture& /*capture*/) { return tap(run); }
-std::string write_code_quality(const result::RunResult& run, const can::Capture& /*capture*/) {
+std::string write_tap(const result::RunResult& run, const Beside& /*beside*/) { return tap(run); }
+std::string write_code_quality(const result::RunResult& run, const Beside& /*beside*/) {
   return code_quality(run);
 }
-std::string write_badge(const result::RunResult& run, const can::Capture& /*capture*/) { return badge(run); }
-std::string write_html(const result::RunResult& run, const can::Capture& /*capture*/) {
-  return html_report(run);
-}
+std::string write_badge(const result::RunResult& run, const Beside& /*beside*/) { return badge(run); }
+std::string write_html(const result::RunResult& run, const Beside& /*beside*/) { return html_report(run); }
 
 // A table and not self-registration: the linker drops registrars from static libraries.
-constexpr std::array<Format, 9> table{{
+constexpr std::array<Format, 10> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
     {"html", "report for people in one file: opens from an e-mail, prints, works offline", ".html",
      write_html},
     {"json", "everything that was found, for other programs and for 'report' later", ".json", write_json},
-    {"markdown", "short report for pull requests and job summaries", ".md", write_markdown},
+    {"markdown", "at most 60 lines for pull requests and job summaries", ".md", markdown},
+    {"markdown-evidence", "the findings with their frames, for a wiki", ".md", write_evidence},
     {"csv", "a row for each requirement, with its verdict and what decided it", ".csv", write_csv},
     {"tap", "Test Anything Protocol, a line for each case", ".tap", write_tap},
     {"code-quality", "GitLab's code quality report: an issue for each cause", ".json", write_code_quality},

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "can/capture.hpp"
+#include "reports/beside.hpp"
 #include "result/run_result.hpp"
 
 namespace conform::reports {
@@ -16,7 +16,7 @@ struct Format {
   std::string_view name;     ///< as on the command line: "junit"
   std::string_view summary;  ///< one line of help
   std::string_view suffix;   ///< of the file: ".xml"
-  std::string (*write)(const result::RunResult& run, const can::Capture& capture);
+  std::string (*write)(const result::RunResult& run, const Beside& beside);
 };
 
 /// All formats in the order of the help text.

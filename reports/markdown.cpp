@@ -3,255 +3,120 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "reports/cause_lines.hpp"
-#include "reports/console.hpp"
+#include "reports/markdown_parts.hpp"
 #include "reports/markdown_text.hpp"
-#include "reports/phrases.hpp"
 #include "reports/tally.hpp"
 #include "reports/text_tools.hpp"
 
 namespace conform::reports {
 namespace {
 
-using result::CaseResult;
-using result::Cause;
-using result::Counts;
 using result::RunResult;
-using result::Verdict;
 
-/// A block of text whose fence cannot occur in it: log_safe() lines never hold a line of tildes alone.
-std::string block(std::string_view text) { return fmt::format("~~~~~~text\n{}~~~~~~\n", text); }
+// What the parts may take of the 60 lines, with their headings and the lines between.
+constexpr std::size_t most_causes = 15, most_areas = 6, most_waivers = 3, most_wants = 3, most_notes = 3;
 
-std::string banner(const RunResult& run, int exit_code) {
-  switch (exit_code) {
-    case 0:
-      if (const auto waived = run.waived(); !waived.empty())
-        return fmt::format("conforms but for {}, waived: {}", counted(waived.size(), "violated requirement"),
-                           escaped(join(waived, ", ")));
-      return "conforms";
-    case 1: return "does not conform";
-    case 2: return "nothing was judged";
-    default: return "not fully judged";
-  }
-}
+std::string cell(std::size_t number) { return number == 0 ? std::string() : fmt::format("{}", number); }
 
-std::string counts_text(const Counts& counts) {
-  struct Part {
-    Verdict verdict;
-    std::size_t number;
-  };
-  const std::array<Part, 7> parts{{{Verdict::fail, counts.fail},
-                                   {Verdict::error, counts.error},
-                                   {Verdict::inconclusive, counts.inconclusive},
-                                   {Verdict::warn, counts.warn},
-                                   {Verdict::waived, counts.waived},
-                                   {Verdict::pass, counts.pass},
-                                   {Verdict::not_applicable, counts.not_applicable}}};
-  std::string text;
-  for (const Part& part : parts) {
-    if (part.number == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part.number, verdict_words(part.verdict));
-  }
-  return text.empty() ? "none" : text;
-}
-
+/// Areas in which something did not pass, and the sum of all: at most 11 lines.
 std::string areas_text(const RunResult& run) {
-  const std::vector<AreaTally> rows = tally_by_area(run);
+  const auto rows = tally_by_area(run);
   if (rows.empty()) return {};
-  const AreaTally total = sum(rows);
-  // Most runs have no waivers.
-  const bool waivers = total.counts.waived > 0;
-  std::string text = fmt::format(
-      "\n| Requirements | pass |{} warn | fail | inconclusive | error | n/a |\n|---|--:|{}--:|--:|--:|--:|--:|\n",
-      waivers ? " waived |" : "", waivers ? "--:|" : "");
-  const auto cell = [](std::size_t number) {
-    return number == 0 ? std::string() : fmt::format("{}", number);
-  };
-  const auto add = [&](std::string_view name, const Counts& counts) {
-    const auto waived = waivers ? fmt::format(" {} |", cell(counts.waived)) : std::string();
-    text += fmt::format("| {} | {} |{} {} | {} | {} | {} | {} |\n", name, cell(counts.pass), waived,
-                        cell(counts.warn), cell(counts.fail), cell(counts.inconclusive), cell(counts.error),
-                        cell(counts.not_applicable));
-  };
-  for (const AreaTally& row : rows) add(escaped(row.area, 100), row.counts);
-  add("**total**", total.counts);
-  return text;
-}
-
-/// The headline to read, the card of the terminal to unfold.
-std::string finding_text(const RunResult& run, const LocatedFinding& located) {
-  const result::Finding& finding = *located.finding;
-  const result::RequirementInfo* info = run.requirement(finding.requirement);
   std::string text =
-      fmt::format("\n**{}**: {}\n", finding.requirement.empty() ? "set-up" : escaped(finding.requirement),
-                  escaped(headline(finding)));
-  if (info != nullptr) text += fmt::format("{} ({})\n", escaped(info->statement), escaped(info->clause));
-  text += fmt::format("Case {}\n\n<details><summary>evidence</summary>\n\n", code(located.owner->name()));
-  text += block(finding_card(run, *located.owner, finding, Style{}));
-  return text + "\n</details>\n";
-}
-
-/// Adds sections until the limit; what is left out is counted.
-class Document {
- public:
-  explicit Document(std::size_t limit) : limit_(limit) {}
-  void add(std::string_view text) { out_ += text; }
-  void section(std::string_view title, const std::vector<std::string>& items) {
-    if (items.empty()) return;
-    out_ += fmt::format("\n### {} ({})\n", title, items.size());
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      if (out_.size() + items[i].size() > limit_) {
-        out_ += fmt::format("\n... and {} more, see the other reports of this run\n", items.size() - i);
-        return;
-      }
-      out_ += items[i];
-    }
+      "\n| Requirements | pass | waived | warn | fail | not judged | n/a |\n|---|--:|--:|--:|--:|--:|--:|\n";
+  const auto add = [&text](std::string_view name, const result::Counts& counts) {
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, cell(counts.pass),
+                        cell(counts.waived), cell(counts.warn), cell(counts.fail),
+                        cell(counts.inconclusive + counts.error), cell(counts.not_applicable));
+  };
+  std::vector<const AreaTally*> bad;
+  for (const auto& row : rows) {
+    const auto& counts = row.counts;
+    if (counts.fail + counts.warn + counts.waived + counts.inconclusive + counts.error > 0)
+      bad.push_back(&row);
   }
-  [[nodiscard]] std::string take() { return std::move(out_); }
-
- private:
-  std::size_t limit_;
-  std::string out_;
-};
-
-/// The list a reader begins with: one line for each cause.
-std::string causes_text(const std::vector<Cause>& causes) {
-  if (causes.empty()) return {};
-  std::string text = "\n| | Cause | Requirement | Cases | First case |\n|---|---|---|--:|---|\n";
-  for (const Cause& cause : causes) {
-    text += fmt::format("| {} | {}: {} | {} | {} | {} |\n", verdict_words(cause.verdict),
-                        escaped(cause.about), escaped(headline(*cause.primary.finding), 160),
-                        escaped(cause.primary.finding->requirement),
-                        cause.cases.size() + cause.resting.size(), code(cause.primary.owner->name()));
+  std::ranges::stable_sort(bad, std::ranges::greater{},
+                           [](const AreaTally* row) { return row->counts.fail; });
+  const auto shown = std::min(bad.size(), most_areas);
+  for (std::size_t i = 0; i < shown; ++i) add(escaped(bad[i]->area, 100), bad[i]->counts);
+  AreaTally others;
+  for (const auto& row : rows) {
+    if (std::ranges::find(bad.begin(), bad.begin() + static_cast<std::ptrdiff_t>(shown), &row) ==
+        bad.begin() + static_cast<std::ptrdiff_t>(shown))
+      others.counts += row.counts;
   }
+  if (shown > 0 && shown < rows.size()) add(counted(rows.size() - shown, "other area"), others.counts);
+  add("**total**", sum(rows).counts);
   return text;
 }
 
-/// The finding that the rest rests on, and one line for each further requirement.
-std::string cause_text(const RunResult& run, const Cause& cause) {
-  std::string text =
-      finding_text(run, {cause.primary.owner, cause.primary.finding, cause.primary.verdict, false});
-  const auto rules = broken_rules(cause);
-  if (rules.size() > 1) text += "\nOf the same cause, as far as can be told from outside:\n\n";
-  for (std::size_t i = 1; i < rules.size(); ++i) {
-    const auto& rule = rules[i];
-    text += fmt::format("- {} ({}, {}, first {}): {}\n", escaped(rule.requirement),
-                        verdict_words(rule.verdict), counted(rule.cases, "case"),
-                        code(rule.first.owner->name()), escaped(headline(*rule.first.finding)));
-  }
-  if (!cause.resting.empty())
-    text += fmt::format("\nNot judged, resting on it: {}, the first {}\n",
-                        counted(cause.resting.size(), "case"), code(cause.resting.front()->name()));
-  return text;
-}
-
-std::vector<std::string> findings_text(const RunResult& run, const std::vector<Cause>& causes,
-                                       Verdict verdict) {
-  std::vector<std::string> items;
-  for (const Cause& cause : causes) {
-    if (cause.verdict == verdict) items.push_back(cause_text(run, cause));
-  }
-  for (const CaseResult& one : run.cases) {
-    if (one.verdict == verdict && findings_of(one).empty())
-      items.push_back(fmt::format("\n- {}: {}\n", code(one.name()), escaped(one.reason)));
-  }
-  return items;
-}
-
-std::vector<std::string> unjudged_text(const RunResult& run) {
-  std::vector<std::string> items;
-  for (const Verdict verdict : {Verdict::error, Verdict::inconclusive}) {
-    for (const CaseResult& one : run.cases) {
-      if (one.verdict != verdict) continue;
-      items.push_back(
-          fmt::format("\n- {}: {}, {}", code(one.name()), verdict_words(verdict), escaped(headline(one))));
-    }
-  }
-  if (!items.empty()) items.back() += "\n";
-  return items;
-}
-
-/// What is not judged, and what would change that: reasons with their numbers of cases, most first.
-std::string not_applicable_text(const RunResult& run) {
-  std::string text;
-  for (const WantTally& each : tally_wants(run))
-    text += fmt::format("- {}: {}\n", counted(each.cases, "case"), escaped(each.want.text));
-  if (!text.empty()) text.insert(0, "\n### To have more judged\n\n");
-  auto groups = group_by_reason(run, Verdict::not_applicable);
-  if (groups.empty()) return text;
-  std::ranges::stable_sort(groups, std::greater{},
-                           [](const ReasonGroup& group) { return group.cases.size(); });
-  text += fmt::format("\n<details><summary>not applicable: {}</summary>\n\n",
-                      counted(run.counts().not_applicable, "case"));
-  constexpr std::size_t most = 60;
-  for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
-    const ReasonGroup& group = groups[i];
-    text += fmt::format("- {}: {}{}\n", counted(group.cases.size(), "case"), escaped(group.reason),
-                        group.varies ? ", and the like" : "");
-  }
-  if (groups.size() > most) text += fmt::format("- and {} more reasons\n", groups.size() - most);
-  return text + "\n</details>\n";
-}
-
-/// A row for each case of CiA's tool.
+/// What CiA's own tool would say, in one line.
 std::string compared_text(const RunResult& run) {
   if (run.compared.empty()) return {};
-  std::string text = "\n### What CiA's tool would say\n\n| case | | outcome | |\n|---|---|---|---|\n";
+  std::vector<std::pair<std::string, std::size_t>> outcomes;
   for (const auto& each : run.compared) {
-    text += fmt::format("| {} | {}: {} | {} | {} |\n", each.number, escaped(each.group), escaped(each.title),
-                        each.outcome, escaped(each.because));
+    const auto found = std::ranges::find(outcomes, each.outcome, &std::pair<std::string, std::size_t>::first);
+    if (found == outcomes.end()) {
+      outcomes.emplace_back(each.outcome, 1);
+    } else {
+      ++found->second;
+    }
   }
-  return text;
+  std::vector<std::string> parts;
+  for (const auto& [outcome, number] : outcomes)
+    parts.push_back(fmt::format("{} {}", number, escaped(outcome)));
+  return fmt::format("\nWhat CiA's tool would say of its {}: {}.\n", counted(run.compared.size(), "case"),
+                     join(parts, ", "));
 }
 
-std::string waivers_text(const RunResult& run) {
+/// What one could give, and what was noted.
+std::string wants_text(const RunResult& run) {
   std::string text;
-  for (const auto& each : run.waivers)
-    text += fmt::format("{}- {}\n", text.empty() ? "\n### Waivers\n" : "", escaped(waiver_text(each)));
+  const auto wants = tally_wants(run);
+  for (std::size_t i = 0; i < std::min(wants.size(), most_wants); ++i)
+    text += fmt::format("{}- {}: {}\n", i == 0 ? "\n### To have more judged\n\n" : "",
+                        counted(wants[i].cases, "case"), escaped(wants[i].want.text));
+  if (wants.size() > most_wants) text += fmt::format("- and {} more\n", wants.size() - most_wants);
+  for (std::size_t i = 0; i < std::min(run.notes.size(), most_notes); ++i)
+    text += fmt::format("{}- {}\n", i == 0 ? "\n### Notes\n\n" : "", escaped(run.notes[i]));
+  if (run.notes.size() > most_notes) text += fmt::format("- and {} more\n", run.notes.size() - most_notes);
   return text;
 }
 
-std::string facts_text(const RunResult& run) {
-  if (run.properties.empty()) return {};
-  std::string text = "\n<details><summary>device, bus and run</summary>\n\n| | |\n|---|---|\n";
-  for (const result::Property& property : run.properties) {
-    text += fmt::format("| {} | {} |\n", escaped(property.name), escaped(property.value));
+/// "[html](report.html)": a link where the file lies at or below the folder of this one, else its path.
+std::string rest_text(const Beside& beside) {
+  const auto folder = std::filesystem::path(beside.path).parent_path();
+  std::vector<std::string> parts;
+  for (const auto& [name, path] : beside.reports) {
+    if (path == beside.path) continue;
+    const auto relative = std::filesystem::path(path).lexically_relative(folder).generic_string();
+    const bool links = !relative.empty() && !relative.starts_with("..");
+    parts.push_back(links ? fmt::format("[{}]({})", escaped(name), link_target(relative))
+                          : fmt::format("{} {}", escaped(name), code(path)));
   }
-  return text + "\n</details>\n";
+  if (parts.empty())
+    return "\nThe frames behind each finding are in the other reports: \\-\\-html, \\-\\-junit, \\-\\-markdown-evidence.\n";
+  return fmt::format("\nThe rest, with the frames behind each finding: {}.\n", join(parts, ", "));
 }
 
 }  // namespace
 
-std::string markdown(const RunResult& run, const MarkdownOptions& options) {
-  const int exit_code = result::exit_code(run);
-  Document document(options.size_limit);
-  document.add(fmt::format("## {}: {}\n\n",
-                           escaped(run.device.empty() ? "CANopen conformance" : run.device, 100),
-                           banner(run, exit_code)));
-  document.add(fmt::format("{}, {}: {}. Exit code {}.\n", escaped(run.tool),
-                           counted(run.cases.size(), "case"), counts_text(run.counts()), exit_code));
-  if (run.aborted) document.add(fmt::format("\nStopped early: {}\n", escaped(*run.aborted)));
+std::string markdown(const RunResult& run, const Beside& beside) {
+  std::string text = markdown_head(run);
   const auto causes = result::causes_of(run);
-  document.add(causes_text(causes));
-  document.add(areas_text(run));
-  document.add(waivers_text(run));
-  document.add(compared_text(run));
-  document.add(not_applicable_text(run));
-  document.add(facts_text(run));
-  for (std::size_t i = 0; i < run.notes.size(); ++i) {
-    document.add(fmt::format("{}- {}\n", i == 0 ? "\n" : "", escaped(run.notes[i])));
-  }
-  document.section("Failures", findings_text(run, causes, Verdict::fail));
-  document.section("Not judged", unjudged_text(run));
-  document.section("Warnings", findings_text(run, causes, Verdict::warn));
-  return document.take();
+  text += markdown_causes(causes, most_causes);
+  text += areas_text(run);
+  text += markdown_waivers(run, most_waivers);
+  text += compared_text(run);
+  text += wants_text(run);
+  return text + rest_text(beside);
 }
 
 }  // namespace conform::reports

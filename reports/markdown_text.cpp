@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "reports/text_tools.hpp"
 
 namespace conform::reports {
@@ -20,6 +22,20 @@ std::string escaped(std::string_view text, std::size_t width) {
     } else {
       if (marks.find(c) != std::string_view::npos) out += '\\';
       out += c;
+    }
+  }
+  return out;
+}
+
+std::string link_target(std::string_view path) {
+  constexpr std::string_view plain = "-._~/";
+  std::string out;
+  for (const char c : path) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (letter || plain.contains(c)) {
+      out += c;
+    } else {
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }
   }
   return out;

@@ -13,5 +13,7 @@ namespace conform::reports {
 [[nodiscard]] std::string escaped(std::string_view text, std::size_t width = 400);
 /// A code span that holds anything: its fence is longer than every run of backticks in it.
 [[nodiscard]] std::string code(std::string_view text);
+/// A path as the target of a link: whatever could end it is percent-encoded.
+[[nodiscard]] std::string link_target(std::string_view path);
 
 }  // namespace conform::reports

@@ -39,14 +39,14 @@ std::string lines_of(const result::RunResult& run, const Style& style) {
 }  // namespace
 
 TEST_CASE("Every format writes its sample") {
-  const can::Capture capture;
+  const Beside beside{"/out/report", {{"html", "/out/report.html"}, {"junit", "/elsewhere/junit.xml"}}};
   for (const Format& format : formats()) {
     const std::string name(format.name);
     const std::string end = format.suffix == "." + name ? name : name + std::string(format.suffix);
-    compare_with_sample("run." + end, format.write(testing::sample_run(), capture));
+    compare_with_sample("run." + end, format.write(testing::sample_run(), beside));
     compare_with_sample("hostile." + end,
-                        format.write(testing::hostile_run(testing::hostile_text()), capture));
-    compare_with_sample("aborted." + end, format.write(testing::aborted_run(), capture));
+                        format.write(testing::hostile_run(testing::hostile_text()), beside));
+    compare_with_sample("aborted." + end, format.write(testing::aborted_run(), beside));
   }
 }
 

@@ -114,7 +114,7 @@ TEST_CASE("What is waived is counted in the sum of the areas, and shown by every
   CHECK(total.counts.waived > 0);
   CHECK(total.counts.fail == 0);
   CHECK(summary(run, Style{}).find("   waived") != std::string::npos);
-  CHECK(markdown(run, {}).find("| pass | waived | warn |") != std::string::npos);
+  CHECK(markdown_evidence(run).find("| pass | waived | warn |") != std::string::npos);
 }
 
 TEST_CASE("Cases with the same reason are one group") {

@@ -46,6 +46,13 @@ std::vector<std::string> RunReports::all() const {
   return out;
 }
 
+reports::Beside RunReports::beside(const std::string& path) const {
+  reports::Beside out{path, paths_.reports};
+  if (!paths_.capture.empty()) out.reports.emplace("capture", paths_.capture);
+  if (!paths_.candump.empty()) out.reports.emplace("candump", paths_.candump);
+  return out;
+}
+
 std::string RunReports::first() const { return none() ? "" : all().front(); }
 
 Result<void> RunReports::begin(const std::string& tool, const std::vector<std::string>& inputs) {
@@ -74,7 +81,8 @@ Result<void> RunReports::say(const std::string& tool, const std::string& what) {
   for (const auto& [name, path] : paths_.reports) {
     const auto* format = reports::find_format(name);
     if (format == nullptr) continue;
-    if (auto written = write_file_atomically(path, format->write(run, {})); !written) return written;
+    if (auto written = write_file_atomically(path, format->write(run, beside(path))); !written)
+      return written;
   }
   can::CaptureInfo info;
   info.tool = tool;
@@ -130,10 +138,10 @@ void RunReports::put(result::RunResult& run, const std::string& path, const std:
   put(run, path, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
-void RunReports::write_words(result::RunResult& run, const can::Capture& capture) {
+void RunReports::write_words(result::RunResult& run) {
   // A journal may name formats of another version.
   for (const auto& [name, path] : paths_.reports) {
-    if (const auto* format = reports::find_format(name)) put(run, path, format->write(run, capture));
+    if (const auto* format = reports::find_format(name)) put(run, path, format->write(run, beside(path)));
   }
 }
 
@@ -146,11 +154,10 @@ void RunReports::write(result::RunResult& run, const can::Capture& capture, cons
   if (!paths_.capture.empty()) put(run, paths_.capture, can::write_pcapng(capture, info));
   if (!paths_.candump.empty() && !log_is_whole)
     put(run, paths_.candump, can::write_candump_log(capture, info));
-  write_words(run, capture);
+  write_words(run);
 }
 
 void RunReports::write_left(result::RunResult& run) {
-  can::Capture capture;
   if (!paths_.capture.empty()) {
     const auto bytes = read_file(paths_.capture, largest_capture);
     auto loaded = bytes ? can::read_pcapng(
@@ -162,13 +169,12 @@ void RunReports::write_left(result::RunResult& run) {
       loaded->info.tool = run.tool;
       loaded->info.comment = run.device + (run.aborted ? "; " + *run.aborted : "");
       put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
-      capture = std::move(loaded->capture);
     } else {
       run.unwritten.push_back(loaded.error().text());
       report_error(loaded.error(), 0);
     }
   }
-  write_words(run, capture);
+  write_words(run);
 }
 
 }  // namespace conform::cli

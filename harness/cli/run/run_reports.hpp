@@ -11,6 +11,7 @@
 #include "can/capture.hpp"
 #include "can/capture_stream.hpp"
 #include "journal/writer.hpp"
+#include "reports/beside.hpp"
 #include "result/run_result.hpp"
 
 namespace conform::cli {
@@ -54,7 +55,8 @@ class RunReports {
   void put(result::RunResult& run, const std::string& path, ByteView bytes);
   void put(result::RunResult& run, const std::string& path, const std::string& text);
   [[nodiscard]] Result<void> say(const std::string& tool, const std::string& what);
-  void write_words(result::RunResult& run, const can::Capture& capture);
+  void write_words(result::RunResult& run);
+  [[nodiscard]] reports::Beside beside(const std::string& path) const;
   [[nodiscard]] std::vector<std::string> all() const;
 
   journal::ReportPaths paths_;

@@ -304,7 +304,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(run("list", "--cct", "cia301/sdo/load").returncode, 2)
 
     def test_the_cases_of_cias_tool_are_run_in_its_order_and_judged_one_by_one(self):
-        done = run("run", "--simulate", "--cct", "--defect", "1000-writable", "--markdown", self.path("r.md"))
+        done = run("run", "--simulate", "--cct", "--defect", "1000-writable", "--markdown-evidence", self.path("r.md"))
         self.assertEqual(done.returncode, 1, done.stderr)
         page = done.stdout[done.stdout.index("What CiA's tool would say"):]
         self.assertRegex(page, r"\n1\.0 +skipped +EDS: .*--eds")

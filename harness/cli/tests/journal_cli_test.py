@@ -60,7 +60,7 @@ class Journal(unittest.TestCase):
     def test_every_report_is_made_anew_from_the_result(self):
         first, markdown, result = (self.path(name) for name in ("a.xml", "a.md", "result.json"))
         select = ["cia301/heartbeat/producer", "cia301/nmt"]
-        done = run("run", "--simulate", "--defect", "nmt-reset-communication-ignored-in-preop", "--junit", first, "--markdown", markdown, "--json",
+        done = run("run", "--simulate", "--defect", "nmt-reset-communication-ignored-in-preop", "--junit", first, "--markdown-evidence", markdown, "--json",
                    result, *select)
         self.assertEqual(done.returncode, 1, done.stderr)
         with open(result, encoding="utf-8") as file:
@@ -71,10 +71,10 @@ class Journal(unittest.TestCase):
         self.assertIn("1017h = 100 ms", [each["of"] for each in told["measurements"] if each["kind"] == "heartbeat"])
         self.assertIn({"object": "1017h:00", "put_back": True},
                       [{key: each[key] for key in ("object", "put_back")} for each in told["run"]["changes"]])
-        names = {"junit": self.junit, "markdown": self.path("m.md"), "json": self.path("again.json")}
+        names = {"junit": self.junit, "markdown-evidence": self.path("m.md"), "json": self.path("again.json")}
         again = run("report", result, *[f"--{name}={path}" for name, path in names.items()])
         self.assertEqual(again.returncode, 1, again.stderr)
-        for before, after in ((first, names["junit"]), (markdown, names["markdown"]), (result, names["json"])):
+        for before, after in ((first, names["junit"]), (markdown, names["markdown-evidence"]), (result, names["json"])):
             with open(before, encoding="utf-8") as one, open(after, encoding="utf-8") as other:
                 self.assertEqual(one.read(), other.read(), after)
         self.assertEqual(again.stdout[again.stdout.index("------"):], done.stdout[done.stdout.index("------"):])
