@@ -56,7 +56,7 @@ std::string diagnosis(const CaseResult& one) {
 }  // namespace
 
 std::string tap(const RunResult& run) {
-  std::string out = "TAP version 14\n";
+  std::string out = "TAP version 13\n";
   out += fmt::format("1..{}\n", run.cases.size());
   std::size_t number = 0;
   for (const CaseResult& one : run.cases) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Test Anything Protocol, version 14: a line per case, what is wrong below it.
+// Test Anything Protocol, version 13, which every reader knows (14 adds nothing that is used here): a line
+// per case, what is wrong below it.
 #pragma once
 
 #include <string>
