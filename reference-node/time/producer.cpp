@@ -37,6 +37,10 @@ void TimeProducer::update() {
   if (!device_->works_now(Service::time) || !cob_id_.produced()) {
     raster_.stop();
   } else if (!raster_.runs()) {
+    if (choices.begins_at) {
+      set_to_ = set_to_ / day * day + *choices.begins_at;
+      set_at_ = device_->now;
+    }
     raster_.start(device_->now + (choices.first_at_once ? Duration::zero() : choices.period));
   }
 }

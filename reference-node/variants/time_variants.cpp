@@ -49,7 +49,14 @@ VariantTable time_variants() {
        "time-period"},
       {"time-of-an-own-clock", "a time that was received does not set the clock of the producer",
        "7.2.6: what the time is taken from is the device's to say",
-       [](Parts& node) { node.time_producer.choices.goes_on_from_received = false; }},
+       [](Parts& node) { node.time_producer.choices.goes_on_from_received = false; }, "time-clock"},
+      {"time-always-from-12-35", "a clock of its own that begins at 12:35 with every production",
+       "7.2.6: what the time is taken from is the device's to say",
+       [](Parts& node) {
+         node.time_producer.choices.goes_on_from_received = false;
+         node.time_producer.choices.begins_at = std::chrono::minutes(12 * 60 + 35);
+       },
+       "time-clock"},
       {"1012-consuming", "TIME is consumed by default", "OD-1012-02: bits 31 and 30 are not judged",
        preset(0x1012, 0, 0x80000100)},
       {"1013-absent", "no high resolution time", "7.5.2.16: optional", absent({0x1013}), "1013"},
