@@ -20,7 +20,18 @@ void HeartbeatProducer::start() {
   if (choices.at_once) transmit();
 }
 
+void HeartbeatProducer::on_reset() {
+  if (choices.crosses_reset && raster_.runs()) device_->send(Service::heartbeat, waiting_);
+  raster_.stop();
+}
+
+void HeartbeatProducer::on_boot_up() {
+  waiting_ = message();
+  start();
+}
+
 void HeartbeatProducer::on_state_change() {
+  waiting_ = message();
   if (choices.at_state_change && raster_.runs()) transmit();
 }
 
@@ -28,10 +39,12 @@ void HeartbeatProducer::on_time() {
   if (raster_.due(device_->now, period_, choices.jitter_percent)) transmit();
 }
 
+void HeartbeatProducer::transmit() { device_->send(Service::heartbeat, message()); }
+
 // One byte: the NMT state; bit 7 is reserved.
-void HeartbeatProducer::transmit() {
-  device_->send(Service::heartbeat, conform::can::data_frame(conform::CanId(0x700U + device_->node_id),
-                                                             {static_cast<std::uint8_t>(device_->state)}));
+conform::can::Frame HeartbeatProducer::message() const {
+  return conform::can::data_frame(conform::CanId(0x700U + device_->node_id),
+                                  {static_cast<std::uint8_t>(device_->state)});
 }
 
 }  // namespace refnode

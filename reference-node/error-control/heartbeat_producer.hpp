@@ -15,6 +15,7 @@ struct HeartbeatProducerChoices {
   bool at_once = false;          ///< the first right after 1017h was written, and after boot-up
   bool at_state_change = false;  ///< one more, while 1017h is not 0
   int jitter_percent = 0;        ///< late and early by turns
+  bool crosses_reset = false;    ///< one is in the transmit buffer when a reset comes, and is sent
 };
 
 struct HeartbeatProducerRules {
@@ -37,9 +38,9 @@ class HeartbeatProducer {
   /// A write of 1017h starts the heartbeat anew.
   void bind();
 
-  void on_reset() { raster_.stop(); }
+  void on_reset();
   /// The boot-up message has been sent; it counts as the first heartbeat.
-  void on_boot_up() { start(); }
+  void on_boot_up();
   void on_state_change();
   void on_time();
   [[nodiscard]] std::optional<BusTime> next_wakeup() const { return raster_.next(); }
@@ -48,8 +49,10 @@ class HeartbeatProducer {
   /// With the period that 1017h says now; 0: there is no heartbeat.
   void start();
   void transmit();
+  [[nodiscard]] conform::can::Frame message() const;
 
   Device* device_;
+  conform::can::Frame waiting_{};  ///< what a heartbeat would have told last
   Duration period_{};
   Raster raster_;
 };
