@@ -22,11 +22,15 @@ using Signature = Verification::Signature;
 
 constexpr int exit_tampered = 1;
 
-/// "2027-03-31 12:00:00 UTC"; in simulation there is no time.
-std::string moment(std::int64_t utc_ns) {
-  if (utc_ns <= 0) return "in simulation";
-  const std::chrono::sys_time<std::chrono::seconds> time{std::chrono::seconds(utc_ns / 1'000'000'000)};
-  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", time);
+/// "2027-03-31 12:00:00 UTC, on bench-3"; in simulation there is no time.
+std::string when_and_where(const bundle::RunFacts& run) {
+  std::string out = "in simulated time";
+  if (run.started_utc_ns > 0) {
+    const std::chrono::sys_time<std::chrono::seconds> time{
+        std::chrono::seconds(run.started_utc_ns / 1'000'000'000)};
+    out = fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", time);
+  }
+  return run.host.empty() ? out : out + ", on " + printable(run.host);
 }
 
 std::string counted(std::size_t count, std::string_view what) {
@@ -71,8 +75,7 @@ std::string facts(const Verification& found) {
   out += line("rules", counts.empty() ? "none" : join(counts, ", "));
   out += line("device", run.device.empty() ? "not named" : printable(run.device));
   for (const auto& [name, value] : run.identity) out += line("", printable(name) + " = " + printable(value));
-  out += line("run", fmt::format("{}, on {}", moment(run.started_utc_ns),
-                                 run.host.empty() ? "no host" : printable(run.host)));
+  out += line("run", when_and_where(run));
   out += line("made by", printable(manifest.tool));
   out += line("files", fmt::format("{}: {}", manifest.files.size(), roles_of(manifest)));
   for (const auto& each : manifest.left_out)

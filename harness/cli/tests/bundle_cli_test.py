@@ -93,7 +93,7 @@ class Bundles(unittest.TestCase):
         own = self.path("my suite")
         self.write("my suite/own.yaml", OWN)
         waivers = self.write("accepted.yaml", "format: 1\nwaivers:\n  - requirement: OD-1003-06\n    reason: known\n")
-        profile = self.write("device.yaml", "format: 1\nnode: 1\n")
+        profile = self.write("device.yaml", "format: 1\nname: mine\nnode: 1\n")
         eds = self.path("my device.eds")
         with open(eds, "wb") as file:
             file.write(call(os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--print-eds"))
@@ -353,7 +353,7 @@ class Bundles(unittest.TestCase):
         self.assertIn("is not sealed: the run has not ended", during.stderr)
         done = self.verify()
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertIn("stopped     killed before the run had ended", done.stdout)
+        self.assertIn("stopped     the runner was killed before the run had ended", done.stdout)
         self.assertIn("verdict     not fully judged", done.stdout)
         self.assertIn("left out    signature: ", done.stdout)
         self.assertEqual(self.verify("--key", public).returncode, 1)  # nobody has signed it
@@ -365,7 +365,7 @@ class Bundles(unittest.TestCase):
         self.assertEqual(again.returncode, 3, again.stderr)
         done = self.verify("--key", public, bundle=other)
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertIn("stopped     killed", done.stdout)
+        self.assertIn("stopped     the runner was killed", done.stdout)
         self.assertEqual(self.names(bundle=other), self.names())
 
     def test_a_bundle_is_made_anew_from_the_journal(self):
@@ -390,7 +390,7 @@ class Bundles(unittest.TestCase):
 
     def test_a_bundle_of_a_result_has_what_is_still_the_same(self):
         result, capture = self.path("result.json"), self.path("run.pcapng")
-        profile = self.write("device.yaml", "format: 1\nnode: 1\n")
+        profile = self.write("device.yaml", "format: 1\nname: mine\nnode: 1\n")
         own = self.path("own")
         self.write("own/own.yaml", OWN)
         done = run("run", "--simulate", "-q", *FEW, "own", "--json", result, "--capture", capture, "--device", profile, "--suites", own, "--defect",
@@ -402,7 +402,7 @@ class Bundles(unittest.TestCase):
         self.assertEqual(self.manifest()["left_out"], [])
         self.assertTrue(self.names("capture") and self.names("profile") and self.names("suite") and self.names("own suite"))
         # Others in their place are not taken for them.
-        self.write("device.yaml", "format: 1\nnode: 2\n")
+        self.write("device.yaml", "format: 1\nname: mine\nnode: 2\n")
         self.write("own/own.yaml", OWN + "\n")
         run("run", "--simulate", "-q", "cia301/nmt", "--capture", capture)
         self.assertEqual(run("report", result, "-q", "--bundle", self.bundle, "--capture", capture).returncode, 1)
