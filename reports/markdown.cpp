@@ -90,14 +90,14 @@ std::string wants_text(const RunResult& run) {
   return text;
 }
 
-/// "[html](report.html)": a link where the file lies at or below the folder of this one, else its path.
+/// "[html](report.html)": a link where the file lies in a folder near this one, else its path.
 std::string rest_text(const Beside& beside) {
   const auto folder = std::filesystem::path(beside.path).parent_path();
   std::vector<std::string> parts;
   for (const auto& [name, path] : beside.reports) {
     if (path == beside.path) continue;
     const auto relative = std::filesystem::path(path).lexically_relative(folder).generic_string();
-    const bool links = !relative.empty() && !relative.starts_with("..");
+    const bool links = !relative.empty() && !relative.starts_with("../..");
     parts.push_back(links ? fmt::format("[{}]({})", escaped(name), link_target(relative))
                           : fmt::format("{} {}", escaped(name), code(path)));
   }

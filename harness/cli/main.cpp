@@ -70,6 +70,17 @@ void add_reports(CLI::App& app, conform::cli::Reports& into) {
   }
 }
 
+void add_bundle(CLI::App& app, std::string& file, std::string& key) {
+  auto* const bundle =
+      app.add_option(
+             "--bundle", file,
+             "Everything in one archive (.tar.zst) with a digest of each file: reports, capture, suites, profile, description")
+          ->type_name("FILE");
+  app.add_option("--sign", key, "Sign the bundle with this key (openssl genpkey -algorithm ed25519)")
+      ->needs(bundle)
+      ->type_name("KEY.pem");
+}
+
 int dispatch(int argc, char** argv) {
   using namespace conform::cli;
   CLI::App app{
@@ -130,6 +141,7 @@ int dispatch(int argc, char** argv) {
       ->add_option("--candump", run.candump,
                    "Write all frames as candump log, for can-utils, while they come")
       ->type_name("FILE");
+  add_bundle(*run_sub, run.bundle, run.sign);
   run_sub
       ->add_option(
           "--journal", run.journal,
@@ -172,10 +184,26 @@ int dispatch(int argc, char** argv) {
       ->add_option("--capture", report.capture,
                    "Comment this capture of the run with what was found (pcapng)")
       ->type_name("FILE");
+  add_bundle(*report_sub, report.bundle, report.sign);
   report_sub->add_flag("-q,--quiet", report.quiet, "Print no summary");
   report_sub->add_option("--color", report.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
+
+  VerifyCommand verify;
+  auto* verify_sub = app.add_subcommand(
+      "verify",
+      "Tell whether a bundle is as it was sealed; exits with 1 where it is not, with 2 where it is none");
+  verify_sub->add_option("bundle", verify.bundle, "Bundle of a run (run --bundle)")
+      ->required()
+      ->type_name("FILE");
+  verify_sub
+      ->add_option("--key", verify.key,
+                   "Public key of who must have signed it (openssl pkey -in KEY.pem -pubout)")
+      ->type_name("PUBLIC.pem");
+  verify_sub->add_option("--extract", verify.extract, "Unpack it into this new folder, if it is good")
+      ->type_name("FOLDER");
+  verify_sub->add_flag("--json", verify.json, "Output as JSON");
 
   WaiveCommand waive;
   auto* waive_sub =
@@ -268,6 +296,7 @@ int dispatch(int argc, char** argv) {
       ->type_name("ID");
   add_waivers(*judge_sub, judge.waivers);
   add_reports(*judge_sub, judge.reports);
+  add_bundle(*judge_sub, judge.bundle, judge.sign);
   judge_sub->add_flag(
       "--strict", judge.strict,
       "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
@@ -422,6 +451,7 @@ int dispatch(int argc, char** argv) {
   if (guard_sub->parsed()) return guard_command(guarded);
   if (run_sub->parsed()) return run_command(run);
   if (report_sub->parsed()) return report_command(report);
+  if (verify_sub->parsed()) return verify_command(verify);
   if (waive_sub->parsed()) return waive_command(waive);
   if (compare_sub->parsed()) return compare_command(compare);
   if (recover_sub->parsed()) return recover_command(recover);

@@ -106,7 +106,9 @@ class Parser {
     header.profile = text_of(line.at("profile"));
     header.eds = text_of(line.at("eds"));
     header.epoch_ns = line.at("epoch").get<std::int64_t>();
-    header.reports = {text_of(line.at("capture")), text_of(line.at("candump")), {}};
+    header.reports = {.capture = text_of(line.at("capture")), .candump = text_of(line.at("candump"))};
+    if (line.contains("bundle")) header.reports.bundle = text_of(line.at("bundle"));
+    header.reports.bundle_signed = line.value("bundle_signed", false);
     const auto add = [&header](const std::string& format, const Json& path) {
       if (auto text = text_of(path); !text.empty()) header.reports.reports.emplace(format, std::move(text));
     };

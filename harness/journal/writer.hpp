@@ -22,6 +22,8 @@ inline constexpr int version = 2;
 struct ReportPaths {
   std::string capture{}, candump{};              ///< empty: not asked for
   std::map<std::string, std::string> reports{};  ///< the others, by the name of the format: "junit"
+  std::string bundle{};                          ///< empty: not asked for
+  bool bundle_signed = false;                    ///< and it was to be signed
 };
 
 /// The first line: enough to make every report and to find the device again.

@@ -39,7 +39,7 @@ std::string lines_of(const result::RunResult& run, const Style& style) {
 }  // namespace
 
 TEST_CASE("Every format writes its sample") {
-  const Beside beside{"/out/report", {{"html", "/out/report.html"}, {"junit", "/elsewhere/junit.xml"}}};
+  const Beside beside{"/ci/out/report", {{"html", "/ci/out/report.html"}, {"junit", "/elsewhere/junit.xml"}}};
   for (const Format& format : formats()) {
     const std::string name(format.name);
     const std::string end = format.suffix == "." + name ? name : name + std::string(format.suffix);

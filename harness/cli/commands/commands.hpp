@@ -49,6 +49,8 @@ struct RunCommand {
   std::string color = "auto";  ///< auto, always, never
   Reports reports;
   std::string capture, candump;
+  std::string bundle;    ///< archive with all of it; empty: none
+  std::string sign;      ///< private key that signs it; empty: not signed
   std::string journal;   ///< file; empty: the usual place
   std::string baseline;  ///< result.json or journal of an earlier run: red is only what is new; empty: none
 };
@@ -56,13 +58,23 @@ struct RunCommand {
 
 struct ReportCommand {
   std::string source;  ///< result.json or journal
-  Reports reports;     ///< all empty, and no capture: those that the run was asked for
+  Reports reports;     ///< all empty, and no capture and bundle: those that the run was asked for
   std::string capture;
+  std::string bundle, sign;
   bool quiet = false;
   std::string color = "auto";
 };
 /// The exit code of the run that the journal tells of.
 [[nodiscard]] int report_command(const ReportCommand& options);
+
+struct VerifyCommand {
+  std::string bundle;   ///< file
+  std::string key;      ///< public key; empty: the signature is not looked at
+  std::string extract;  ///< folder; empty: nothing is unpacked
+  bool json = false;
+};
+/// 0: it is as it was sealed; 1: it is not, or is not signed by the key; exit_usage: it is none.
+[[nodiscard]] int verify_command(const VerifyCommand& options);
 
 struct WaiveCommand {
   std::string result;  ///< result.json or journal of the run that failed
@@ -124,6 +136,7 @@ struct JudgeCommand {
   bool quiet = false;
   std::string color = "auto";
   Reports reports;
+  std::string bundle, sign;
 };
 [[nodiscard]] int judge_command(const JudgeCommand& options);
 

@@ -22,8 +22,9 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
 
 int judge_command(const JudgeCommand& options) {
   constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
-  RunReports files(absolute_paths(options.reports, {}, {}));
-  if (auto begun = files.begin(tool, {options.capture, options.profile, options.eds}); !begun)
+  RunReports files(absolute_paths(options.reports, {}, {}, options.bundle));
+  if (auto key = files.sign_with(options.sign); !key) return report_error(key.error(), exit_usage);
+  if (auto begun = files.begin(tool, {options.capture, options.profile, options.eds, options.sign}); !begun)
     return report_error(begun.error(), exit_environment);
   const auto refuse = [&files](const Error& error) {
     files.not_begun(tool, error);
@@ -60,6 +61,18 @@ int judge_command(const JudgeCommand& options) {
   auto facts = suite_properties(*root);
   facts.push_back({"capture.file", options.capture});
   facts.push_back({"can.interface", recording->info.interface_name});
+  known->files.push_back({role::recording, options.capture});
+  auto inputs = take_files(known->files);
+  if (!inputs) return refuse(inputs.error());
+  if (known->description) facts.push_back({"dut.description", known->description->name});
+  const auto told = input_properties(*inputs, known->files);
+  facts.insert(facts.end(), told.begin(), told.end());
+  if (files.has_bundle()) {
+    if (auto added = add_suites(*inputs, *root); !added) return refuse(added.error());
+    facts.push_back(digest_of(*inputs));
+    if (auto taken = files.keep(tool, std::move(*inputs)); !taken)
+      return report_error(taken.error(), exit_environment);
+  }
   run.properties.insert(run.properties.begin(), facts.begin(), facts.end());
 
   const reports::Style style{use_colour(options.color, 1), terminal_width(), 0};

@@ -11,10 +11,24 @@ namespace conform::cli {
 int report_command(const ReportCommand& options) {
   auto source = read_run(options.source);
   if (!source) return report_error(source.error(), exit_usage);
-  auto paths = absolute_paths(options.reports, options.capture, {});
-  const bool chosen = !paths.reports.empty() || !paths.capture.empty();
-  RunReports reports(chosen ? std::move(paths) : std::move(source->reports));
-  reports.write_left(source->run);
+  auto paths = absolute_paths(options.reports, options.capture, {}, options.bundle);
+  const bool chosen = !paths.reports.empty() || !paths.capture.empty() || !paths.bundle.empty();
+  RunReports reports(chosen ? std::move(paths) : source->reports);
+  if (const auto bundle = absolute(options.bundle);
+      chosen && !bundle.empty() && (bundle == absolute(options.source) || bundle == absolute(options.sign)))
+    return report_error({"the bundle would be written over an input", options.bundle, {}}, exit_usage);
+  if (auto key = reports.sign_with(options.sign); !key) return report_error(key.error(), exit_usage);
+  if (!chosen) {
+    reports.write_left(source->run);
+  } else {
+    // What the run kept of its inputs and frames, if it was asked for a bundle itself.
+    const auto& kept = source->reports;
+    if (reports.has_bundle()) {
+      auto inputs = inputs_in(kept.bundle, source->run);
+      reports.take(inputs ? std::move(*inputs) : inputs_of(source->run, source->profile, source->eds));
+    }
+    reports.write_others(source->run, {kept.capture, RunBundle(kept.bundle).frames(), kept.bundle});
+  }
   if (!options.quiet)
     print(reports::summary(source->run, {use_colour(options.color, 1), terminal_width(), 0}));
   return result::exit_code(source->run);

@@ -62,6 +62,9 @@ Result<KnownDevice> device_of(const RunCommand& options, const std::string& suit
   const bool of_reference_node = options.simulate && words.profile.empty() && words.eds.empty();
   if (of_reference_node) words.profile = suites + "/devices/reference-node.yaml";
   auto known = known_device(words, options.simulate ? std::optional(NodeId(5)) : std::nullopt);
+  // It stands in the suites.
+  if (known && of_reference_node)
+    std::erase_if(known->files, [&](const UsedFile& each) { return each.path == words.profile; });
   if (known && of_reference_node && !options.variants.empty()) {
     auto node = refnode::Node::create(
         {.node_id = known->profile.node.value(), .defects = {}, .variants = options.variants});
@@ -90,6 +93,19 @@ struct Facts {
 
   static constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
 };
+
+/// Tells in the reports which files the run uses, and keeps them for its bundle.
+Result<void> take_inputs(const SuiteFolders& suites, const std::vector<UsedFile>& files, RunReports& reports,
+                         Facts& facts) {
+  auto inputs = take_files(files);
+  if (!inputs) return std::unexpected(inputs.error());
+  const auto told = input_properties(*inputs, files);
+  facts.properties.insert(facts.properties.end(), told.begin(), told.end());
+  if (!reports.has_bundle()) return {};
+  if (auto added = add_suites(*inputs, suites); !added) return added;
+  facts.properties.push_back(digest_of(*inputs));
+  return reports.keep(Facts::tool, std::move(*inputs));
+}
 
 /// Says what the run before left in the device, before anything else is done to it.
 void tell_what_was_left(const RunJournal& journal, Facts& facts) {
@@ -259,6 +275,8 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.started = options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000;
   facts.notes = known->notes;
   facts.properties = suite_properties(*root);
+  if (auto taken = take_inputs(*root, known->files, reports, facts); !taken)
+    return refuse(taken.error(), exit_usage);
   if (known->description) facts.add("dut.description", known->description->name);
   facts.add("run.seed", std::to_string(options.seed));
   if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));
@@ -368,13 +386,14 @@ int run_command(const RunCommand& options) {
   catch_signals();
   // Also into a file, so that what was said is there when the program is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  RunReports reports(absolute_paths(options.reports, options.capture, options.candump));
+  RunReports reports(absolute_paths(options.reports, options.capture, options.candump, options.bundle));
   if (options.dry_run) {
     RunReports none({});
     return run(options, none);
   }
-  if (auto begun =
-          reports.begin(Facts::tool, {options.device, options.eds, options.journal, options.baseline});
+  if (auto key = reports.sign_with(options.sign); !key) return report_error(key.error(), exit_usage);
+  if (auto begun = reports.begin(
+          Facts::tool, {options.device, options.eds, options.journal, options.baseline, options.sign});
       !begun)
     return report_error(begun.error(), exit_environment);
   return run(options, reports);

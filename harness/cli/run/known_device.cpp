@@ -32,23 +32,24 @@ std::vector<std::string> notes_of(const device::Description& description) {
   return out;
 }
 
-Result<void> add_waivers(device::Profile& profile, const std::string& path) {
+Result<void> add_waivers(KnownDevice& known, const std::string& path) {
   auto document = device::load_waiver_file(path);
   if (!document) return std::unexpected(document.error());
   if (document->diagnostics.has_errors())
     return fail("the file of waivers has mistakes:\n" + document->diagnostics.render(false), path);
-  for (auto& each : document->waivers) profile.waivers.push_back(std::move(each));
+  for (auto& each : document->waivers) known.profile.waivers.push_back(std::move(each));
+  known.files.push_back({role::waivers, path});
   return {};
 }
 
-Result<void> add_waivers(device::Profile& profile, const DeviceWords& words) {
+Result<void> add_waivers(KnownDevice& known, const DeviceWords& words) {
   for (const auto& path : words.waivers) {
-    if (auto done = add_waivers(profile, path); !done) return done;
+    if (auto done = add_waivers(known, path); !done) return done;
   }
   if (words.profile.empty() || !words.waivers.empty()) return {};
   const auto beside = fs::path(words.profile).parent_path() / "waivers.yaml";
   std::error_code ignored;
-  return fs::exists(beside, ignored) ? add_waivers(profile, beside.string()) : Result<void>{};
+  return fs::exists(beside, ignored) ? add_waivers(known, beside.string()) : Result<void>{};
 }
 
 }  // namespace
@@ -65,6 +66,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     if (document->diagnostics.has_errors())
       return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), words.profile);
     out.profile = std::move(document->profile);
+    out.files.push_back({role::profile, words.profile});
     node_known = true;
     // The profile's own word is relative to its folder.
     if (path.empty() && !out.profile.eds.empty())
@@ -73,6 +75,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
   if (!path.empty()) {
     auto file = eds::read_file(path);
     if (!file) return std::unexpected(file.error());
+    out.files.push_back({role::description, path});
     auto description = device::describe(*file);
     if (!description) return std::unexpected(description.error());
     if (!node_known && description->node) {
@@ -91,7 +94,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     error.where = words.profile + ":" + error.where;
     return std::unexpected(std::move(error));
   }
-  if (auto done = add_waivers(out.profile, words); !done) return std::unexpected(done.error());
+  if (auto done = add_waivers(out, words); !done) return std::unexpected(done.error());
   if (words.node) {
     out.profile.node = NodeId(static_cast<std::uint8_t>(*words.node));
   } else if (!node_known) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "cli/run/run_inputs.hpp"
 #include "device/profile.hpp"
 #include "eds/eds.hpp"
 
@@ -26,6 +27,7 @@ struct KnownDevice {
   device::Profile profile;
   std::shared_ptr<const eds::EdsFile> description;  ///< empty: none is given
   std::vector<std::string> notes;                   ///< for the report: what of the description is not used
+  std::vector<UsedFile> files{};                    ///< all that were read
 };
 
 /// Reads the files. The node-ID is that of the option, the profile or the DCF; `fallback` where none says so.

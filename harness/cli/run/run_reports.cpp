@@ -7,14 +7,15 @@
 #include "base/files.hpp"
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
+#include "cli/run/run_frames.hpp"
 #include "cli/run/terminal.hpp"
 #include "reports/formats.hpp"
-#include "result/annotate.hpp"
 
 namespace conform::cli {
 namespace {
 
-constexpr std::uint64_t largest_capture = std::uint64_t{4} << 30U;
+constexpr const char* not_ended =
+    "the run has not ended: it goes on, or it was killed before its reports could be made";
 
 }  // namespace
 
@@ -26,8 +27,10 @@ std::string absolute(const std::string& path) {
 }
 
 journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
-                                    const std::string& capture, const std::string& candump) {
-  journal::ReportPaths out{.capture = absolute(capture), .candump = absolute(candump)};
+                                    const std::string& capture, const std::string& candump,
+                                    const std::string& bundle) {
+  journal::ReportPaths out{
+      .capture = absolute(capture), .candump = absolute(candump), .bundle = absolute(bundle)};
   for (const auto& [format, path] : asked) {
     if (!path.empty()) out.reports.emplace(format, absolute(path));
   }
@@ -40,7 +43,7 @@ std::vector<std::string> RunReports::all() const {
     if (const auto found = paths_.reports.find(std::string(format.name)); found != paths_.reports.end())
       out.push_back(found->second);
   }
-  for (const auto& path : {paths_.capture, paths_.candump}) {
+  for (const auto& path : {paths_.capture, paths_.candump, paths_.bundle}) {
     if (!path.empty()) out.push_back(path);
   }
   return out;
@@ -66,7 +69,7 @@ Result<void> RunReports::begin(const std::string& tool, const std::vector<std::s
         return fail("a report would be written over an input of the run", paths[i]);
     }
   }
-  return say(tool, "the run has not ended: it goes on, or it was killed before its reports could be made");
+  return say(tool, not_ended);
 }
 
 void RunReports::not_begun(const std::string& tool, const Error& why) {
@@ -95,14 +98,32 @@ Result<void> RunReports::say(const std::string& tool, const std::string& what) {
     // Its readers know lines of frames only, so an empty log is all it can say.
     if (auto written = write_file_atomically(paths_.candump, std::string_view()); !written) return written;
   }
+  return bundle_.hold(tool, what);
+}
+
+Result<void> RunReports::sign_with(const std::string& key) {
+  if (key.empty()) return {};
+  auto read = bundle::PrivateKey::read(key);
+  if (!read) return std::unexpected(read.error());
+  bundle_.sign_with(std::move(*read));
+  paths_.bundle_signed = true;
   return {};
+}
+
+Result<void> RunReports::keep(const std::string& tool, RunInputs inputs) {
+  bundle_.take(std::move(inputs));
+  return bundle_.hold(tool, not_ended);
 }
 
 Result<void> RunReports::stream(const can::CaptureInfo& info) {
   using Format = can::CaptureStream::Format;
   for (auto* const one : {&pcapng_, &candump_}) {
     const bool is_pcapng = one == &pcapng_;
-    const auto& path = is_pcapng ? paths_.capture : paths_.candump;
+    auto path = is_pcapng ? paths_.capture : paths_.candump;
+    if (is_pcapng && path.empty()) {
+      path = bundle_.frames();
+      frames_are_ours_ = bundle_.asked();
+    }
     if (path.empty()) continue;
     auto opened = can::CaptureStream::create(path, is_pcapng ? Format::pcapng : Format::candump, info);
     if (!opened) return std::unexpected(opened.error());
@@ -145,29 +166,49 @@ void RunReports::write_words(result::RunResult& run) {
   }
 }
 
+void RunReports::write_bundle(result::RunResult& run, RunBundle::Frames frames) {
+  if (auto sealed = bundle_.seal(run, paths_, std::move(frames)); !sealed) {
+    run.unwritten.push_back(sealed.error().text());
+    report_error(sealed.error(), 0);
+    return;
+  }
+  // Now they stand in the bundle.
+  std::error_code ignored;
+  if (frames_are_ours_) std::filesystem::remove(bundle_.frames(), ignored);
+}
+
 void RunReports::write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info) {
   flush();
   const bool log_is_whole = candump_ && candump_->error() == 0;
   pcapng_.reset();
   candump_.reset();
+  RunBundle::Frames frames;
   // Anew, because now the frames that decided something are known and can say so.
-  if (!paths_.capture.empty()) put(run, paths_.capture, can::write_pcapng(capture, info));
-  if (!paths_.candump.empty() && !log_is_whole)
-    put(run, paths_.candump, can::write_candump_log(capture, info));
+  if (!paths_.capture.empty() || bundle_.asked()) {
+    const auto bytes = can::write_pcapng(capture, info);
+    put(run, paths_.capture, bytes);
+    if (bundle_.asked()) frames.pcapng.emplace(bytes.begin(), bytes.end());
+  }
+  if (!paths_.candump.empty()) {
+    auto log = can::write_candump_log(capture, info);
+    if (!log_is_whole) put(run, paths_.candump, log);
+    frames.candump = std::move(log);
+  }
   write_words(run);
+  // Last, because what could not be written is told in it.
+  if (bundle_.asked()) write_bundle(run, std::move(frames));
 }
 
 void RunReports::write_left(result::RunResult& run) {
+  frames_are_ours_ = bundle_.asked() && paths_.capture.empty();
+  bundle_.take_held(run);
+  write_others(run, {});
+}
+
+void RunReports::write_others(result::RunResult& run, const std::vector<std::string>& elsewhere) {
   if (!paths_.capture.empty()) {
-    const auto bytes = read_file(paths_.capture, largest_capture);
-    auto loaded = bytes ? can::read_pcapng(
-                              ByteView(reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()),
-                              paths_.capture)
-                        : Result<can::LoadedCapture>(std::unexpected(bytes.error()));
+    auto loaded = commented_frames(paths_.capture, run);
     if (loaded) {
-      result::annotate(loaded->capture, run);
-      loaded->info.tool = run.tool;
-      loaded->info.comment = run.device + (run.aborted ? "; " + *run.aborted : "");
       put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
     } else {
       run.unwritten.push_back(loaded.error().text());
@@ -175,6 +216,19 @@ void RunReports::write_left(result::RunResult& run) {
     }
   }
   write_words(run);
+  if (!bundle_.asked()) return;
+  std::vector<std::string> places{paths_.capture};
+  if (frames_are_ours_) places.insert(places.end(), {bundle_.frames(), paths_.bundle});
+  places.insert(places.end(), elsewhere.begin(), elsewhere.end());
+  RunBundle::Frames frames;
+  if (auto found = find_frames(places, run); !found) {
+    frames.why_not = found.error().text();
+  } else {
+    const auto bytes = can::write_pcapng(found->capture, found->info);
+    frames.pcapng.emplace(bytes.begin(), bytes.end());
+    if (!paths_.candump.empty()) frames.candump = can::write_candump_log(found->capture, found->info);
+  }
+  write_bundle(run, std::move(frames));
 }
 
 }  // namespace conform::cli

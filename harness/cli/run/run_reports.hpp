@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "can/capture.hpp"
 #include "can/capture_stream.hpp"
+#include "cli/run/run_bundle.hpp"
 #include "journal/writer.hpp"
 #include "reports/beside.hpp"
 #include "result/run_result.hpp"
@@ -18,18 +19,20 @@ namespace conform::cli {
 
 /// What was asked for of the formats, by their names: "junit" and a path; an empty one is not asked for.
 [[nodiscard]] journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
-                                                  const std::string& capture, const std::string& candump);
+                                                  const std::string& capture, const std::string& candump,
+                                                  const std::string& bundle = {});
 
 /// `path` from the root on, so that it names the same file in another process; empty stays empty.
 [[nodiscard]] std::string absolute(const std::string& path);
 
 class RunReports {
  public:
-  explicit RunReports(journal::ReportPaths paths) : paths_(std::move(paths)) {}
+  explicit RunReports(journal::ReportPaths paths) : paths_(std::move(paths)), bundle_(paths_.bundle) {}
 
   [[nodiscard]] const journal::ReportPaths& paths() const { return paths_; }
   [[nodiscard]] bool none() const {
-    return paths_.reports.empty() && paths_.capture.empty() && paths_.candump.empty();
+    return paths_.reports.empty() && paths_.capture.empty() && paths_.candump.empty() &&
+           paths_.bundle.empty();
   }
   /// One that the user named first, or empty.
   [[nodiscard]] std::string first() const;
@@ -40,6 +43,14 @@ class RunReports {
   /// The run did not even begin; the files say why.
   void not_begun(const std::string& tool, const Error& why);
 
+  /// The bundle is signed with this key: empty, or a file. Error: it is none that can sign.
+  [[nodiscard]] Result<void> sign_with(const std::string& key);
+  [[nodiscard]] bool has_bundle() const { return bundle_.asked(); }
+  /// For the bundle: what the run is made of.
+  void take(RunInputs inputs) { bundle_.take(std::move(inputs)); }
+  /// The same of a run that begins: from now on it is kept in the bundle's place.
+  [[nodiscard]] Result<void> keep(const std::string& tool, RunInputs inputs);
+
   /// Capture files that grow from now on.
   [[nodiscard]] Result<void> stream(const can::CaptureInfo& info);
   void recorded(const can::CapturedFrame& frame);
@@ -48,8 +59,11 @@ class RunReports {
 
   /// Makes every file. What could not be written stands in `run.unwritten` afterwards, and on standard error.
   void write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info);
-  /// Makes them of a run whose process is gone: its capture is what it streamed.
+  /// Makes those that a run was asked for whose process is gone: its capture is what it streamed.
   void write_left(result::RunResult& run);
+  /// Makes others of a run that is over. `elsewhere`: captures, or a bundle of the run, where its frames are
+  /// if they are to go into a bundle and no capture is named.
+  void write_others(result::RunResult& run, const std::vector<std::string>& elsewhere);
 
  private:
   void put(result::RunResult& run, const std::string& path, ByteView bytes);
@@ -57,10 +71,13 @@ class RunReports {
   [[nodiscard]] Result<void> say(const std::string& tool, const std::string& what);
   void write_words(result::RunResult& run);
   [[nodiscard]] reports::Beside beside(const std::string& path) const;
+  void write_bundle(result::RunResult& run, RunBundle::Frames frames);
   [[nodiscard]] std::vector<std::string> all() const;
 
   journal::ReportPaths paths_;
+  RunBundle bundle_;
   std::optional<can::CaptureStream> pcapng_, candump_;
+  bool frames_are_ours_ = false;  ///< beside the bundle, until they stand in it
 };
 
 }  // namespace conform::cli

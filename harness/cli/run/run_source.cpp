@@ -20,11 +20,13 @@ Result<RunSource> read_run(const std::string& path) {
   if (reports::is_result_json(*text)) {
     auto run = reports::read_result_json(*text, path);
     if (!run) return std::unexpected(run.error());
-    return RunSource{std::move(*run), {}};
+    return RunSource{std::move(*run)};
   }
   auto journal = journal::read(path, *text);
   if (!journal) return std::unexpected(journal.error());
-  return RunSource{std::move(journal->run), std::move(journal->header.reports)};
+  auto& header = journal->header;
+  return RunSource{std::move(journal->run), std::move(header.reports), std::move(header.profile),
+                   std::move(header.eds)};
 }
 
 Result<result::RunResult> read_run_to_compare(const std::string& path) {

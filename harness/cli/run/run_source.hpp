@@ -12,7 +12,8 @@ namespace conform::cli {
 
 struct RunSource {
   result::RunResult run;
-  journal::ReportPaths reports;  ///< those that the run was asked for; a result does not know them
+  journal::ReportPaths reports{};  ///< those that the run was asked for; a result does not know them
+  std::string profile{}, eds{};    ///< as absolute paths, where it is a journal
 };
 
 /// Error: a file that cannot be read, or is neither.

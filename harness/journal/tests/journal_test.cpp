@@ -54,7 +54,11 @@ Header header() {
           .profile = "/device.yaml",
           .eds = {},
           .epoch_ns = 12,
-          .reports = {.capture = "/c.pcapng", .candump = {}, .reports = {{"junit", "/j.xml"}}}};
+          .reports = {.capture = "/c.pcapng",
+                      .candump = {},
+                      .reports = {{"junit", "/j.xml"}},
+                      .bundle = "/b.tar.zst",
+                      .bundle_signed = true}};
 }
 
 /// A run that was killed in its second case.
@@ -82,6 +86,8 @@ TEST_CASE("a killed run keeps the verdicts it reached, and says of the others wh
   CHECK_FALSE(journal->reported);
   CHECK(journal->header.interface == "can0");
   CHECK(journal->header.reports.capture == "/c.pcapng");
+  CHECK(journal->header.reports.bundle == "/b.tar.zst");
+  CHECK(journal->header.reports.bundle_signed);
   CHECK(journal->header.reports.reports == std::map<std::string, std::string>{{"junit", "/j.xml"}});
   CHECK(journal->run.cases[0].verdict == Verdict::pass);
   CHECK(journal->run.cases[1].verdict == Verdict::error);
