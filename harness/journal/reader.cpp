@@ -105,6 +105,7 @@ class Parser {
     header.simulated = line.at("simulated").get<bool>();
     header.profile = text_of(line.at("profile"));
     header.eds = text_of(line.at("eds"));
+    if (line.contains("suites")) header.suites = text_of(line.at("suites"));
     header.epoch_ns = line.at("epoch").get<std::int64_t>();
     header.reports = {text_of(line.at("capture")), text_of(line.at("candump")), {}};
     const auto add = [&header](const std::string& format, const Json& path) {

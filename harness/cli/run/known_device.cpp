@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/digest.hpp"
+#include "base/files.hpp"
 #include "base/text.hpp"
 #include "device/description.hpp"
 #include "eds/read.hpp"
@@ -30,6 +32,14 @@ std::vector<std::string> notes_of(const device::Description& description) {
                               count - most_notes, description.file));
   }
   return out;
+}
+
+/// The digest tells two versions of a file apart that have one name.
+void add_file(std::vector<result::Property>& to, const std::string& name, const std::string& path,
+              const std::string& shown) {
+  constexpr std::uint64_t largest = std::uint64_t{64} << 20U;
+  to.push_back({name, shown});
+  if (const auto text = read_file(path, largest)) to.push_back({name + "_sha256", sha256(*text)});
 }
 
 Result<void> add_waivers(device::Profile& profile, const std::string& path) {
@@ -65,6 +75,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     if (document->diagnostics.has_errors())
       return fail("the device profile has mistakes:\n" + document->diagnostics.render(false), words.profile);
     out.profile = std::move(document->profile);
+    add_file(out.files, "dut.profile", words.profile, words.profile);
     node_known = true;
     // The profile's own word is relative to its folder.
     if (path.empty() && !out.profile.eds.empty())
@@ -82,6 +93,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
     out.notes = notes_of(*description);
     if (out.profile.name.empty() && !file->device_info.product_name.empty())
       out.profile.name = printable(file->device_info.product_name.text);
+    add_file(out.files, "dut.description", path, file->name);
     out.description = std::make_shared<const eds::EdsFile>(std::move(*file));
     out.profile.description = out.description;
     device::add_description(out.profile, std::move(*description));

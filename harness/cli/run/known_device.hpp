@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "device/profile.hpp"
 #include "eds/eds.hpp"
+#include "result/run_result.hpp"
 
 namespace conform::cli {
 
@@ -25,7 +26,9 @@ struct DeviceWords {
 struct KnownDevice {
   device::Profile profile;
   std::shared_ptr<const eds::EdsFile> description;  ///< empty: none is given
-  std::vector<std::string> notes;                   ///< for the report: what of the description is not used
+  /// For the report: which files it was told with, by name and digest ("dut.profile", "dut.description").
+  std::vector<result::Property> files;
+  std::vector<std::string> notes;  ///< for the report: what of the description is not used
 };
 
 /// Reads the files. The node-ID is that of the option, the profile or the DCF; `fallback` where none says so.
