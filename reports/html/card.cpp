@@ -116,6 +116,9 @@ std::string repeat_command(const RunResult& run, const CaseResult& one, const st
   }
   if (const auto description = value_of(run, "dut.description"); !description.empty())
     out += " --eds " + quoted(description);
+  // The profile of the reference node is taken by itself.
+  if (const auto profile = value_of(run, "dut.profile"); !profile.empty() && !profile.starts_with("suites/"))
+    out += " --device " + quoted(profile);
   if (const auto allowed = value_of(run, "run.allowed"); !allowed.empty())
     out += " --allow " + quoted(allowed);
   if (const auto seed = value_of(run, "run.seed"); !seed.empty()) out += " --seed " + quoted(seed);

@@ -56,3 +56,10 @@ TEST_CASE("The Markdown report begins with the causes, one line each") {
   CHECK(list < text.find("| Requirements |"));
   CHECK(contains(text, "| OD-1003-06 | 202 |"));
 }
+
+TEST_CASE("The Markdown report says which known mistake a cause looks like") {
+  const std::string text = markdown(testing::sample_run());
+  CHECK(
+      contains(text, "\nIt looks like 1003-nonzero-write-accepted of the reference node: 1003h:00 confirms"));
+  CHECK_FALSE(contains(text, "run.command"));
+}
