@@ -102,22 +102,25 @@ TEST_CASE("The dictionary is a table of what is described, found and differing")
   const auto document = parsed(html_report(testing::sample_run()));
   const auto whole =
       document.select_nodes("//section[@id='dictionary']//div[contains(@class,'whole')]//tbody/tr");
-  REQUIRE(whole.size() == 3);
+  REQUIRE(whole.size() == 4);
   const auto verdict = [&](int i) {
     return std::string(whole[static_cast<std::size_t>(i)].node().attribute("data-v").value());
   };
   CHECK(verdict(0) == "na");
   CHECK(verdict(1) == "fail");
-  CHECK(verdict(2) == "fail");
+  CHECK(verdict(2) == "warn");
+  CHECK(verdict(3) == "fail");
   const auto errors = text_of(whole[1].node());
   CHECK(contains(errors, "OD-1003-06: confirmed"));
   CHECK(contains(errors, "not the default"));
-  const auto absent = text_of(whole[2].node());
+  // Nobody described it; a finding tells of it.
+  CHECK(contains(text_of(whole[2].node()), "not described"));
+  const auto absent = text_of(whole[3].node());
   CHECK(contains(absent, "absent"));
   CHECK(contains(absent, "presence: abort 0602 0000h"));
   CHECK(contains(absent, "drive.eds:402"));
   const auto differs = document.select_nodes("//div[contains(@class,'differs')]//tbody/tr");
-  CHECK(differs.size() == 2);
+  CHECK(differs.size() == 3);
 }
 
 TEST_CASE("A long dictionary is folded, and a page of ten thousand entries is made in time") {
