@@ -37,6 +37,25 @@ std::string extent(const Cause& cause) {
   return text;
 }
 
+std::vector<const result::Likeness*> likenesses(const result::RunResult& run, const Cause& cause) {
+  const auto name = cause.primary.owner->name();
+  std::vector<const result::Likeness*> out;
+  for (const auto& each : run.likenesses) {
+    if (each.requirement == cause.primary.finding->requirement && each.case_name == name)
+      out.push_back(&each);
+  }
+  return out;
+}
+
+std::string likeness_words(const result::RunResult& run, const Cause& cause) {
+  std::string text;
+  for (const auto* each : likenesses(run, cause)) {
+    text += fmt::format("{} {}{}: {}", text.empty() ? "looks like" : "; or like", log_safe(each->name),
+                        text.empty() ? " of the reference node" : "", prose(each->summary));
+  }
+  return text;
+}
+
 CauseOfCase causes_by_case(const std::vector<Cause>& causes) {
   CauseOfCase out;
   for (const auto& cause : causes) {

@@ -23,6 +23,13 @@ struct BrokenRule {
 /// "12 cases, 40 more rest on it": sanitised.
 [[nodiscard]] std::string extent(const result::Cause& cause);
 
+/// The known mistakes that a cause looks like, the most alike first.
+[[nodiscard]] std::vector<const result::Likeness*> likenesses(const result::RunResult& run,
+                                                              const result::Cause& cause);
+/// "looks like ID of the reference node: what is wrong there; or like ID: ...": sanitised, empty where it
+/// looks like none.
+[[nodiscard]] std::string likeness_words(const result::RunResult& run, const result::Cause& cause);
+
 /// For each case with a finding or without ground: the cause that explains it, the heaviest where there are
 /// several.
 using CauseOfCase = std::map<const result::CaseResult*, const result::Cause*>;

@@ -119,7 +119,7 @@ void write_subject(Page& page, const RunResult& run) {
     label = std::clamp(columns(log_safe(property.name)), label, std::size_t{32});
   }
   for (const result::Property& property : run.properties) {
-    page.row(log_safe(property.name), log_safe(property.value), label);
+    if (!is_of_the_machine(property)) page.row(log_safe(property.name), log_safe(property.value), label);
   }
 }
 
@@ -182,6 +182,7 @@ void write_card_list(Page& page, const RunResult& run, const std::vector<Located
 /// One cause: the card of what the rest rests on, and a line for each further requirement.
 void write_cause(Page& page, const RunResult& run, const Cause& cause) {
   page.text(finding_card(run, *cause.primary.owner, *cause.primary.finding, page.style()));
+  if (const auto known = likeness_words(run, cause); !known.empty()) page.item(known, "  ");
   const auto rules = broken_rules(cause);
   constexpr std::size_t named = 12;
   if (rules.size() > 1) page.line("  also broken, of the same cause as far as can be told from outside:");

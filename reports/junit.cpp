@@ -281,7 +281,9 @@ void write_properties(pugi::xml_node parent, const RunResult& run) {
   };
   add_own("run.tool", run.tool);
   add_own("dut.name", run.device);
-  for (const result::Property& property : run.properties) add(property.name, property.value);
+  for (const result::Property& property : run.properties) {
+    if (!is_of_the_machine(property)) add(property.name, property.value);
+  }
   for (std::size_t i = 0; i < run.notes.size(); ++i)
     add(fmt::format("run.note.{}", i + 1), prose(run.notes[i]));
   for (std::size_t i = 0; i < run.waivers.size(); ++i)

@@ -93,6 +93,8 @@ class Document {
 std::string cause_text(const RunResult& run, const Cause& cause) {
   std::string text =
       finding_text(run, {cause.primary.owner, cause.primary.finding, cause.primary.verdict, false});
+  if (const auto known = likeness_words(run, cause); !known.empty())
+    text += fmt::format("\nIt {}.\n", escaped(known, 600));
   const auto rules = broken_rules(cause);
   if (rules.size() > 1) text += "\nOf the same cause, as far as can be told from outside:\n\n";
   for (std::size_t i = 1; i < rules.size(); ++i) {
@@ -170,6 +172,7 @@ std::string facts_text(const RunResult& run) {
   if (run.properties.empty()) return {};
   std::string text = "\n<details><summary>device, bus and run</summary>\n\n| | |\n|---|---|\n";
   for (const result::Property& property : run.properties) {
+    if (is_of_the_machine(property)) continue;
     text += fmt::format("| {} | {} |\n", escaped(property.name), escaped(property.value));
   }
   return text + "\n</details>\n";

@@ -102,6 +102,8 @@ std::string candump_line(const EvidenceFrame& one, std::string_view interface_na
                      candump_frame(one.frame));
 }
 
+bool is_of_the_machine(const result::Property& property) { return property.name == "run.command"; }
+
 std::string interface_name(const result::RunResult& run) {
   const auto found = std::ranges::find(run.properties, "can.interface", &result::Property::name);
   if (found == run.properties.end() || found->value.empty()) return "can0";

@@ -12,6 +12,10 @@
 
 namespace conform::reports {
 
+/// Whether only the result and the HTML page tell it: the command line, which names files of the machine. Two
+/// runs that say the same have the same console and the same JUnit file, wherever they write them.
+[[nodiscard]] bool is_of_the_machine(const result::Property& property);
+
 /// A finding with the case it belongs to and the verdict that counts: the cap of a requirement's level may
 /// have made the judgement milder than the finding.
 struct LocatedFinding {

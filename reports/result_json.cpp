@@ -9,6 +9,7 @@
 #include "reports/cause_lines.hpp"
 #include "reports/tally.hpp"
 #include "result/causes.hpp"
+#include "result/entries.hpp"
 #include "result/run_json.hpp"
 
 namespace conform::reports {
@@ -67,6 +68,11 @@ std::vector<Json> cause_rows(const RunResult& run) {
              {"why", text_json(primary.reason)},
              {"cases", names_of(cause.cases)},
              {"requirements", texts_json(cause.requirements)}};
+    for (const auto* each : likenesses(run, cause)) {
+      one["looks_like"].push_back({{"defect", text_json(each->name)},
+                                   {"summary", text_json(each->summary)},
+                                   {"percent", each->percent}});
+    }
     if (!cause.resting.empty()) one["resting"] = names_of(cause.resting);
     out.push_back(std::move(one));
   }
@@ -90,6 +96,27 @@ std::vector<Json> requirement_rows(const RunResult& run) {
     }
     row["verdict"] = one.verdict ? Json(std::string(to_string(*one.verdict))) : Json();
     if (const auto found = cases.find(one.id); found != cases.end()) row["cases"] = found->second;
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+/// Each entry of the dictionary with what differs, and what differs about others.
+std::vector<Json> entry_rows(const RunResult& run) {
+  const auto judged = result::judged_entries(run);
+  std::vector<Json> out;
+  for (const auto& entry : run.dictionary) {
+    auto row = result::to_json(entry);
+    if (const auto found = judged.find(entry.object); found != judged.end()) {
+      for (const auto& each : found->second.differing) {
+        Json one{{"aspect", each.aspect}, {"verdict", std::string(to_string(each.verdict))}};
+        if (!each.requirement.empty()) one["requirement"] = text_json(each.requirement);
+        if (each.where != nullptr) one["case"] = text_json(each.where->name());
+        if (!each.came.empty()) one["came"] = text_json(each.came);
+        row["differs"].push_back(std::move(one));
+      }
+      if (!found->second.cases.empty()) row["cases"] = names_of(found->second.cases);
+    }
     out.push_back(std::move(row));
   }
   return out;
@@ -123,8 +150,10 @@ std::string result_json(const RunResult& run) {
     measurements.assign(found->begin(), found->end());
     rest.erase(found);
   }
+  rest.erase("dictionary");  // said below, with what differs
   add("run", rest.dump());
   add("measurements", lines_of(measurements));
+  add("dictionary", lines_of(entry_rows(run)));
   std::vector<Json> cases;
   cases.reserve(run.cases.size());
   for (const auto& one : run.cases) {
@@ -155,6 +184,7 @@ Result<RunResult> read_result_json(std::string_view text, const std::string& whe
     auto whole = std::move(document.at("run"));
     for (const auto* part : {"requirements", "measurements", "cases"})
       whole[part] = std::move(document.at(part));
+    if (document.contains("dictionary")) whole["dictionary"] = std::move(document.at("dictionary"));
     RunResult run;
     result::from_json(whole, run);
     return run;

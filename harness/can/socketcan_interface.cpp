@@ -34,8 +34,24 @@ struct Link {
   unsigned flags = 0;
   std::string kind;
   std::uint32_t bit_rate = 0;
+  std::uint32_t sample_point = 0;
+  std::uint32_t queue_length = 0;
   std::optional<std::uint32_t> state;
+  std::optional<can_berr_counter> errors;
 };
+
+/// enum can_state of linux/can/netlink.h in the words of ISO 11898-1 and of the kernel.
+std::string state_words(std::uint32_t state) {
+  switch (state) {
+    case CAN_STATE_ERROR_ACTIVE: return "error-active";
+    case CAN_STATE_ERROR_WARNING: return "error-warning";
+    case CAN_STATE_ERROR_PASSIVE: return "error-passive";
+    case CAN_STATE_BUS_OFF: return "bus-off";
+    case CAN_STATE_STOPPED: return "stopped";
+    case CAN_STATE_SLEEPING: return "sleeping";
+    default: return {};
+  }
+}
 
 // Walks a list of netlink attributes; use(type, payload).
 template <typename Use>
@@ -70,8 +86,12 @@ void parse_link_info(ByteView info, Link& link) {
     if (type != IFLA_INFO_DATA) return;
     attributes(payload, [&link](std::uint16_t data_type, ByteView data) {
       if (data_type == IFLA_CAN_BITTIMING) {
-        if (const auto timing = value_of<can_bittiming>(data)) link.bit_rate = timing->bitrate;
+        if (const auto timing = value_of<can_bittiming>(data)) {
+          link.bit_rate = timing->bitrate;
+          link.sample_point = timing->sample_point;
+        }
       }
+      if (data_type == IFLA_CAN_BERR_COUNTER) link.errors = value_of<can_berr_counter>(data);
       if (data_type == IFLA_CAN_STATE) link.state = value_of<std::uint32_t>(data);
     });
   });
@@ -119,6 +139,7 @@ Result<Link> query(int index, const std::string& name) {
   link.flags = info->ifi_flags;
   attributes(answer.subspan(sizeof(ifinfomsg)), [&link](std::uint16_t type, ByteView payload) {
     if (type == IFLA_LINKINFO) parse_link_info(payload, link);
+    if (type == IFLA_TXQLEN) link.queue_length = value_of<std::uint32_t>(payload).value_or(0);
   });
   return link;
 }
@@ -265,6 +286,10 @@ Result<InterfaceFacts> interface_facts(const std::string& name) {
   facts.echo = (link->flags & iff_echo) != 0;
   facts.bus_off = link->state == static_cast<std::uint32_t>(CAN_STATE_BUS_OFF);
   facts.bit_rate = link->bit_rate;
+  facts.sample_point = link->sample_point;
+  facts.queue_length = link->queue_length;
+  if (link->state) facts.state = state_words(*link->state);
+  if (link->errors) facts.errors = {.transmit = link->errors->txerr, .receive = link->errors->rxerr};
   return facts;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,14 @@ struct InterfaceFacts {
   bool is_virtual = false;
   std::string routed_to;  ///< of a vcan: the interface that a gateway job passes its frames to
   bool bus_off = false;
-  std::uint32_t bit_rate = 0;  ///< bit/s, 0 for virtual interfaces
+  std::uint32_t bit_rate = 0;      ///< bit/s, 0 for virtual interfaces
+  std::uint32_t sample_point = 0;  ///< in 1/1000 of a bit, 0 where there is none
+  std::uint32_t queue_length = 0;  ///< frames that the transmit queue of the interface holds
+  std::string state;               ///< of the controller: "error-active", "bus-off"; empty: it has none
+  struct ErrorCounters {
+    std::uint16_t transmit = 0, receive = 0;
+  };
+  std::optional<ErrorCounters> errors{};  ///< where the controller tells them
 };
 
 /// Facts about the interface, whatever its state. Fails when it is missing or not CAN.

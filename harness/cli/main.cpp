@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string>
 
 #include "cli/commands/commands.hpp"
+#include "cli/run/command_line.hpp"
 #include "cli/run/guardian.hpp"
 #include "reports/formats.hpp"
 
@@ -396,6 +398,11 @@ int dispatch(int argc, char** argv) {
                    "With --blame: write the share and the reasons of the others as Markdown")
       ->needs("--blame")
       ->type_name("FILE");
+  selftest_sub
+      ->add_option("--patterns", selftest.patterns,
+                   "Write how each defect shows in a run of the whole suite, by which reports name known "
+                   "mistakes; as JSON")
+      ->type_name("FILE");
   selftest_sub->add_flag("--whole", selftest.whole,
                          "Run the whole suite for every defect, to see with -v what else it spoils");
   selftest_sub->add_flag(
@@ -448,6 +455,7 @@ int dispatch(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
   run.suites = judge.suites = lint.suites = list.suites = explain.suites = selftest.suites = suites;
+  run.command = judge.command = shell_line(std::span(argv, static_cast<std::size_t>(argc)));
   if (guard_sub->parsed()) return guard_command(guarded);
   if (run_sub->parsed()) return run_command(run);
   if (report_sub->parsed()) return report_command(report);

@@ -7,6 +7,7 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
+#include "result/pattern_file.hpp"
 #include "scenario/files.hpp"
 #include "yaml/loader.hpp"
 
@@ -107,6 +108,21 @@ Result<LoadedSuites> load_suites(const SuiteFolders& folders, bool colour) {
   if (out.suite.errors > 0 || !problems.empty())
     return fail("the suites have mistakes:\n" + join(problems, "\n"), join(all, ", "));
   return out;
+}
+
+Result<std::vector<result::Pattern>> load_patterns(const std::string& root) {
+  constexpr std::uint64_t largest = std::uint64_t{16} << 20U;
+  const auto path = root + "/patterns/reference-node.json";
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::vector<result::Pattern>{};
+  const auto text = read_file(path, largest);
+  if (!text) return std::unexpected(text.error());
+  return result::read_patterns(*text, path);
+}
+
+void name_known_mistakes(result::RunResult& run, const std::string& root) {
+  // What a run found is told in any case.
+  if (const auto patterns = load_patterns(root)) run.likenesses = result::likenesses_of(run, *patterns);
 }
 
 namespace {

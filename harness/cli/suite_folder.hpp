@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "result/patterns.hpp"
 #include "scenario/catalogue.hpp"
 #include "scenario/loader.hpp"
 
@@ -40,6 +41,13 @@ struct LoadedSuites {
 [[nodiscard]] inline Result<LoadedSuites> load_suites(const std::string& root, bool colour) {
   return load_suites(SuiteFolders{root}, colour);
 }
+
+/// How known mistakes show, by the file that belongs to the program's suites at `root`; none where it is
+/// missing. Error: it is no such file.
+[[nodiscard]] Result<std::vector<result::Pattern>> load_patterns(const std::string& root);
+
+/// Adds to a run that was killed which known mistakes it looks like, if the suites are still at `root`.
+void name_known_mistakes(result::RunResult& run, const std::string& root);
 
 /// Tells in a report which suites judged, whatever folder they were in: "suite.digest" (FNV-1a over the
 /// scenario and requirement files), and "suite.own" with folder and digest of each that is the user's own.

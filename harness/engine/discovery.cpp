@@ -52,7 +52,7 @@ Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object, const Mea
   return answer;
 }
 
-Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& means) {
+Result<std::vector<Multiplexer>> discover(RunSession& session, Survey& survey, const Means& means) {
   std::vector<Multiplexer> silent;
   auto& known = session.known();
   session.forget_presence();
@@ -66,6 +66,7 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& mean
     if (const auto* entry = known.find(first); entry != nullptr && entry->not_to_be_read) continue;
     auto answer = look(session, first, means);
     if (!answer) return std::unexpected(answer.error());
+    survey.note(first, *answer);
     if (answer->kind == Kind::silence) silent.push_back(first);
     const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
     const auto why = [](const steps::SdoAnswer& each) {
@@ -76,6 +77,7 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& mean
       for (const auto& entry :
            std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
         session.note_present(entry.mux, false, why(*answer));
+        survey.note_absent(entry.mux, *answer);
         if (entry.presence() != device::Presence::claimed) known.remove(entry.mux);
       }
       continue;
@@ -89,6 +91,7 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, const Means& mean
       if (entry.not_to_be_read) continue;
       auto each = look(session, entry.mux, means);
       if (!each) return std::unexpected(each.error());
+      survey.note(entry.mux, *each);
       if (each->kind == Kind::silence) silent.push_back(entry.mux);
       const bool gone = says_absent(*each);
       session.note_present(entry.mux, !gone, why(*each));

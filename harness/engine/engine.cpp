@@ -100,8 +100,10 @@ class Run {
 
   /// Which objects there are, and what the run tells of the device.
   Result<void> survey() {
-    auto silent = discover(run_.session, life_.means());
+    Survey seen;
+    auto silent = discover(run_.session, seen, life_.means());
     if (!silent) return std::unexpected(silent.error());
+    out_.dictionary = seen.rows(run_.session.known(), run_.profile);
     if (!silent->empty()) {
       std::vector<std::string> names;
       for (const auto object : *silent) names.push_back(to_string(object));

@@ -105,6 +105,7 @@ class Parser {
     header.simulated = line.at("simulated").get<bool>();
     header.profile = text_of(line.at("profile"));
     header.eds = text_of(line.at("eds"));
+    if (line.contains("suites")) header.suites = text_of(line.at("suites"));
     header.epoch_ns = line.at("epoch").get<std::int64_t>();
     header.reports = {.capture = text_of(line.at("capture")), .candump = text_of(line.at("candump"))};
     if (line.contains("bundle")) header.reports.bundle = text_of(line.at("bundle"));

@@ -38,6 +38,7 @@ void Writer::begin(const Header& header, const result::RunResult& run) {
               {"simulated", header.simulated},
               {"profile", text_json(header.profile)},
               {"eds", text_json(header.eds)},
+              {"suites", text_json(header.suites)},
               {"epoch", header.epoch_ns},
               {"reports", std::move(reports)},
               {"capture", text_json(header.reports.capture)},

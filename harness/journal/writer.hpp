@@ -32,6 +32,7 @@ struct Header {
   std::uint8_t node = 0;
   bool simulated = false;
   std::string profile, eds;   ///< files, as absolute paths
+  std::string suites;         ///< folder of the program's suites, as absolute path
   std::int64_t epoch_ns = 0;  ///< UTC of bus time 0
   ReportPaths reports;
 };

@@ -16,6 +16,11 @@ bool is_decided(std::optional<Verdict> verdict) {
   return verdict == Verdict::pass || verdict == Verdict::waived || verdict == Verdict::warn ||
          verdict == Verdict::fail;
 }
+/// Files that the user gives about the device: another one makes no other device.
+bool is_of_the_user(std::string_view property) {
+  return property.starts_with("input.") || property.starts_with("dut.description");
+}
+
 bool is_undecided(std::optional<Verdict> verdict) {
   return verdict == Verdict::inconclusive || verdict == Verdict::error;
 }
@@ -88,6 +93,7 @@ class Comparing {
     compare_requirements();
     out_.observed = observed_changes(before_, after_);
     out_.identity = property_changes(before_, after_, {"dut."});
+    std::erase_if(out_.identity, [](const auto& each) { return is_of_the_user(each.name); });
     out_.entries = entry_changes(before_, after_);
     out_.instances = instance_changes(before_, after_);
     // Where scenarios were left out, so were single instances.
@@ -216,7 +222,11 @@ class Comparing {
   void add_circumstances() {
     if (before_.tool != after_.tool) out_.circumstances.push_back({"tool", before_.tool, after_.tool});
     if (before_.host != after_.host) out_.circumstances.push_back({"host", before_.host, after_.host});
-    auto rest = property_changes(before_, after_, {"suite.", "run.", "can.", "simulation.", "capture."});
+    auto rest = property_changes(
+        before_, after_,
+        {"suite.", "run.", "can.", "simulation.", "capture.", "input.", "dut.description"});
+    // It names the reports as well; what of it matters stands in the other properties.
+    std::erase_if(rest, [](const auto& each) { return each.name == "run.command"; });
     std::ranges::move(rest, std::back_inserter(out_.circumstances));
     for (const auto& [run, which] : {std::pair(&before_, "old"), std::pair(&after_, "new")}) {
       if (run->aborted)

@@ -127,14 +127,28 @@ void members(Same<WaiverUse> auto& it, auto&& see) {
       see("owner", owner), see("ticket", ticket), see("expires", expires), see("place", place),
       see("cases", cases), see("state", state), see("verdict", verdict);
 }
+void members(Same<EntryFacts> auto& it, auto&& see) {
+  auto& [object, name, said_by, claimed, type, access, mappable, low, high, default_value, length, presence,
+         refusal, size, value] = it;
+  see("object", object), see("name", name), see("said_by", said_by), see("claimed", claimed),
+      see("type", type), see("access", access), see("mappable", mappable), see("low", low), see("high", high),
+      see("default", default_value), see("length", length), see("presence", presence),
+      see("refusal", refusal), see("size", size), see("value", value);
+}
+void members(Same<Likeness> auto& it, auto&& see) {
+  auto& [requirement, case_name, name, summary, percent] = it;
+  see("requirement", requirement), see("case", case_name), see("name", name), see("summary", summary),
+      see("percent", percent);
+}
 void members(Same<RunResult> auto& it, auto&& see) {
   auto& [tool, host, started_utc_ns, elapsed, device, properties, cases, requirements, notes, aborted, signal,
-         unwritten, compared, measurements, load, changes, waivers] = it;
+         unwritten, compared, measurements, load, changes, waivers, dictionary, likenesses] = it;
   see("tool", tool), see("host", host), see("started", started_utc_ns), see("elapsed", elapsed),
       see("device", device), see("properties", properties), see("cases", cases),
       see("requirements", requirements), see("notes", notes), see("aborted", aborted), see("signal", signal),
       see("unwritten", unwritten), see("compared", compared), see("measurements", measurements),
-      see("load", load), see("changes", changes), see("waivers", waivers);
+      see("load", load), see("changes", changes), see("waivers", waivers), see("dictionary", dictionary),
+      see("likenesses", likenesses);
 }
 
 template <typename T>
@@ -269,6 +283,7 @@ std::string text_of(const Json& json) {
 }
 
 Json to_json(const CaseResult& one) { return write(one); }
+Json to_json(const EntryFacts& entry) { return write(entry); }
 Json to_json(const RunResult& run) { return write(run); }
 
 Json without_cases(const RunResult& run) {

@@ -18,6 +18,7 @@ using Json = nlohmann::json;
 [[nodiscard]] Bytes hex_value(const std::string& text);
 
 [[nodiscard]] Json to_json(const CaseResult& one);
+[[nodiscard]] Json to_json(const EntryFacts& entry);
 [[nodiscard]] Json to_json(const RunResult& run);
 /// All but the cases.
 [[nodiscard]] Json without_cases(const RunResult& run);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/strong.hpp"
@@ -177,6 +178,27 @@ struct Change {
   bool put_back = false;  ///< it holds `before` again
 };
 
+/// What `EntryFacts::presence` says.
+inline constexpr std::string_view present = "present", absent = "absent", unanswered = "no answer",
+                                  not_looked_at = "not looked at";
+
+/// An entry of the object dictionary: what is said of it, and what the device showed at the start of the run.
+struct EntryFacts {
+  Multiplexer object;
+  std::string name;
+  std::string said_by;                   ///< who tells of it: "device.eds:120", "device profile", "CiA 301"
+  bool claimed = false;                  ///< that says that it is there: an absent one is a difference
+  std::string type;                      ///< "UNSIGNED32"
+  std::string access;                    ///< "rw", "const", "rw or ro"
+  bool mappable = false;                 ///< into PDOs
+  std::string low, high, default_value;  ///< in words; empty: not said
+  std::optional<std::size_t> length{};   ///< bytes of the type; none: it varies
+  std::string presence{not_looked_at};   ///< present, absent, no answer, not looked at
+  std::string refusal;                   ///< why it could not be read, in words
+  std::optional<std::size_t> size{};     ///< bytes that the device said it delivers
+  std::string value;                     ///< what it held, in words; of a long one the beginning
+};
+
 /// A failure that somebody answers for, and what became of it in the run.
 struct WaiverUse {
   std::string requirement;
@@ -188,6 +210,14 @@ struct WaiverUse {
   std::vector<std::string> cases;             ///< whose failure it covers
   std::string state{};                        ///< "used", "expired", "not needed any more: ..."
   Verdict verdict = Verdict::not_applicable;  ///< waived: used; warn: to be looked at; fail: it fails the run
+};
+
+/// A cause that shows as a known mistake does (result/patterns.hpp).
+struct Likeness {
+  std::string requirement, case_name;  ///< of the cause: its primary finding
+  std::string name;                    ///< id of a defect of the reference node
+  std::string summary;                 ///< what is wrong there, in words
+  int percent = 0;                     ///< how alike they are; 100: all that both could show
 };
 
 struct Counts {
@@ -217,6 +247,8 @@ struct RunResult {
   std::vector<BusLoad> load{};                ///< over the run, in stretches of one length
   std::vector<Change> changes{};              ///< in the order in which they were made, each entry once
   std::vector<WaiverUse> waivers{};           ///< in the order in which they are written down
+  std::vector<EntryFacts> dictionary{};       ///< ascending; empty: the device was not surveyed
+  std::vector<Likeness> likenesses{};         ///< by cause, then the most alike first
 
   [[nodiscard]] Counts counts() const;
   /// Requirements whose failure is waived, sorted, each once: a run with some does not simply conform.

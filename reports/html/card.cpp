@@ -116,6 +116,12 @@ std::string repeat_command(const RunResult& run, const CaseResult& one, const st
   }
   if (const auto description = value_of(run, "dut.description"); !description.empty())
     out += " --eds " + quoted(description);
+  // The profile of the reference node is taken by itself.
+  const auto used = value_of(run, "input.profile");
+  // The digest stands behind its name.
+  const auto profile = used.substr(0, used.rfind(' '));
+  if (!profile.empty() && !profile.ends_with("devices/reference-node.yaml"))
+    out += " --device " + quoted(profile);
   if (const auto allowed = value_of(run, "run.allowed"); !allowed.empty())
     out += " --allow " + quoted(allowed);
   if (const auto seed = value_of(run, "run.seed"); !seed.empty()) out += " --seed " + quoted(seed);

@@ -29,6 +29,20 @@ std::string rules_table(const Book& book, const Cause& cause) {
       book.number_of(cause), rows);
 }
 
+/// A mistake that somebody made before, in words.
+std::string known_mistakes(const Book& book, const Cause& cause) {
+  const auto all = likenesses(book.run(), cause);
+  if (all.empty()) return {};
+  std::string items;
+  for (const auto* each : all) {
+    items += fmt::format("<li><code>{}</code>: {} <span class=\"quiet\">({} % alike)</span></li>\n",
+                         clipped(each->name, 100), clipped(prose(each->summary), 300), each->percent);
+  }
+  return fmt::format(
+      "<div class=\"known\">\n<h4>Looks like {} of the reference node</h4>\n<ul class=\"list\">\n{}</ul>\n</div>\n",
+      all.size() == 1 ? "a known defect" : "one of these known defects", items);
+}
+
 std::string one_cause(const Book& book, const Cause& cause) {
   const LocatedFinding primary{cause.primary.owner, cause.primary.finding, cause.primary.verdict, false};
   const std::string anchor = book.anchor(cause);
@@ -38,6 +52,7 @@ std::string one_cause(const Book& book, const Cause& cause) {
       css_class(cause.verdict), anchor, css_class(cause.verdict), anchor, anchor, badge(cause.verdict),
       book.number_of(cause), clipped(cause.about, 300), clipped(headline(*cause.primary.finding), 600),
       text(extent(cause)));
+  out += known_mistakes(book, cause);
   out += card(book, primary) + rules_table(book, cause);
   if (cause.cases.size() > 1)
     out += folded(fmt::format("{} with a finding of this cause", counted(cause.cases.size(), "case")),

@@ -57,8 +57,8 @@ std::string filter_bar(const result::RunResult& run) {
         choice.kind, badge(choice.kind, choice.words), counts.*choice.count);
   }
   return fmt::format(
-      "<form id=\"filter\" role=\"search\" aria-label=\"Filter of requirements and cases\" hidden=\"hidden\">\n"
-      "<label class=\"search\" for=\"q\"><span class=\"sr\">Search in causes, requirements and cases</span>"
+      "<form id=\"filter\" role=\"search\" aria-label=\"Filter of requirements, cases and entries\" hidden=\"hidden\">\n"
+      "<label class=\"search\" for=\"q\"><span class=\"sr\">Search in causes, requirements, cases and entries</span>"
       "<input id=\"q\" type=\"search\" placeholder=\"Search: object, requirement, case ...   ( / )\" autocomplete=\"off\"/></label>\n"
       "<fieldset><legend class=\"sr\">Show only these verdicts</legend>\n{}</fieldset>\n"
       "<button type=\"reset\">Clear</button>\n<output id=\"shown\" for=\"q\" aria-live=\"polite\"></output>\n</form>\n",
@@ -84,6 +84,7 @@ std::string html_report(const result::RunResult& run) {
                                 Section{"causes", "Causes", cause_section},
                                 Section{"compared", "CiA's tool", compared_section},
                                 Section{"measurements", "Measurements", measurement_section},
+                                Section{"dictionary", "Dictionary", dictionary_section},
                                 Section{"changes", "Changes", change_section},
                                 Section{"requirements", "Requirements", requirement_section},
                                 Section{"cases", "Cases", case_section}};

@@ -20,12 +20,18 @@
   // ---- filter ----
   var form = by("filter"), q = by("q"), shown = by("shown");
   var boxes = all("input[name=v]", form);
-  var kinds = { cause: [], requirement: [], "case": [] };
+  // What differs is shown twice: by itself, and in the whole table, where it is counted.
+  var kinds = { cause: [], requirement: [], "case": [], entry: [], again: [] };
+  var plural = { cause: "causes", requirement: "requirements", "case": "cases", entry: "entries" };
   all("#causes article").forEach(function (e) { kinds.cause.push({ element: e }); });
   all("#requirements li[data-v]").forEach(function (e) { kinds.requirement.push({ element: e }); });
   all("#cases li[data-v]").forEach(function (e) { kinds["case"].push({ element: e }); });
+  all("#dictionary .whole tr[data-v]").forEach(function (e) { kinds.entry.push({ element: e }); });
+  all("#dictionary .differs tr[data-v]").forEach(function (e) { kinds.again.push({ element: e }); });
   // Lists first: a group is empty when its lists are.
-  var groups = all("#requirements .rows, #cases .rows").concat(all("#requirements .group, #cases .group"));
+  var groups = all("#requirements .rows, #cases .rows").concat(all("#requirements .group, #cases .group, #dictionary .group"));
+  // A long table is folded; what is looked for in it is shown.
+  var tables = all("#dictionary details").map(function (e) { return { element: e, opened: false }; });
   var few = 400;
 
   function textOf(entry) {
@@ -46,7 +52,7 @@
   function apply() {
     var want = wanted();
     var counts = [], rows = 0;
-    ["case", "requirement", "cause"].forEach(function (kind) {
+    ["case", "requirement", "entry", "again", "cause"].forEach(function (kind) {
       var visible = 0;
       kinds[kind].forEach(function (entry) {
         var fits = !want.verdicts.length || want.verdicts.indexOf(entry.element.dataset.v) >= 0;
@@ -54,14 +60,20 @@
         hide(entry.element, !fits);
         if (fits) visible += 1;
       });
-      rows += visible;
+      if (kind === "again") return;
+      if (kind !== "entry") rows += visible;
       var total = kinds[kind].length;
-      if (total) counts.push(visible + " of " + total + " " + kind + (total === 1 ? "" : "s"));
+      if (total) counts.push(visible + " of " + total + " " + (total === 1 ? kind : plural[kind]));
     });
     // So many are laid out at once: the page then has its true length.
     document.querySelector("main").classList.toggle("narrowed", rows < few);
-    groups.forEach(function (group) { hide(group, !group.querySelector("li[data-v]:not([hidden])")); });
+    groups.forEach(function (group) { hide(group, !group.querySelector("[data-v]:not([hidden])")); });
     var active = want.words.length || want.verdicts.length;
+    tables.forEach(function (table) {
+      var open = Boolean(active) && table.element.querySelectorAll("tr[data-v]:not([hidden])").length < few;
+      if (open && !table.element.open) { table.element.open = true; table.opened = true; }
+      if (!open && table.opened) { table.element.open = false; table.opened = false; }
+    });
     shown.textContent = active ? counts.join(", ") : "";
   }
   function fragment() {

@@ -19,6 +19,8 @@ namespace conform::reports::html {
 [[nodiscard]] std::string compared_section(const Book& book);
 /// Times that were measured, load of the bus, where the time of the run went.
 [[nodiscard]] std::string measurement_section(const Book& book);
+/// The entries of the object dictionary: what is said of them, what the device showed, what differs.
+[[nodiscard]] std::string dictionary_section(const Book& book);
 [[nodiscard]] std::string change_section(const Book& book);
 [[nodiscard]] std::string requirement_section(const Book& book);
 [[nodiscard]] std::string case_section(const Book& book);

@@ -40,7 +40,22 @@ constexpr std::array labels{
     Label{"can.interface", "Interface"},
     Label{"can.driver", "Adapter, driver"},
     Label{"can.bit_rate", "Bit rate (bit/s)"},
+    Label{"can.driver_version", "Version of the driver"},
+    Label{"can.firmware", "Firmware of the adapter"},
+    Label{"can.adapter", "Place of the adapter"},
+    Label{"can.sample_point", "Sample point"},
+    Label{"can.stamps", "Time stamps"},
+    Label{"can.transmit_queue", "Transmit queue (frames)"},
     Label{"can.receive_buffer", "Receive buffer (bytes)"},
+    Label{"can.state", "Controller before the run"},
+    Label{"health.state", "Controller after the run"},
+    Label{"health.error_frames", "Error frames"},
+    Label{"health.frames_lost", "Frames that the host lost"},
+    Label{"health.bus_offs", "Times bus-off"},
+    Label{"health.full_transmit_queue", "Waits for the transmit queue"},
+    Label{"health.late_frames", "Frames looked at late"},
+    Label{"health.worst_lateness", "Latest look at a frame"},
+    Label{"host.kernel", "Kernel of the host"},
     Label{"suite.digest", "Digest of the suite"},
     Label{"suite.own", "Own scenarios"},
     Label{"run.seed", "Seed"},
@@ -105,7 +120,8 @@ std::string facts(const RunResult& run) {
   };
   // The device first, then the bus, then what was asked for.
   const auto rank = [](const result::Property& property) {
-    constexpr std::array<std::string_view, 6> order{"dut.", "eds.", "can.", "simulation.", "run.", "suite."};
+    constexpr std::array<std::string_view, 8> order{"dut.",        "eds.", "can.",   "health.",
+                                                    "simulation.", "run.", "suite.", "host."};
     return std::ranges::find_if(order, [&](auto front) { return property.name.starts_with(front); }) -
            order.begin();
   };
@@ -130,10 +146,16 @@ std::string causes_list(const Book& book) {
   std::string items;
   for (const auto& cause : book.causes()) {
     const auto& finding = *cause.primary.finding;
-    items +=
-        fmt::format("<li>{} <a href=\"#{}\">{}</a> <span class=\"quiet\">{}, {}</span><br/>{}</li>\n",
-                    badge(cause.verdict), book.anchor(cause), clipped(cause.about, 200),
-                    clipped(finding.requirement, 100), text(extent(cause)), clipped(headline(finding), 200));
+    const auto known = likenesses(book.run(), cause);
+    const auto like =
+        known.empty()
+            ? std::string()
+            : fmt::format("<br/><span class=\"quiet\">Looks like <code>{}</code>: {}</span>",
+                          clipped(known.front()->name, 100), clipped(prose(known.front()->summary), 200));
+    items += fmt::format("<li>{} <a href=\"#{}\">{}</a> <span class=\"quiet\">{}, {}</span><br/>{}{}</li>\n",
+                         badge(cause.verdict), book.anchor(cause), clipped(cause.about, 200),
+                         clipped(finding.requirement, 100), text(extent(cause)),
+                         clipped(headline(finding), 200), like);
   }
   return fmt::format(
       "<div class=\"panel\">\n<h2>Causes, the heaviest first</h2>\n<ol class=\"causes\">\n{}</ol>\n</div>\n",

@@ -163,3 +163,16 @@ TEST_CASE("Progress is one line that never exceeds the width") {
     CHECK(columns(without_colours(line)) <= width);
   }
 }
+
+TEST_CASE("A cause says in a line which known mistakes it looks like") {
+  RunResult run = testing::sample_run();
+  CHECK(contains(
+      summary(run, {.colour = false, .width = 200}),
+      "  looks like 1003-nonzero-write-accepted of the reference node: 1003h:00 confirms any value, but keeps the "
+      "history; or like 1003-nonzero-write-wrong-abort: 1003h:00"));
+  CHECK_FALSE(contains(summary(run, {}), "run.command"));
+  run.likenesses[0].name = "a\x1B[31m";
+  CHECK_FALSE(contains(summary(run, {}), "\x1B"));
+  run.likenesses.clear();
+  CHECK_FALSE(contains(summary(run, {}), "looks like"));
+}

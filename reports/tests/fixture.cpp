@@ -163,6 +163,42 @@ CaseResult inconclusive() {
   return one;
 }
 
+/// One as described, one that is judged, one that should be there.
+std::vector<result::EntryFacts> dictionary() {
+  result::EntryFacts type;
+  type.object = {Index(0x1000), SubIndex(0)};
+  type.name = "Device type";
+  type.said_by = "drive.eds:31";
+  type.claimed = true;
+  type.type = "UNSIGNED32";
+  type.access = "ro";
+  type.default_value = type.value = "0002 0192h";
+  type.length = type.size = 4;
+  type.presence = result::present;
+  result::EntryFacts errors = type;
+  errors.object = {Index(0x1003), SubIndex(0)};
+  errors.name = "Number of errors";
+  errors.said_by = "CiA 301";
+  errors.claimed = false;
+  errors.type = "UNSIGNED8";
+  errors.access = "rw";
+  errors.default_value = "00h";
+  errors.value = "03h";
+  errors.length = errors.size = 1;
+  result::EntryFacts mapping = errors;
+  mapping.object = {Index(0x1A00), SubIndex(0)};
+  mapping.name = "Number of mapped objects";
+  mapping.said_by = "drive.eds:402";
+  mapping.claimed = true;
+  mapping.low = "00h";
+  mapping.high = "40h";
+  mapping.value.clear();
+  mapping.size.reset();
+  mapping.presence = result::absent;
+  mapping.refusal = "abort 0602 0000h (object does not exist)";
+  return {type, errors, mapping};
+}
+
 }  // namespace
 
 RunResult sample_run() {
@@ -172,9 +208,14 @@ RunResult sample_run() {
   run.elapsed = 7s + 250ms;
   run.device = "Conforming drive";
   run.properties = {
-      {"dut.node_id", "03h"},    {"dut.vendor_id", "0000 0000h"}, {"dut.1008", "Conforming drive"},
-      {"eds.file", "drive.eds"}, {"can.interface", "vcan0"},      {"can.driver", "vcan"},
-      {"run.seed", "1"}};
+      {"dut.node_id", "03h"},
+      {"dut.vendor_id", "0000 0000h"},
+      {"dut.1008", "Conforming drive"},
+      {"eds.file", "drive.eds"},
+      {"can.interface", "vcan0"},
+      {"can.driver", "vcan"},
+      {"run.seed", "1"},
+      {"run.command", "canopen-conform run -i vcan0 -n 3 --eds drive.eds --html 'my report.html'"}};
   run.cases = {passing(), failing(), warning(), failing_bytes(), inconclusive()};
 
   CaseResult skipped =
@@ -211,6 +252,11 @@ RunResult sample_run() {
        "The order of the entries is kept."},
   };
   run.notes = {"1 case changed the device and everything was restored"};
+  run.dictionary = dictionary();
+  run.likenesses = {{"OD-1003-06", run.cases[1].name(), "1003-nonzero-write-accepted",
+                     "1003h:00 confirms any value, but keeps the history", 88},
+                    {"OD-1003-06", run.cases[1].name(), "1003-nonzero-write-wrong-abort",
+                     "1003h:00 refuses a non-zero value with 0601 0002h instead of 0609 0030h", 75}};
   return run;
 }
 
@@ -242,6 +288,14 @@ RunResult hostile_run(const std::string& text) {
         for (EvidenceFrame& frame : finding.evidence) frame.meaning = text;
       }
     }
+  }
+  for (result::EntryFacts& each : run.dictionary) {
+    each.name = each.said_by = each.value = each.refusal = each.default_value = each.low = text;
+    each.type = each.access = text;
+  }
+  for (result::Likeness& each : run.likenesses) {
+    each.case_name = run.cases[1].name();
+    each.name = each.summary = text;
   }
   for (result::RequirementInfo& info : run.requirements) info.clause = info.statement = info.area = text;
   return run;

@@ -87,6 +87,57 @@ TEST_CASE("A page is well-formed, its ids are unique and its links lead somewher
   }
 }
 
+TEST_CASE("A cause says which known mistakes it looks like") {
+  const auto page = html_report(testing::sample_run());
+  CHECK(contains(page, "<h4>Looks like one of these known defects of the reference node</h4>"));
+  CHECK(contains(
+      page, "<code>1003-nonzero-write-accepted</code>: 1003h:00 confirms any value, but keeps the history"));
+  CHECK(contains(page, "(88 % alike)"));
+  auto run = testing::sample_run();
+  run.likenesses.clear();
+  CHECK_FALSE(contains(html_report(run), "ooks like"));
+}
+
+TEST_CASE("The dictionary is a table of what is described, found and differing") {
+  const auto document = parsed(html_report(testing::sample_run()));
+  const auto whole =
+      document.select_nodes("//section[@id='dictionary']//div[contains(@class,'whole')]//tbody/tr");
+  REQUIRE(whole.size() == 4);
+  const auto verdict = [&](int i) {
+    return std::string(whole[static_cast<std::size_t>(i)].node().attribute("data-v").value());
+  };
+  CHECK(verdict(0) == "na");
+  CHECK(verdict(1) == "fail");
+  CHECK(verdict(2) == "warn");
+  CHECK(verdict(3) == "fail");
+  const auto errors = text_of(whole[1].node());
+  CHECK(contains(errors, "OD-1003-06: confirmed"));
+  CHECK(contains(errors, "not the default"));
+  // Nobody described it; a finding tells of it.
+  CHECK(contains(text_of(whole[2].node()), "not described"));
+  const auto absent = text_of(whole[3].node());
+  CHECK(contains(absent, "absent"));
+  CHECK(contains(absent, "presence: abort 0602 0000h"));
+  CHECK(contains(absent, "drive.eds:402"));
+  const auto differs = document.select_nodes("//div[contains(@class,'differs')]//tbody/tr");
+  CHECK(differs.size() == 3);
+}
+
+TEST_CASE("A long dictionary is folded, and ten thousand entries are a page that can be sent") {
+  auto run = testing::sample_run();
+  constexpr int entries = 10'000;
+  for (int i = 0; i < entries; ++i) {
+    auto entry = run.dictionary[0];
+    entry.object = {Index(static_cast<std::uint16_t>(0x2000 + i / 200)),
+                    SubIndex(static_cast<std::uint8_t>(i % 200))};
+    run.dictionary.push_back(entry);
+  }
+  const auto page = html_report(run);
+  CHECK(page.size() < 8'000'000);
+  const auto document = parsed(page);
+  CHECK(document.select_nodes("//section[@id='dictionary']//details//tbody/tr").size() == entries);
+}
+
 TEST_CASE("Headings of a page begin with one of the first level and skip none") {
   const auto document = parsed(html_report(full_run()));
   int before = 0;

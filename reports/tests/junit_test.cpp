@@ -240,3 +240,10 @@ TEST_CASE("Messages and texts are bounded") {
     }
   }
 }
+
+TEST_CASE("The command line, which names files of the machine, is in no JUnit file") {
+  const Document document(testing::sample_run());
+  CHECK(document.text.find("run.seed") != std::string::npos);
+  CHECK(document.text.find("run.command") == std::string::npos);
+  CHECK(document.text.find("my report.html") == std::string::npos);
+}

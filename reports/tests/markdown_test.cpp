@@ -104,3 +104,10 @@ TEST_CASE("The short Markdown report begins with the causes") {
   CHECK(text.starts_with("## Conforming drive: does not conform\n"));
   CHECK(text.find("| | Cause | Requirement | Cases | First case |") < text.find("| Requirements |"));
 }
+
+TEST_CASE("The Markdown report says which known mistake a cause looks like") {
+  const std::string text = markdown_evidence(testing::sample_run());
+  CHECK(
+      contains(text, "\nIt looks like 1003-nonzero-write-accepted of the reference node: 1003h:00 confirms"));
+  CHECK_FALSE(contains(text, "run.command"));
+}

@@ -58,6 +58,18 @@ TEST_CASE("A result says which requirements passed, and in which cases") {
   CHECK(document.at("causes").at(0).at("verdict") == "fail");
 }
 
+TEST_CASE("A result says of each entry what differs, and of a cause what it looks like") {
+  const auto document = nlohmann::json::parse(result_json(measured_run()));
+  const auto& entries = document.at("dictionary");
+  REQUIRE(entries.size() == 3);
+  CHECK_FALSE(entries[0].contains("differs"));
+  CHECK(entries[1].at("differs")[0].at("requirement") == "OD-1003-06");
+  CHECK(entries[1].at("differs")[0].at("aspect") == "rule");
+  CHECK(entries[2].at("differs")[0].at("aspect") == "presence");
+  CHECK_FALSE(entries[2].at("differs")[0].contains("requirement"));
+  CHECK(document.at("causes")[0].at("looks_like")[0].at("defect") == "1003-nonzero-write-accepted");
+}
+
 TEST_CASE("What is no result, or one of a later version, is refused with the reason") {
   const auto refused = [](std::string_view text) {
     const auto read = read_result_json(text, "r.json");

@@ -52,6 +52,7 @@ struct RunCommand {
   std::string bundle;    ///< archive with all of it; empty: none
   std::string sign;      ///< private key that signs it; empty: not signed
   std::string journal;   ///< file; empty: the usual place
+  std::string command;   ///< the command line itself, for the reports
   std::string baseline;  ///< result.json or journal of an earlier run: red is only what is new; empty: none
 };
 [[nodiscard]] int run_command(const RunCommand& options);
@@ -135,6 +136,7 @@ struct JudgeCommand {
   bool strict = false;
   bool quiet = false;
   std::string color = "auto";
+  std::string command;  ///< the command line itself, for the reports
   Reports reports;
   std::string bundle, sign;
 };
@@ -194,6 +196,7 @@ struct SelftestCommand {
   bool blame = false;
   std::size_t pairs = 0;            ///< with blame
   std::string blame_page;           ///< file for docs/blame.md
+  std::string patterns;             ///< file for suites/patterns/reference-node.json
   bool edits = false;               ///< edits of every entry of the dictionary instead of the defects
   bool mutants = false;             ///< mutants instead of the defects
   std::vector<std::string> mutant;  ///< with mutants: only these numbers, rooms, files

@@ -34,6 +34,8 @@ int judge_command(const JudgeCommand& options) {
   if (!root) return refuse(root.error());
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return refuse(suites.error());
+  const auto patterns = load_patterns(root->root);
+  if (!patterns) return refuse(patterns.error());
   auto known = known_device({options.profile, options.eds, options.node, options.waivers}, std::nullopt);
   if (!known) return refuse(known.error());
   auto content = read_file(options.capture, most_bytes);
@@ -57,8 +59,10 @@ int judge_command(const JudgeCommand& options) {
   }
   run.notes.insert(run.notes.begin(), known->notes.begin(), known->notes.end());
   run.tool = tool;
+  run.likenesses = result::likenesses_of(run, *patterns);
   run.started_utc_ns = recording->info.epoch_ns;
   auto facts = suite_properties(*root);
+  facts.push_back({"run.command", options.command});
   facts.push_back({"capture.file", options.capture});
   facts.push_back({"can.interface", recording->info.interface_name});
   known->files.push_back({role::recording, options.capture});

@@ -18,6 +18,7 @@
 #include "cli/pages/cct_run.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/proof/variant_profile.hpp"
+#include "cli/run/bus_facts.hpp"
 #include "cli/run/guardian.hpp"
 #include "cli/run/known_device.hpp"
 #include "cli/run/run_journal.hpp"
@@ -90,6 +91,10 @@ struct Facts {
     run.notes.insert(run.notes.begin(), notes.begin(), notes.end());
   }
   void add(std::string name, std::string value) { properties.push_back({std::move(name), std::move(value)}); }
+
+  void add(const std::vector<result::Property>& more) {
+    properties.insert(properties.end(), more.begin(), more.end());
+  }
 
   static constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
 };
@@ -192,6 +197,8 @@ int run(const RunCommand& options, RunReports& reports) {
   const bool colour = use_colour(options.color, 1);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return refuse(suites.error(), exit_usage);
+  const auto patterns = load_patterns(root->root);
+  if (!patterns) return refuse(patterns.error(), exit_usage);
   auto known = device_of(options, root->root);
   if (!known) return refuse(known.error(), exit_usage);
   auto* const profile = &known->profile;
@@ -278,15 +285,13 @@ int run(const RunCommand& options, RunReports& reports) {
   if (auto taken = take_inputs(*root, known->files, reports, facts); !taken)
     return refuse(taken.error(), exit_usage);
   if (known->description) facts.add("dut.description", known->description->name);
+  facts.add("run.command", options.command);
   facts.add("run.seed", std::to_string(options.seed));
   if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));
   facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));
   if (transport != nullptr) {
-    const auto info = transport->info();
-    facts.add("can.interface", info.name);
-    facts.add("can.driver", info.driver);
-    if (info.bit_rate > 0) facts.add("can.bit_rate", std::to_string(info.bit_rate));
-    facts.add("can.receive_buffer", std::to_string(info.receive_buffer));
+    facts.add(bus_properties(transport->info()));
+    facts.add(host_properties());
   } else {
     facts.add("can.interface", "simulated");
     if (!options.defects.empty()) facts.add("simulation.defects", join(options.defects, " "));
@@ -322,6 +327,7 @@ int run(const RunCommand& options, RunReports& reports) {
                     .simulated = options.simulate,
                     .profile = absolute(options.device),
                     .eds = absolute(options.eds),
+                    .suites = absolute(root->root),
                     .epoch_ns = info.epoch_ns,
                     .reports = reports.paths()},
                    begun);
@@ -360,10 +366,12 @@ int run(const RunCommand& options, RunReports& reports) {
     capture = std::move(simulated->capture);
   } else {
     run = engine::run(*transport, *profile, suites->suite, suites->catalogue, run_options, capture);
+    facts.add(health_properties(transport->info(), transport->health()));
   }
   if (live) print("\r\x1B[K");
   facts.complete(run);
   run.changes = watch.changes();
+  run.likenesses = result::likenesses_of(run, *patterns);
   if (options.cct)
     run.compared = cct_outcomes(run, suites->suite, suites->catalogue, known->description.get());
   if (journal) journal->finished(run);

@@ -10,6 +10,7 @@
 #include "cli/proof/selftest.hpp"
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
+#include "result/pattern_file.hpp"
 
 namespace conform::cli {
 namespace {
@@ -95,6 +96,40 @@ std::string blame_words(const std::vector<Blame>& blames, bool verbose) {
              several);
 }
 
+/// Of how many defects the name stands at a cause of their run.
+std::string recognised_words(const std::vector<Blame>& blames, bool verbose) {
+  std::string out;
+  std::size_t recognised = 0, first = 0;
+  for (const auto& blame : blames) {
+    if (blame.is_recognised()) ++recognised;
+    if (!blame.named.empty() && blame.named.front() == blame.defect) ++first;
+    if (verbose && !blame.is_recognised())
+      out += fmt::format("NOT NAMED {}: {}\n", blame.defect,
+                         blame.named.empty() ? "nothing" : join(blame.named, ", "));
+  }
+  const auto share = [&blames](std::size_t count) {
+    return 100.0 * static_cast<double>(count) / static_cast<double>(blames.size());
+  };
+  return out + fmt::format("{} of {} defects ({:.1f} %) are named by their patterns, {} ({:.1f} %) first\n",
+                           recognised, blames.size(), share(recognised), first, share(first));
+}
+
+/// suites/patterns, without the kill matrix: what of the defects `known` names is told.
+int patterns(const SelftestCommand& options, const device::Profile& profile, const LoadedSuites& suites,
+             std::vector<result::Pattern> known) {
+  const auto blames = blames_of_defects(
+      profile, suites.suite, suites.catalogue,
+      {.seed = options.seed, .only = options.defects, .known = std::move(known), .jobs = options.jobs});
+  if (!blames) return report_error(blames.error(), exit_usage);
+  if (blames->empty())
+    return report_error({"no defect is named so", {}, "canopen-refnode --list-defects"}, exit_usage);
+  const auto made = patterns_of(*blames);
+  print(recognised_words(*blames, options.verbose));
+  print(fmt::format("{} patterns\n", made.size()));
+  auto written = write_file_atomically(options.patterns, result::pattern_file(made));
+  return written ? 0 : report_error(written.error(), exit_environment);
+}
+
 int edits(const SelftestCommand& options, const device::Profile& profile, const LoadedSuites& suites) {
   const auto matrix =
       edit_matrix(profile, suites.suite, suites.catalogue, options.seed, options.jobs, options.defects);
@@ -124,12 +159,17 @@ int selftest_command(const SelftestCommand& options) {
   if (!profile) return report_error(profile.error(), exit_usage);
   if (options.edits) return edits(options, profile->profile, *suites);
   if (options.mutants) return mutants_command(options, profile->profile, *suites);
+  auto known = load_patterns(root->root);
+  if (!known) return report_error(known.error(), exit_usage);
+  if (!options.patterns.empty() && !options.blame)
+    return patterns(options, profile->profile, *suites, std::move(*known));
   auto matrix = kill_matrix(profile->profile, suites->suite, suites->catalogue,
                             {.seed = options.seed,
                              .only = options.defects,
                              .whole = options.whole,
                              .blame = options.blame,
                              .pairs = options.pairs,
+                             .known = std::move(*known),
                              .jobs = options.jobs});
   if (!matrix) return report_error(matrix.error(), exit_usage);
   const auto counts = matrix->conformant.counts();
@@ -165,6 +205,7 @@ int selftest_command(const SelftestCommand& options) {
   if (options.verbose && options.defects.empty() && !matrix->unproven.empty())
     out += "unproven: " + join(matrix->unproven, ", ") + "\n";
   if (options.blame) out += blame_words(matrix->blames, options.verbose);
+  if (!matrix->blames.empty()) out += recognised_words(matrix->blames, options.verbose);
   if (options.pairs > 0) out += pair_words(matrix->pairs);
   print(out);
   if (!options.markdown.empty()) {
@@ -173,6 +214,10 @@ int selftest_command(const SelftestCommand& options) {
   }
   if (!options.blame_page.empty()) {
     auto written = write_file_atomically(options.blame_page, blame_page(*matrix));
+    if (!written) return report_error(written.error(), exit_environment);
+  }
+  if (!options.patterns.empty()) {
+    auto written = write_file_atomically(options.patterns, result::pattern_file(patterns_of(matrix->blames)));
     if (!written) return report_error(written.error(), exit_environment);
   }
   return matrix->ok() && (!options.blame || !options.defects.empty() || is_blamed_well(matrix->blames)) ? 0

@@ -38,20 +38,24 @@ Result<result::RunResult> run_against(const std::vector<std::string>& defects, c
 
 }  // namespace
 
-Result<Blame> blame_of(const std::string& defect, const std::vector<std::string>& violates,
-                       const Bench& bench) {
+Result<Blame> blame_of(const DefectVerdict& defect, const Bench& bench,
+                       std::span<const result::Pattern> known) {
   Blame out;
-  out.defect = defect;
-  out.violates = violates;
-  const auto run = run_against({defect}, bench);
+  out.defect = defect.id;
+  out.violates = defect.violates;
+  const auto run = run_against({defect.id}, bench);
   if (!run) return std::unexpected(run.error());
-  for (const auto& cause : result::causes_of(*run)) {
+  const auto causes = result::causes_of(*run);
+  out.pattern = {defect.id, defect.summary, {}};
+  if (!causes.empty()) out.pattern.footprint = result::footprint_of(causes.front());
+  for (const auto& each : result::likenesses_of(*run, known)) out.named.push_back(each.name);
+  for (const auto& cause : causes) {
     out.causes.push_back(cause.primary.finding->requirement);
     out.about.push_back(words_of(cause));
     for (const auto& place : cause.findings) out.parts.insert(place.part());
     out.broken.insert(cause.requirements.begin(), cause.requirements.end());
   }
-  out.right = !out.causes.empty() && contains(violates, out.causes.front());
+  out.right = !out.causes.empty() && contains(defect.violates, out.causes.front());
   return out;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +13,9 @@
 
 namespace conform::cli {
 
-/// `violates`: canonical ids.
-[[nodiscard]] Result<Blame> blame_of(const std::string& defect, const std::vector<std::string>& violates,
-                                     const Bench& bench);
+/// Runs the whole suite against the defect. `known`: patterns that its causes are compared with.
+[[nodiscard]] Result<Blame> blame_of(const DefectVerdict& defect, const Bench& bench,
+                                     std::span<const result::Pattern> known);
 
 /// Two defects whose runs alone show different parts of the device and are told rightly.
 struct PairOfDefects {

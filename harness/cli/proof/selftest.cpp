@@ -64,6 +64,16 @@ std::vector<std::string> KillMatrix::survivors() const {
   return out;
 }
 
+bool Blame::is_recognised() const { return std::ranges::find(named, defect) != named.end(); }
+
+std::vector<result::Pattern> patterns_of(const std::vector<Blame>& blames) {
+  std::vector<result::Pattern> out;
+  for (const auto& blame : blames) {
+    if (!blame.pattern.footprint.lead.empty()) out.push_back(blame.pattern);
+  }
+  return out;
+}
+
 namespace {
 
 /// Runs the suite, or what judges one of `requirements`, and adds what became worse.
@@ -89,18 +99,32 @@ Result<void> expose(const Bench& bench, DefectVerdict& defect, std::vector<std::
   return {};
 }
 
-Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
+/// What its row says of it.
+DefectVerdict said_of(const refnode::Defect& row, const scenario::Catalogue& catalogue) {
   DefectVerdict defect;
   defect.id = row.id;
   defect.summary = row.summary;
   for (const auto id : row.violates) {
-    if (const auto canonical = bench.catalogue.canonical(id)) {
+    if (const auto canonical = catalogue.canonical(id)) {
       if (std::ranges::find(defect.violates, *canonical) == defect.violates.end())
         defect.violates.push_back(*canonical);
     } else {
       defect.unknown.emplace_back(id);
     }
   }
+  return defect;
+}
+
+std::vector<const refnode::Defect*> chosen_rows(const std::vector<std::string>& only) {
+  std::vector<const refnode::Defect*> rows;
+  for (const auto& row : refnode::defects()) {
+    if (only.empty() || std::ranges::find(only, row.id) != only.end()) rows.push_back(&row);
+  }
+  return rows;
+}
+
+Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
+  auto defect = said_of(row, bench.catalogue);
   if (!whole) {
     // Scenarios of long transfers take ten times as long as all others together and are needed by few
     // defects.
@@ -167,19 +191,14 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
     if (key.second.starts_with("monitor/")) monitored.insert(key.first);
   }
   const Bench bench{profile, suite, catalogue, options.seed, good};
-  std::vector<const refnode::Defect*> rows;
-  for (const auto& row : refnode::defects()) {
-    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
-      rows.push_back(&row);
-  }
+  const auto rows = chosen_rows(options.only);
   // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
   std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
   in_parallel(rows.size(), options.jobs,
               [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole)); });
   std::vector<std::optional<Result<Blame>>> blames(options.blame ? rows.size() : 0);
   in_parallel(blames.size(), options.jobs, [&](std::size_t i) {
-    blames[i].emplace(*verdicts[i] ? blame_of(std::string(rows[i]->id), (**verdicts[i]).violates, bench)
-                                   : Blame{});
+    blames[i].emplace(*verdicts[i] ? blame_of(**verdicts[i], bench, options.known) : Blame{});
   });
   for (auto& blame : blames) {
     if (!*blame) return std::unexpected(blame->error());
@@ -207,6 +226,24 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   const auto proven = proven_by(out.defects);
   out.unproven = without(judged, proven);
   out.proven.assign(proven.begin(), proven.end());
+  return out;
+}
+
+Result<std::vector<Blame>> blames_of_defects(const device::Profile& profile, const scenario::Suite& suite,
+                                             const scenario::Catalogue& catalogue,
+                                             const KillOptions& options) {
+  const Verdicts none;  // a blame compares with no other run
+  const Bench bench{profile, suite, catalogue, options.seed, none};
+  const auto rows = chosen_rows(options.only);
+  std::vector<std::optional<Result<Blame>>> blames(rows.size());
+  in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
+    blames[i].emplace(blame_of(said_of(*rows[i], catalogue), bench, options.known));
+  });
+  std::vector<Blame> out;
+  for (auto& blame : blames) {
+    if (!*blame) return std::unexpected(blame->error());
+    out.push_back(std::move(**blame));
+  }
   return out;
 }
 

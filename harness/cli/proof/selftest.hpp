@@ -14,6 +14,7 @@
 #include "device/profile.hpp"
 #include "eds/eds.hpp"
 #include "engine/engine.hpp"
+#include "result/patterns.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
 #include "scenario/loader.hpp"
@@ -58,8 +59,12 @@ struct Blame {
   std::set<std::string> parts;        ///< of the device, that the findings are about
   std::set<std::string> broken;       ///< requirements that the run found broken
   bool right = false;                 ///< the first one's is a requirement that the defect violates
+  result::Pattern pattern;            ///< how the first one shows; without a lead where there is none
+  /// Defects that the causes are said to look like, by the patterns that were known before.
+  std::vector<std::string> named;
 
   [[nodiscard]] bool single_and_right() const { return causes.size() == 1 && right; }
+  [[nodiscard]] bool is_recognised() const;
 };
 
 /// What the run against two defects shows, which alone show different parts of the device.
@@ -92,11 +97,20 @@ struct KillOptions {
   bool whole = false;
   bool blame = false;     ///< also the blame of each defect: whole runs, and minutes instead of seconds
   std::size_t pairs = 0;  ///< and of so many pairs of them
+  std::vector<result::Pattern> known{};  ///< with blame: whether these name each defect
   unsigned jobs =
       0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
 };
 [[nodiscard]] Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
                                              const scenario::Catalogue& catalogue,
                                              const KillOptions& options);
+
+/// Whom a run against each defect blames, in their order, without the kill matrix.
+[[nodiscard]] Result<std::vector<Blame>> blames_of_defects(const device::Profile& profile,
+                                                           const scenario::Suite& suite,
+                                                           const scenario::Catalogue& catalogue,
+                                                           const KillOptions& options);
+/// How each of them shows, for suites/patterns.
+[[nodiscard]] std::vector<result::Pattern> patterns_of(const std::vector<Blame>& blames);
 
 }  // namespace conform::cli

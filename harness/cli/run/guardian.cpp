@@ -18,6 +18,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/run/run_reports.hpp"
 #include "cli/run/terminal.hpp"
+#include "cli/suite_folder.hpp"
 #include "journal/reader.hpp"
 
 namespace conform::cli {
@@ -145,6 +146,7 @@ int guard_command(const std::string& path) {
                   {}},
                  0);
   }
+  if (!left->finished) name_known_mistakes(left->run, left->header.suites);
   reports.write_left(left->run);
   journal::Writer(journal_place).reported();
   return 0;

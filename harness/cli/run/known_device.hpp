@@ -12,6 +12,7 @@
 #include "cli/run/run_inputs.hpp"
 #include "device/profile.hpp"
 #include "eds/eds.hpp"
+#include "result/run_result.hpp"
 
 namespace conform::cli {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/files.hpp"
+#include "cli/suite_folder.hpp"
 #include "journal/reader.hpp"
 #include "reports/result_json.hpp"
 
@@ -24,6 +25,7 @@ Result<RunSource> read_run(const std::string& path) {
   }
   auto journal = journal::read(path, *text);
   if (!journal) return std::unexpected(journal.error());
+  if (!journal->finished) name_known_mistakes(journal->run, journal->header.suites);
   auto& header = journal->header;
   return RunSource{std::move(journal->run), std::move(header.reports), std::move(header.profile),
                    std::move(header.eds)};

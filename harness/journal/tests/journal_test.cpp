@@ -53,6 +53,7 @@ Header header() {
           .simulated = false,
           .profile = "/device.yaml",
           .eds = {},
+          .suites = {},
           .epoch_ns = 12,
           .reports = {.capture = "/c.pcapng",
                       .candump = {},

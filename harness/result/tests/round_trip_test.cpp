@@ -92,6 +92,23 @@ RunResult full_run() {
   out.aborted = "";
   out.signal = 15;
   out.unwritten = {"file: full"};
+  out.likenesses = {{"R-1", "a/b", "a-defect", "what is wrong", 67}};
+  EntryFacts entry{{Index(0x1018), SubIndex(1)},
+                   "name",
+                   "d.eds:7",
+                   true,
+                   "UNSIGNED32",
+                   "ro",
+                   true,
+                   "0",
+                   "9",
+                   "1",
+                   4,
+                   "absent",
+                   "why",
+                   3,
+                   "01 02 03"};
+  out.dictionary = {entry};
   out.compared = {{"2.10", "SDO", "a value above the limit", "failed", "OD-RNG-01", {"a/b"}}};
   return out;
 }

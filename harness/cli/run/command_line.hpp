@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of this process, for the reports of the run: whoever has them can do it again.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace conform::cli {
+
+/// One argument as a shell takes it: as it is where nothing in it means anything to a shell, otherwise
+/// quoted; control characters and bytes that are no UTF-8 as $'\x1b', which bash, zsh and ksh know.
+[[nodiscard]] std::string shell_word(std::string_view argument);
+/// All of them with a blank between.
+[[nodiscard]] std::string shell_line(std::span<char* const> arguments);
+
+}  // namespace conform::cli
