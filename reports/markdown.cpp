@@ -111,7 +111,7 @@ std::string rest_text(const Beside& beside) {
 std::string markdown(const RunResult& run, const Beside& beside) {
   std::string text = markdown_head(run);
   const auto causes = result::causes_of(run);
-  text += markdown_causes(causes, most_causes);
+  text += markdown_causes(run, causes, most_causes);
   text += areas_text(run);
   text += markdown_waivers(run, most_waivers);
   text += compared_text(run);

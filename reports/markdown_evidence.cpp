@@ -184,7 +184,7 @@ std::string markdown_evidence(const RunResult& run, const MarkdownOptions& optio
   Document document(options.size_limit);
   document.add(markdown_head(run));
   const auto causes = result::causes_of(run);
-  document.add(markdown_causes(causes, causes.size()));
+  document.add(markdown_causes(run, causes, causes.size()));
   document.add(areas_text(run));
   document.add(markdown_waivers(run, run.waivers.size()));
   document.add(compared_text(run));

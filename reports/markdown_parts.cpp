@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/cause_lines.hpp"
 #include "reports/markdown_text.hpp"
 #include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
@@ -65,13 +66,15 @@ std::string markdown_head(const RunResult& run) {
   return text;
 }
 
-std::string markdown_causes(const std::vector<Cause>& causes, std::size_t most) {
+std::string markdown_causes(const RunResult& run, const std::vector<Cause>& causes, std::size_t most) {
   if (causes.empty()) return {};
   std::string text = "\n| | Cause | Requirement | Cases | First case |\n|---|---|---|--:|---|\n";
   for (std::size_t i = 0; i < std::min(causes.size(), most); ++i) {
     const Cause& cause = causes[i];
-    text += fmt::format("| {} | {}: {} | {} | {} | {} |\n", verdict_words(cause.verdict),
-                        escaped(cause.about), escaped(headline(*cause.primary.finding), 160),
+    auto known = likeness_words(run, cause);
+    if (!known.empty()) known = "; " + escaped(known, 120);
+    text += fmt::format("| {} | {}: {}{} | {} | {} | {} |\n", verdict_words(cause.verdict),
+                        escaped(cause.about), escaped(headline(*cause.primary.finding), 160), known,
                         escaped(cause.primary.finding->requirement),
                         cause.cases.size() + cause.resting.size(), code(cause.primary.owner->name()));
   }

@@ -17,7 +17,8 @@ namespace conform::reports {
 [[nodiscard]] std::string counts_text(const result::Counts& counts);
 /// The list a reader begins with: one line for each cause, the first `most` of them; the rest is counted.
 /// Empty, or at most `most` + 4 lines.
-[[nodiscard]] std::string markdown_causes(const std::vector<result::Cause>& causes, std::size_t most);
+[[nodiscard]] std::string markdown_causes(const result::RunResult& run,
+                                          const std::vector<result::Cause>& causes, std::size_t most);
 /// A heading and the first `most` waivers, with the rest counted. Empty, or at most `most` + 4 lines.
 [[nodiscard]] std::string markdown_waivers(const result::RunResult& run, std::size_t most);
 

@@ -94,7 +94,7 @@ TEST_CASE("The short Markdown report has at most 60 lines, whatever happened") {
       markdown(run, {"/out/d/a.md", {{"html", "/out/d/b c.html"}, {"junit", "/x/other/j.xml"}}});
   INFO(text);
   CHECK(std::ranges::count(text, '\n') <= 60);
-  CHECK(contains(markdown_causes(result::causes_of(run), 1), "\n... and "));
+  CHECK(contains(markdown_causes(run, result::causes_of(run), 1), "\n... and "));
   CHECK(contains(text, "[html](b%20c.html), junit `/x/other/j.xml`"));
   CHECK(contains(text, "50 passed, 50 failed"));
 }

@@ -2,10 +2,12 @@
 #include "cli/run/command_line.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/formats.hpp"
 
 namespace conform::cli {
 namespace {
@@ -29,6 +31,15 @@ std::string escaped_word(std::string_view argument) {
   return out + "'";
 }
 
+/// "--junit" or "--junit=FILE".
+bool says_where(std::string_view word) {
+  if (!word.starts_with("--")) return false;
+  const auto name = word.substr(2, word.find('=') == std::string_view::npos ? word.npos : word.find('=') - 2);
+  constexpr std::array<std::string_view, 6> others{"bundle",  "sign",     "journal",
+                                                   "capture", "captures", "candump"};
+  return std::ranges::find(others, name) != others.end() || reports::find_format(name) != nullptr;
+}
+
 }  // namespace
 
 std::string shell_word(std::string_view argument) {
@@ -48,7 +59,14 @@ std::string shell_word(std::string_view argument) {
 
 std::string shell_line(std::span<char* const> arguments) {
   std::string out;
-  for (const char* each : arguments) out += (out.empty() ? "" : " ") + shell_word(each);
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string_view word = arguments[i];
+    if (says_where(word)) {
+      if (!word.contains('=')) ++i;  // its value
+      continue;
+    }
+    out += (out.empty() ? "" : " ") + shell_word(word);
+  }
   return out;
 }
 
