@@ -85,11 +85,12 @@ class Evidence(unittest.TestCase):
         self.assertIn("length", [each["aspect"] for each in longer["differs"]])
 
     def test_what_is_claimed_and_absent_differs(self):
-        eds = self.path("device.eds")
-        with open(eds, "w", encoding="utf-8") as file:
-            file.write(run("scan", "--simulate").stdout)
-        run("run", "--simulate", "--eds", eds, "--defect", "edit:1018h:01:absent", "cia301/dictionary", "--json", self.path("r.json"))
-        absent = {each["object"]: each for each in self.result()["dictionary"]}["1018h:01"]
+        profile = self.path("device.yaml")
+        with open(profile, "w", encoding="utf-8") as file:
+            file.write("format: 1\nname: Drive\nnode: 5\nobjects:\n  - {object: 2ABCh:00, type: UNSIGNED8, access: rw}\n")
+        done = run("run", "--simulate", "--device", profile, "cia301/dictionary", "--json", self.path("r.json"))
+        self.assertEqual(done.returncode, 1, done.stdout[-2000:] + done.stderr)
+        absent = {each["object"]: each for each in self.result()["dictionary"]}["2ABCh:00"]
         self.assertEqual(absent["presence"], "absent")
         self.assertIn("presence", [each["aspect"] for each in absent["differs"]])
 
