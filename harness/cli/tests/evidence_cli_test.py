@@ -87,7 +87,7 @@ class Evidence(unittest.TestCase):
     def test_what_is_claimed_and_absent_differs(self):
         profile = self.path("device.yaml")
         with open(profile, "w", encoding="utf-8") as file:
-            file.write("format: 1\nname: Drive\nnode: 5\nobjects:\n  - {object: 2ABCh:00, type: UNSIGNED8, access: rw}\n")
+            file.write("format: 1\nname: Drive\nnode: 5\nobjects:\n  - {object: 2ABCh:00, name: Missing, type: UNSIGNED8, access: rw}\n")
         done = run("run", "--simulate", "--device", profile, "cia301/dictionary", "--json", self.path("r.json"))
         self.assertEqual(done.returncode, 1, done.stdout[-2000:] + done.stderr)
         absent = {each["object"]: each for each in self.result()["dictionary"]}["2ABCh:00"]
