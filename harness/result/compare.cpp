@@ -223,8 +223,7 @@ class Comparing {
     if (before_.tool != after_.tool) out_.circumstances.push_back({"tool", before_.tool, after_.tool});
     if (before_.host != after_.host) out_.circumstances.push_back({"host", before_.host, after_.host});
     auto rest = property_changes(
-        before_, after_,
-        {"suite.", "run.", "can.", "simulation.", "capture.", "input.", "dut.description"});
+        before_, after_, {"suite.", "run.", "can.", "simulation.", "capture.", "input.", "dut.description"});
     // It names the reports as well; what of it matters stands in the other properties.
     std::erase_if(rest, [](const auto& each) { return each.name == "run.command"; });
     std::ranges::move(rest, std::back_inserter(out_.circumstances));
