@@ -18,6 +18,15 @@ namespace conform::cli {
 
 using result::Verdict;
 
+void give_power_switch(engine::RunOptions& options, can::SimulatedBus& bus, refnode::PoweredNode& node) {
+  options.power_cycle = [&bus, &node]() -> Result<void> {
+    bus.unplug(node);
+    bus.attach(node, "reference node");
+    return {};
+  };
+  options.power_away = refnode::PoweredNode::off_time;
+}
+
 Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                               const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                               engine::RunOptions options, std::uint64_t seed) {
@@ -32,12 +41,7 @@ Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profil
   bus.attach(**node, "reference node");
   options.plan.seed = seed;
   options.power_revives = false;
-  options.power_cycle = [&bus, &node]() -> Result<void> {
-    bus.unplug(**node);
-    bus.attach(**node, "reference node");
-    return {};
-  };
-  options.power_away = refnode::PoweredNode::off_time;
+  give_power_switch(options, bus, **node);
   device::Profile claimed = profile;
   for (const auto& id : switches.defects) {
     const refnode::Defect* defect = refnode::find_defect(id);

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "can/capture.hpp"
+#include "can/simulated_bus.hpp"
 #include "device/profile.hpp"
 #include "eds/eds.hpp"
 #include "engine/engine.hpp"
+#include "node/powered_node.hpp"
 #include "result/patterns.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
@@ -32,6 +34,9 @@ struct NodeSwitches {
   std::vector<std::string> variants{};
   std::shared_ptr<const eds::EdsFile> description{};
 };
+/// The run can switch the power of this node, which is attached to this bus; all three outlive the run.
+void give_power_switch(engine::RunOptions& options, can::SimulatedBus& bus, refnode::PoweredNode& node);
+
 [[nodiscard]] Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profile& profile,
                                             const scenario::Suite& suite,
                                             const scenario::Catalogue& catalogue, engine::RunOptions options,

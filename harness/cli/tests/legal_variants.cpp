@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "can/simulated_bus.hpp"
+#include "cli/proof/selftest.hpp"
 #include "cli/proof/variant_profile.hpp"
 #include "engine/engine.hpp"
 #include "neighbours.hpp"
@@ -144,14 +145,7 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
   options.plan.seed = combination.seed;
   options.plan.selection.patterns = only;
   if (combination.shuffled) options.plan.shuffle = combination.seed;
-  if (combination.switched) {
-    options.power_cycle = [&bus, &node]() -> Result<void> {
-      bus.unplug(**node);
-      bus.attach(**node, "reference node");
-      return {};
-    };
-    options.power_away = refnode::PoweredNode::off_time;
-  }
+  if (combination.switched) give_power_switch(options, bus, **node);
   can::Capture capture;
   const auto run = engine::run(bus.transport(), profile, suites.suite, suites.catalogue, options, capture);
   if (frames != nullptr) *frames = capture;
