@@ -44,15 +44,14 @@ std::string areas_text(const RunResult& run) {
   }
   std::ranges::stable_sort(bad, std::ranges::greater{},
                            [](const AreaTally* row) { return row->counts.fail; });
-  const auto shown = std::min(bad.size(), most_areas);
-  for (std::size_t i = 0; i < shown; ++i) add(escaped(bad[i]->area, 100), bad[i]->counts);
+  bad.resize(std::min(bad.size(), most_areas));
+  for (const auto* row : bad) add(escaped(row->area, 100), row->counts);
   AreaTally others;
   for (const auto& row : rows) {
-    if (std::ranges::find(bad.begin(), bad.begin() + static_cast<std::ptrdiff_t>(shown), &row) ==
-        bad.begin() + static_cast<std::ptrdiff_t>(shown))
-      others.counts += row.counts;
+    if (std::ranges::find(bad, &row) == bad.end()) others.counts += row.counts;
   }
-  if (shown > 0 && shown < rows.size()) add(counted(rows.size() - shown, "other area"), others.counts);
+  if (!bad.empty() && bad.size() < rows.size())
+    add(counted(rows.size() - bad.size(), "other area"), others.counts);
   add("**total**", sum(rows).counts);
   return text;
 }
@@ -78,16 +77,12 @@ std::string compared_text(const RunResult& run) {
 
 /// What one could give, and what was noted.
 std::string wants_text(const RunResult& run) {
-  std::string text;
-  const auto wants = tally_wants(run);
-  for (std::size_t i = 0; i < std::min(wants.size(), most_wants); ++i)
-    text += fmt::format("{}- {}: {}\n", i == 0 ? "\n### To have more judged\n\n" : "",
-                        counted(wants[i].cases, "case"), escaped(wants[i].want.text));
-  if (wants.size() > most_wants) text += fmt::format("- and {} more\n", wants.size() - most_wants);
-  for (std::size_t i = 0; i < std::min(run.notes.size(), most_notes); ++i)
-    text += fmt::format("{}- {}\n", i == 0 ? "\n### Notes\n\n" : "", escaped(run.notes[i]));
-  if (run.notes.size() > most_notes) text += fmt::format("- and {} more\n", run.notes.size() - most_notes);
-  return text;
+  std::vector<std::string> wants, notes;
+  for (const auto& each : tally_wants(run))
+    wants.push_back(fmt::format("{}: {}", counted(each.cases, "case"), escaped(each.want.text)));
+  for (const auto& note : run.notes) notes.push_back(escaped(note));
+  return markdown_list("\n### To have more judged\n\n", wants, most_wants) +
+         markdown_list("\n### Notes\n\n", notes, most_notes);
 }
 
 /// "[html](report.html)": a link where the file lies in a folder near this one, else its path.

@@ -83,13 +83,18 @@ std::string markdown_causes(const RunResult& run, const std::vector<Cause>& caus
   return text;
 }
 
-std::string markdown_waivers(const RunResult& run, std::size_t most) {
-  if (run.waivers.empty()) return {};
-  std::string text = "\n### Waivers\n";
-  for (std::size_t i = 0; i < std::min(run.waivers.size(), most); ++i)
-    text += fmt::format("- {}\n", escaped(waiver_text(run.waivers[i])));
-  if (run.waivers.size() > most) text += fmt::format("- and {} more\n", run.waivers.size() - most);
+std::string markdown_list(std::string_view heading, const std::vector<std::string>& items, std::size_t most) {
+  if (items.empty()) return {};
+  std::string text(heading);
+  for (std::size_t i = 0; i < std::min(items.size(), most); ++i) text += fmt::format("- {}\n", items[i]);
+  if (items.size() > most) text += fmt::format("- and {} more\n", items.size() - most);
   return text;
+}
+
+std::string markdown_waivers(const RunResult& run, std::size_t most) {
+  std::vector<std::string> items;
+  for (const auto& each : run.waivers) items.push_back(escaped(waiver_text(each)));
+  return markdown_list("\n### Waivers\n", items, most);
 }
 
 }  // namespace conform::reports

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "result/causes.hpp"
@@ -19,6 +20,9 @@ namespace conform::reports {
 /// Empty, or at most `most` + 4 lines.
 [[nodiscard]] std::string markdown_causes(const result::RunResult& run,
                                           const std::vector<result::Cause>& causes, std::size_t most);
+/// `heading` as it is and the first `most` items as a list; the rest is counted. Empty without items.
+[[nodiscard]] std::string markdown_list(std::string_view heading, const std::vector<std::string>& items,
+                                        std::size_t most);
 /// A heading and the first `most` waivers, with the rest counted. Empty, or at most `most` + 4 lines.
 [[nodiscard]] std::string markdown_waivers(const result::RunResult& run, std::size_t most);
 
