@@ -189,7 +189,8 @@ void RunReports::write(result::RunResult& run, const can::Capture& capture, cons
     put(run, paths_.capture, bytes);
     if (bundle_.asked()) frames.pcapng.emplace(bytes.begin(), bytes.end());
   }
-  if (!paths_.candump.empty()) {
+  // What was streamed is the same log.
+  if (!paths_.candump.empty() && (!log_is_whole || bundle_.asked())) {
     auto log = can::write_candump_log(capture, info);
     if (!log_is_whole) put(run, paths_.candump, log);
     frames.candump = std::move(log);
