@@ -18,6 +18,7 @@
 #include "reports/cause_lines.hpp"
 #include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
+#include "result/properties.hpp"
 
 namespace conform::reports {
 namespace {
@@ -276,8 +277,7 @@ void write_properties(pugi::xml_node parent, const RunResult& run) {
     set(property, "value", value);
   };
   const auto add_own = [&](std::string_view name, std::string_view value) {
-    if (std::ranges::find(run.properties, name, &result::Property::name) == run.properties.end())
-      add(name, value);
+    if (result::value_of(run, name) == nullptr) add(name, value);
   };
   add_own("run.tool", run.tool);
   add_own("dut.name", run.device);

@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "reports/text_tools.hpp"
+#include "result/properties.hpp"
 
 namespace conform::reports {
 
@@ -105,9 +106,9 @@ std::string candump_line(const EvidenceFrame& one, std::string_view interface_na
 bool is_of_the_machine(const result::Property& property) { return property.name == "run.command"; }
 
 std::string interface_name(const result::RunResult& run) {
-  const auto found = std::ranges::find(run.properties, "can.interface", &result::Property::name);
-  if (found == run.properties.end() || found->value.empty()) return "can0";
-  const std::string name = printable(found->value);
+  const auto* const found = result::value_of(run, "can.interface");
+  if (found == nullptr || found->empty()) return "can0";
+  const std::string name = printable(*found);
   return name.find(' ') == std::string::npos ? name : "can0";
 }
 

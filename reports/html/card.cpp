@@ -9,6 +9,7 @@
 #include "reports/html/markup.hpp"
 #include "reports/html/timeline.hpp"
 #include "reports/text_tools.hpp"
+#include "result/properties.hpp"
 
 namespace conform::reports::html {
 namespace {
@@ -20,9 +21,9 @@ using result::Verdict;
 
 constexpr std::size_t value_limit = 2000;
 
-std::string value_of(const RunResult& run, std::string_view name) {
-  const auto found = std::ranges::find(run.properties, name, &result::Property::name);
-  return found == run.properties.end() ? std::string() : found->value;
+std::string told(const RunResult& run, std::string_view name) {
+  const auto* const value = result::value_of(run, name);
+  return value == nullptr ? std::string() : *value;
 }
 
 /// A word of a command line of a POSIX shell.
@@ -101,30 +102,29 @@ std::string rule(const Book& book, const Finding& finding) {
 std::string repeat_command(const RunResult& run, const CaseResult& one, const std::string& during,
                            const std::string& requirement) {
   std::string out = "canopen-conform run";
-  const std::string interface = value_of(run, "can.interface");
+  const std::string interface = told(run, "can.interface");
   if (run.started_utc_ns == 0 && (interface.empty() || interface == "simulated")) {
     out += " --simulate";
     for (const char* kind : {"defect", "variant"}) {
-      const std::string list = value_of(run, fmt::format("simulation.{}s", kind));
+      const std::string list = told(run, fmt::format("simulation.{}s", kind));
       for (const auto word : split(list, ' ')) {
         if (!word.empty()) out += fmt::format(" --{} {}", kind, quoted(std::string(word)));
       }
     }
   } else {
     if (!interface.empty()) out += " -i " + quoted(interface);
-    if (const auto node = value_of(run, "dut.node_id"); !node.empty()) out += " -n " + quoted(node);
+    if (const auto node = told(run, "dut.node_id"); !node.empty()) out += " -n " + quoted(node);
   }
-  if (const auto description = value_of(run, "dut.description"); !description.empty())
+  if (const auto description = told(run, "dut.description"); !description.empty())
     out += " --eds " + quoted(description);
   // The profile of the reference node is taken by itself.
-  const auto used = value_of(run, "input.profile");
+  const auto used = told(run, "input.profile");
   // The digest stands behind its name.
   const auto profile = used.substr(0, used.rfind(' '));
   if (!profile.empty() && !profile.ends_with("devices/reference-node.yaml"))
     out += " --device " + quoted(profile);
-  if (const auto allowed = value_of(run, "run.allowed"); !allowed.empty())
-    out += " --allow " + quoted(allowed);
-  if (const auto seed = value_of(run, "run.seed"); !seed.empty()) out += " --seed " + quoted(seed);
+  if (const auto allowed = told(run, "run.allowed"); !allowed.empty()) out += " --allow " + quoted(allowed);
+  if (const auto seed = told(run, "run.seed"); !seed.empty()) out += " --seed " + quoted(seed);
   if (one.suite != "monitor") return out + " " + quoted(one.name());
   // A monitor is no case of its own: it judges whatever goes on, also before the first case.
   if (std::ranges::any_of(run.cases, [&](const CaseResult& each) { return each.name() == during; }))

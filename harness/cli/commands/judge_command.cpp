@@ -66,16 +66,13 @@ int judge_command(const JudgeCommand& options) {
   facts.push_back({"capture.file", options.capture});
   facts.push_back({"can.interface", recording->info.interface_name});
   known->files.push_back({role::recording, options.capture});
-  auto inputs = take_files(known->files);
-  if (!inputs) return refuse(inputs.error());
+  auto taken = take_inputs(known->files, *root, files.has_bundle());
+  if (!taken) return refuse(taken.error());
   if (known->description) facts.push_back({"dut.description", known->description->name});
-  const auto told = input_properties(*inputs, known->files);
-  facts.insert(facts.end(), told.begin(), told.end());
+  facts.insert(facts.end(), taken->told.begin(), taken->told.end());
   if (files.has_bundle()) {
-    if (auto added = add_suites(*inputs, *root); !added) return refuse(added.error());
-    facts.push_back(digest_of(*inputs));
-    if (auto taken = files.keep(tool, std::move(*inputs)); !taken)
-      return report_error(taken.error(), exit_environment);
+    if (auto kept = files.keep(tool, std::move(taken->inputs)); !kept)
+      return report_error(kept.error(), exit_environment);
   }
   run.properties.insert(run.properties.begin(), facts.begin(), facts.end());
 

@@ -99,19 +99,6 @@ struct Facts {
   static constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
 };
 
-/// Tells in the reports which files the run uses, and keeps them for its bundle.
-Result<void> take_inputs(const SuiteFolders& suites, const std::vector<UsedFile>& files, RunReports& reports,
-                         Facts& facts) {
-  auto inputs = take_files(files);
-  if (!inputs) return std::unexpected(inputs.error());
-  const auto told = input_properties(*inputs, files);
-  facts.properties.insert(facts.properties.end(), told.begin(), told.end());
-  if (!reports.has_bundle()) return {};
-  if (auto added = add_suites(*inputs, suites); !added) return added;
-  facts.properties.push_back(digest_of(*inputs));
-  return reports.keep(Facts::tool, std::move(*inputs));
-}
-
 /// Says what the run before left in the device, before anything else is done to it.
 void tell_what_was_left(const RunJournal& journal, Facts& facts) {
   if (journal.left().empty()) return;
@@ -282,8 +269,13 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.started = options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000;
   facts.notes = known->notes;
   facts.properties = suite_properties(*root);
-  if (auto taken = take_inputs(*root, known->files, reports, facts); !taken)
-    return refuse(taken.error(), exit_usage);
+  auto taken = take_inputs(known->files, *root, reports.has_bundle());
+  if (!taken) return refuse(taken.error(), exit_usage);
+  facts.add(taken->told);
+  if (reports.has_bundle()) {
+    if (auto kept = reports.keep(Facts::tool, std::move(taken->inputs)); !kept)
+      return refuse(kept.error(), exit_usage);
+  }
   if (known->description) facts.add("dut.description", known->description->name);
   facts.add("run.command", options.command);
   facts.add("run.seed", std::to_string(options.seed));

@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "bundle/digest.hpp"
 #include "bundle/verify.hpp"
+#include "result/properties.hpp"
 #include "scenario/files.hpp"
 
 namespace conform::cli {
@@ -15,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using bundle::Content;
+using result::value_of;
 
 /// Descriptions and profiles are far below it; a recording may be large.
 constexpr std::uint64_t largest_input = std::uint64_t{1} << 30U;
@@ -69,11 +71,6 @@ Told told_by(const std::string& value) {
   const auto blank = value.rfind(' ');
   if (blank == std::string::npos) return {value, {}};
   return {value.substr(0, blank), value.substr(blank + 1)};
-}
-
-const std::string* value_of(const result::RunResult& run, std::string_view name) {
-  const auto found = std::ranges::find(run.properties, name, &result::Property::name);
-  return found == run.properties.end() ? nullptr : &found->value;
 }
 
 void add_file(RunInputs& inputs, const char* role, const std::vector<std::string>& places,
@@ -149,6 +146,17 @@ std::vector<result::Property> input_properties(const RunInputs& inputs, const st
     }
   }
   return out;
+}
+
+Result<TakenInputs> take_inputs(const std::vector<UsedFile>& files, const SuiteFolders& suites, bool whole) {
+  auto inputs = take_files(files);
+  if (!inputs) return std::unexpected(inputs.error());
+  auto told = input_properties(*inputs, files);
+  if (whole) {
+    if (auto added = add_suites(*inputs, suites); !added) return std::unexpected(added.error());
+    told.push_back(digest_of(*inputs));
+  }
+  return TakenInputs{std::move(*inputs), std::move(told)};
 }
 
 RunInputs inputs_of(const result::RunResult& run, const std::string& profile, const std::string& eds) {

@@ -47,6 +47,15 @@ struct RunInputs {
 [[nodiscard]] std::vector<result::Property> input_properties(const RunInputs& inputs,
                                                              const std::vector<UsedFile>& files);
 
+/// What a run uses, read before it begins, and what its reports tell of it. `whole`: with the suites, for a
+/// bundle.
+struct TakenInputs {
+  RunInputs inputs;
+  std::vector<result::Property> told;
+};
+[[nodiscard]] Result<TakenInputs> take_inputs(const std::vector<UsedFile>& files, const SuiteFolders& suites,
+                                              bool whole);
+
 /// The inputs of a run that is over, by what its properties tell, as far as they are still there and the
 /// same; of the others, why not. `profile` and `eds`: where they were then, if it is known better.
 [[nodiscard]] RunInputs inputs_of(const result::RunResult& run, const std::string& profile,
