@@ -69,9 +69,12 @@ Tally work(const Settings& settings, std::uint64_t first, const cli::LoadedSuite
     std::string out;
     for (const auto& each : *complaints) {
       if (seen[each.what]++ > 0) continue;
-      const auto least = cli::shrink(combination, each.what, suites, reference);
-      out += fmt::format("{}: {}\n{}  least: legal_variants {}\n", number, each.what, each.details,
-                         least.text());
+      const bool first_told = out.empty();
+      out += fmt::format("{}: {}\n{}", number, each.what, each.details);
+      // Shrinking takes dozens of runs, and what follows is mostly a consequence of the first.
+      if (first_told)
+        out += fmt::format("  least: legal_variants {}\n",
+                           cli::shrink(combination, each.what, suites, reference).text());
     }
     if (!out.empty()) say(out + fmt::format("  drawn: legal_variants {}\n", combination.text()));
   }
