@@ -16,6 +16,7 @@
 #include "reports/phrases.hpp"
 #include "reports/tally.hpp"
 #include "reports/text_tools.hpp"
+#include "result/cause_captures.hpp"
 
 namespace conform::reports {
 namespace {
@@ -135,9 +136,11 @@ std::string causes_text(const std::vector<Cause>& causes) {
 }
 
 /// The finding that the rest rests on, and one line for each further requirement.
-std::string cause_text(const RunResult& run, const Cause& cause) {
+std::string cause_text(const RunResult& run, const Cause& cause, std::size_t number) {
   std::string text =
       finding_text(run, {cause.primary.owner, cause.primary.finding, cause.primary.verdict, false});
+  if (const auto capture = result::capture_of(cause, number, run); !capture.empty())
+    text += fmt::format("\nFrames for Wireshark: {}\n", code(capture));
   const auto rules = broken_rules(cause);
   if (rules.size() > 1) text += "\nOf the same cause, as far as can be told from outside:\n\n";
   for (std::size_t i = 1; i < rules.size(); ++i) {
@@ -155,8 +158,8 @@ std::string cause_text(const RunResult& run, const Cause& cause) {
 std::vector<std::string> findings_text(const RunResult& run, const std::vector<Cause>& causes,
                                        Verdict verdict) {
   std::vector<std::string> items;
-  for (const Cause& cause : causes) {
-    if (cause.verdict == verdict) items.push_back(cause_text(run, cause));
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    if (causes[i].verdict == verdict) items.push_back(cause_text(run, causes[i], i + 1));
   }
   for (const CaseResult& one : run.cases) {
     if (one.verdict == verdict && findings_of(one).empty())

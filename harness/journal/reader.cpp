@@ -106,7 +106,9 @@ class Parser {
     header.profile = text_of(line.at("profile"));
     header.eds = text_of(line.at("eds"));
     header.epoch_ns = line.at("epoch").get<std::int64_t>();
-    header.reports = {text_of(line.at("capture")), text_of(line.at("candump")), {}};
+    header.reports.capture = text_of(line.at("capture"));
+    header.reports.candump = text_of(line.at("candump"));
+    if (line.contains("captures")) header.reports.captures = text_of(line.at("captures"));
     const auto add = [&header](const std::string& format, const Json& path) {
       if (auto text = text_of(path); !text.empty()) header.reports.reports.emplace(format, std::move(text));
     };

@@ -42,6 +42,7 @@ void Writer::begin(const Header& header, const result::RunResult& run) {
               {"reports", std::move(reports)},
               {"capture", text_json(header.reports.capture)},
               {"candump", text_json(header.reports.candump)},
+              {"captures", text_json(header.reports.captures)},
               {"run", without_cases(run)}}
              .dump());
 }

@@ -5,6 +5,7 @@
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
+#include "result/cause_captures.hpp"
 
 namespace conform::reports::html {
 namespace {
@@ -29,6 +30,14 @@ std::string rules_table(const Book& book, const Cause& cause) {
       book.number_of(cause), rows);
 }
 
+/// A link to the frames, where they were written beside the report.
+std::string capture_link(const Book& book, const Cause& cause) {
+  const auto path = result::capture_of(cause, book.number_of(cause), book.run());
+  if (path.empty()) return {};
+  return fmt::format("<p class=\"quiet\">Frames for Wireshark: <a href=\"{}\">{}</a></p>\n",
+                     text(url_path(path)), clipped(path, 300));
+}
+
 std::string one_cause(const Book& book, const Cause& cause) {
   const LocatedFinding primary{cause.primary.owner, cause.primary.finding, cause.primary.verdict, false};
   const std::string anchor = book.anchor(cause);
@@ -38,7 +47,7 @@ std::string one_cause(const Book& book, const Cause& cause) {
       css_class(cause.verdict), anchor, css_class(cause.verdict), anchor, anchor, badge(cause.verdict),
       book.number_of(cause), clipped(cause.about, 300), clipped(headline(*cause.primary.finding), 600),
       text(extent(cause)));
-  out += card(book, primary) + rules_table(book, cause);
+  out += card(book, primary) + capture_link(book, cause) + rules_table(book, cause);
   if (cause.cases.size() > 1)
     out += folded(fmt::format("{} with a finding of this cause", counted(cause.cases.size(), "case")),
                   book.case_list(cause.cases));

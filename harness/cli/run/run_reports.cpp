@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/run_reports.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "base/files.hpp"
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
+#include "cli/run/cause_captures.hpp"
 #include "cli/run/terminal.hpp"
 #include "reports/formats.hpp"
 #include "result/annotate.hpp"
+#include "result/cause_captures.hpp"
 
 namespace conform::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t largest_capture = std::uint64_t{4} << 30U;
+
+/// Tells in the run where its captures of causes are.
+void set_captures(result::RunResult& run, const fs::path& folder) {
+  const std::string name(result::captures_property);
+  const auto known = std::ranges::find(run.properties, name, &result::Property::name);
+  auto& property = known == run.properties.end() ? run.properties.emplace_back() : *known;
+  property = {name, folder.generic_string()};
+}
 
 }  // namespace
 
@@ -26,8 +39,10 @@ std::string absolute(const std::string& path) {
 }
 
 journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
-                                    const std::string& capture, const std::string& candump) {
-  journal::ReportPaths out{.capture = absolute(capture), .candump = absolute(candump)};
+                                    const std::string& capture, const std::string& candump,
+                                    const std::string& captures) {
+  journal::ReportPaths out{
+      .capture = absolute(capture), .candump = absolute(candump), .captures = absolute(captures)};
   for (const auto& [format, path] : asked) {
     if (!path.empty()) out.reports.emplace(format, absolute(path));
   }
@@ -40,7 +55,7 @@ std::vector<std::string> RunReports::all() const {
     if (const auto found = paths_.reports.find(std::string(format.name)); found != paths_.reports.end())
       out.push_back(found->second);
   }
-  for (const auto& path : {paths_.capture, paths_.candump}) {
+  for (const auto& path : {paths_.capture, paths_.candump, paths_.captures}) {
     if (!path.empty()) out.push_back(path);
   }
   return out;
@@ -58,6 +73,9 @@ Result<void> RunReports::begin(const std::string& tool, const std::vector<std::s
       if (absolute(input) == paths[i])
         return fail("a report would be written over an input of the run", paths[i]);
     }
+  }
+  if (!paths_.captures.empty()) {
+    if (auto emptied = empty_capture_folder(paths_.captures); !emptied) return emptied;
   }
   return say(tool, "the run has not ended: it goes on, or it was killed before its reports could be made");
 }
@@ -133,8 +151,25 @@ void RunReports::put(result::RunResult& run, const std::string& path, const std:
 void RunReports::write_words(result::RunResult& run, const can::Capture& capture) {
   // A journal may name formats of another version.
   for (const auto& [name, path] : paths_.reports) {
-    if (const auto* format = reports::find_format(name)) put(run, path, format->write(run, capture));
+    const auto* format = reports::find_format(name);
+    if (format == nullptr) continue;
+    // Where both are moved together, or sent to somebody, the link still holds.
+    if (has_causes_)
+      set_captures(run, fs::path(paths_.captures).lexically_proximate(fs::path(path).parent_path()));
+    put(run, path, format->write(run, capture));
   }
+}
+
+void RunReports::write_causes(result::RunResult& run, const can::Capture& capture,
+                              const can::CaptureInfo& info) {
+  if (paths_.captures.empty()) return;
+  if (auto written = write_cause_captures(paths_.captures, run, capture, info); !written) {
+    run.unwritten.push_back(written.error().text());
+    report_error(written.error(), 0);
+    return;
+  }
+  has_causes_ = true;
+  set_captures(run, paths_.captures);
 }
 
 void RunReports::write(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info) {
@@ -146,6 +181,7 @@ void RunReports::write(result::RunResult& run, const can::Capture& capture, cons
   if (!paths_.capture.empty()) put(run, paths_.capture, can::write_pcapng(capture, info));
   if (!paths_.candump.empty() && !log_is_whole)
     put(run, paths_.candump, can::write_candump_log(capture, info));
+  write_causes(run, capture, info);
   write_words(run, capture);
 }
 
@@ -162,6 +198,7 @@ void RunReports::write_left(result::RunResult& run) {
       loaded->info.tool = run.tool;
       loaded->info.comment = run.device + (run.aborted ? "; " + *run.aborted : "");
       put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
+      write_causes(run, loaded->capture, loaded->info);
       capture = std::move(loaded->capture);
     } else {
       run.unwritten.push_back(loaded.error().text());

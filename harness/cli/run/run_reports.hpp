@@ -17,7 +17,8 @@ namespace conform::cli {
 
 /// What was asked for of the formats, by their names: "junit" and a path; an empty one is not asked for.
 [[nodiscard]] journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
-                                                  const std::string& capture, const std::string& candump);
+                                                  const std::string& capture, const std::string& candump,
+                                                  const std::string& captures = {});
 
 /// `path` from the root on, so that it names the same file in another process; empty stays empty.
 [[nodiscard]] std::string absolute(const std::string& path);
@@ -28,8 +29,11 @@ class RunReports {
 
   [[nodiscard]] const journal::ReportPaths& paths() const { return paths_; }
   [[nodiscard]] bool none() const {
-    return paths_.reports.empty() && paths_.capture.empty() && paths_.candump.empty();
+    return paths_.reports.empty() && paths_.capture.empty() && paths_.candump.empty() &&
+           paths_.captures.empty();
   }
+  /// Whether some file is to tell the comments of frames.
+  [[nodiscard]] bool keeps_comments() const { return !paths_.capture.empty() || !paths_.captures.empty(); }
   /// One that the user named first, or empty.
   [[nodiscard]] std::string first() const;
 
@@ -55,10 +59,12 @@ class RunReports {
   void put(result::RunResult& run, const std::string& path, const std::string& text);
   [[nodiscard]] Result<void> say(const std::string& tool, const std::string& what);
   void write_words(result::RunResult& run, const can::Capture& capture);
+  void write_causes(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info);
   [[nodiscard]] std::vector<std::string> all() const;
 
   journal::ReportPaths paths_;
   std::optional<can::CaptureStream> pcapng_, candump_;
+  bool has_causes_ = false;  ///< the captures of causes are made, and reports name them
 };
 
 }  // namespace conform::cli
