@@ -287,7 +287,7 @@ int dispatch(int argc, char** argv) {
   ReplayCommand replay;
   auto* replay_sub = app.add_subcommand(
       "replay", "Send what the harness sent in a recorded case; exits with 1 where the answers differ");
-  replay_sub->add_option("capture", replay.capture, "Capture of a run: pcapng, or a log of candump -l")
+  replay_sub->add_option("recording", replay.capture, "Capture of a run: pcapng, or a log of candump -l")
       ->required()
       ->type_name("CAPTURE");
   replay_sub->add_option("--case", replay.case_name, "The case, as reports name it, with its instance")

@@ -38,6 +38,9 @@ std::optional<Kind> kind_of(const can::Frame& frame, const std::string& meaning,
     if (is("boot-up")) return Kind{fmt::format("boot-up of node {}", node.value()), Kind::Content::events};
     return Kind{fmt::format("heartbeat of node {}", node.value()), Kind::Content::states, "when each comes"};
   }
+  const bool of_sdo_channel =
+      !frame.extended && ((frame.id > 0x580 && frame.id <= 0x5FF) || (frame.id > 0x600 && frame.id <= 0x67F));
+  if (of_sdo_channel && !is("SDO ")) return std::nullopt;
   if (is("EMCY")) return Kind{"EMCY", Kind::Content::events};
   if (is("SDO ")) return Kind{"SDO response that nobody asked for", Kind::Content::events};
   if (is("SYNC")) return Kind{"SYNC", Kind::Content::length, "when each comes, and its counter"};
