@@ -16,6 +16,7 @@
 #include "reports/html/axis.hpp"
 #include "reports/html/card.hpp"
 #include "reports/html/markup.hpp"
+#include "result/cause_captures.hpp"
 
 using namespace conform;
 using namespace conform::reports;
@@ -113,6 +114,28 @@ TEST_CASE("Nothing on a page is fetched, and only our own style and script are o
   CHECK(policy.starts_with("default-src 'none'; style-src 'sha256-"));
   CHECK(contains(policy, "script-src 'sha256-"));
   CHECK_FALSE(contains(policy, "unsafe"));
+}
+
+TEST_CASE("A cause links to its capture where the run has written one, and to nothing else") {
+  RunResult run = testing::sample_run();
+  const auto links = [&run] {
+    std::vector<std::string> out;
+    const auto document = parsed(html_report(run));
+    for (const auto& found : document.select_nodes("//a/@href")) {
+      const std::string target = found.attribute().value();
+      if (!target.starts_with('#')) out.push_back(target);
+    }
+    return out;
+  };
+  CHECK(links().empty());
+  run.properties.push_back({std::string(result::captures_property), "cap tures"});
+  const auto found = links();
+  REQUIRE_FALSE(found.empty());
+  CHECK(found.front().starts_with("cap%20tures/cause-01-"));
+  CHECK(found.front().ends_with(".pcapng"));
+  // Whatever a file said of the folder: a path and no scheme.
+  run.properties.back().value = "javascript:alert(1)//";
+  for (const auto& target : links()) CHECK(target.starts_with("javascript%3Aalert%281%29//"));
 }
 
 TEST_CASE("Strings of a device stay text on a page") {

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "fixture.hpp"
+#include "result/cause_captures.hpp"
 
 using namespace conform;
 using namespace conform::reports;
@@ -55,4 +56,11 @@ TEST_CASE("The Markdown report begins with the causes, one line each") {
   REQUIRE(list != std::string::npos);
   CHECK(list < text.find("| Requirements |"));
   CHECK(contains(text, "| OD-1003-06 | 202 |"));
+}
+
+TEST_CASE("The Markdown report names the capture of a cause where the run has written one") {
+  RunResult run = testing::sample_run();
+  CHECK_FALSE(contains(markdown(run), ".pcapng"));
+  run.properties.push_back({std::string(result::captures_property), "captures"});
+  CHECK(contains(markdown(run), "Frames for Wireshark: `captures/cause-01-"));
 }

@@ -48,13 +48,15 @@ result::RunResult planned_run() {
 }
 
 Header header() {
-  return {.interface = "can0",
-          .node = 5,
-          .simulated = false,
-          .profile = "/device.yaml",
-          .eds = {},
-          .epoch_ns = 12,
-          .reports = {.capture = "/c.pcapng", .candump = {}, .reports = {{"junit", "/j.xml"}}}};
+  return {
+      .interface = "can0",
+      .node = 5,
+      .simulated = false,
+      .profile = "/device.yaml",
+      .eds = {},
+      .epoch_ns = 12,
+      .reports = {
+          .capture = "/c.pcapng", .candump = {}, .captures = "/causes", .reports = {{"junit", "/j.xml"}}}};
 }
 
 /// A run that was killed in its second case.
@@ -82,6 +84,7 @@ TEST_CASE("a killed run keeps the verdicts it reached, and says of the others wh
   CHECK_FALSE(journal->reported);
   CHECK(journal->header.interface == "can0");
   CHECK(journal->header.reports.capture == "/c.pcapng");
+  CHECK(journal->header.reports.captures == "/causes");
   CHECK(journal->header.reports.reports == std::map<std::string, std::string>{{"junit", "/j.xml"}});
   CHECK(journal->run.cases[0].verdict == Verdict::pass);
   CHECK(journal->run.cases[1].verdict == Verdict::error);
