@@ -11,6 +11,7 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
+#include "can/capture_marks.hpp"
 #include "can/interface_lock.hpp"
 #include "can/pcapng.hpp"
 #include "can/simulated_bus.hpp"
@@ -52,6 +53,7 @@ struct Plan {
 
   [[nodiscard]] Frames frames() const { return recording.capture.frames(); }
   [[nodiscard]] NodeId node() const { return device.profile.node; }
+  [[nodiscard]] Side side() const { return {frames(), section.first, section.end, node()}; }
 };
 
 /// What came of it now.
@@ -102,9 +104,12 @@ Result<Plan> plan_of(const ReplayCommand& options) {
                                         : section_of_numbers(out.frames(), options.frames, options.capture);
   if (!section) return std::unexpected(section.error());
   out.section = std::move(*section);
-  const bool sends = std::ranges::any_of(
-      out.frames().subspan(out.section.first, out.section.end - out.section.first),
-      [](const can::CapturedFrame& each) { return each.direction == can::Direction::transmitted; });
+  const bool sends =
+      std::ranges::any_of(out.frames().subspan(out.section.first, out.section.end - out.section.first),
+                          [](const can::CapturedFrame& each) {
+                            return each.direction == can::Direction::transmitted ||
+                                   each.comment.contains(can::power_was_switched);
+                          });
   if (!sends)
     return fail("nothing was sent in " + out.section.name + ", so there is nothing to replay",
                 options.capture);
@@ -135,10 +140,9 @@ std::optional<Refusal> may_be_sent(Plan& plan, const ReplayCommand& options, boo
   plan.allowed = allowed_by(options, is_virtual);
   auto& profile = plan.device.profile;
   profile.writes_described = plan.allowed == steps::Tier::motion && profile.safe_objects.empty();
-  const auto dialogue = dialogue_of(plan.frames(), plan.section.first, plan.section.end, profile.node);
-  if (auto may = may_replay(plan.frames(), dialogue, profile, plan.allowed); !may)
-    return Refusal{may.error()};
-  if (dialogue.power.empty() || has_power) return std::nullopt;
+  const auto then = plan.side();
+  if (auto may = may_replay(then, profile, plan.allowed); !may) return Refusal{may.error()};
+  if (then.dialogue.power.empty() || has_power) return std::nullopt;
   return Refusal{{plan.section.name + " switches the power of the device",
                   {},
                   "give a device profile that says how (power_cycle)"}};
@@ -156,8 +160,7 @@ Result<Outcome> send_all(const Plan& plan, can::Transport& transport,
     if (auto found = recorder.find(0, booted, recorder.now() + profile.boot_time); !found)
       return std::unexpected(found.error());
   }
-  const auto dialogue = dialogue_of(plan.frames(), plan.section.first, plan.section.end, profile.node);
-  auto played = play(recorder, plan.frames(), plan.section, dialogue, profile, power);
+  auto played = play(recorder, plan.side(), profile, power);
   if (!played) return std::unexpected(played.error());
   Outcome out;
   out.capture = std::move(recorder.capture());
@@ -204,12 +207,11 @@ std::expected<Outcome, Refusal> on_interface(Plan& plan, const ReplayCommand& op
   return std::move(*outcome);
 }
 
-/// The frames of the new capture that are the device's answer to it all. What came behind the recorded part
-/// is there for answers that are late only.
+/// The frames of the new capture that are the device's answer to it all.
 Side side_of(const Outcome& outcome, NodeId node) {
-  const auto& frames = outcome.capture.frames();
-  Side out(frames, outcome.played.first, frames.size(), node);
-  std::erase_if(out.dialogue.unasked, [&](std::size_t index) { return index >= outcome.played.end; });
+  const auto& played = outcome.played;
+  Side out(outcome.capture.frames(), played.first, played.end, node);
+  std::erase_if(out.dialogue.unasked, [&](std::size_t index) { return index >= played.recorded_end; });
   return out;
 }
 
@@ -236,19 +238,21 @@ int replay_command(const ReplayCommand& options) {
         !written)
       return report_error(written.error(), exit_environment);
   }
-  const Side then(plan->frames(), plan->section.first, plan->section.end, plan->node());
+  const Side then = plan->side();
   const Side now = side_of(*outcome, plan->node());
   if (heard_something(then) && !heard_something(now)) {
     return report_error({fmt::format("nothing was heard of node {}", plan->node().value()), options.interface,
                          "node-ID, bit rate, power?"},
                         exit_environment);
   }
-  const auto comparison = compare_replay(then, now, plan->node());
+  const auto comparison = compare_replay(then, now, plan->node(), outcome->played.skipped);
   if (!comparison) return report_error(comparison.error(), exit_environment);
   const reports::Style style{use_colour(options.color, 1), terminal_width(), 0};
-  print(fmt::format("{}, frames {} to {} of {}, sent to node {} on {}\n", printable(plan->section.name),
-                    plan->section.first + 1, plan->section.end, printable(options.capture),
-                    plan->node().value(), printable(outcome->info.interface_name)));
+  const auto frames = fmt::format("frames {} to {}", plan->section.first + 1, plan->section.end);
+  print(fmt::format("{}{} of {}, sent to node {} on {}\n",
+                    options.frames.empty() ? printable(plan->section.name) + ", " : std::string(), frames,
+                    printable(options.capture), plan->node().value(),
+                    printable(outcome->info.interface_name)));
   if (plan->recording.directions_inferred) {
     print(
         "the capture does not tell who sent a frame: NMT commands, SDO and LSS requests and remote frames are sent\n");

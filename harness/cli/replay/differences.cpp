@@ -20,6 +20,7 @@ using can::Direction;
 struct Kind {
   enum class Content : std::uint8_t {
     events,  ///< each for itself, in their order
+    late,    ///< the same, but those of then may answer what was asked before the section begins
     states,  ///< which contents there are
     length,  ///< only the lengths: values of the process, counters, the time
   };
@@ -42,7 +43,7 @@ std::optional<Kind> kind_of(const can::Frame& frame, const std::string& meaning,
       !frame.extended && ((frame.id > 0x580 && frame.id <= 0x5FF) || (frame.id > 0x600 && frame.id <= 0x67F));
   if (of_sdo_channel && !is("SDO ")) return std::nullopt;
   if (is("EMCY")) return Kind{"EMCY", Kind::Content::events};
-  if (is("SDO ")) return Kind{"SDO response that nobody asked for", Kind::Content::events};
+  if (is("SDO ")) return Kind{"SDO response that nobody asked for", Kind::Content::late};
   if (is("SYNC")) return Kind{"SYNC", Kind::Content::length, "when each comes, and its counter"};
   if (is("TIME")) return Kind{"TIME", Kind::Content::length, "when each comes, and the time it tells"};
   if (is("TPDO")) return Kind{meaning, Kind::Content::length, "when each comes, and the values in it"};
@@ -58,7 +59,10 @@ struct Group {
 std::vector<Group> groups_of(const Side& then, const Side& now, NodeId node) {
   std::vector<Group> out;
   const auto sort_in = [&](const Side& side, std::vector<std::size_t> Group::* into) {
-    for (const auto index : side.dialogue.unasked) {
+    const auto& dialogue = side.dialogue;
+    for (const auto index : dialogue.unasked) {
+      // What comes before the first frame of ours is of what was before.
+      if (dialogue.power.empty() && (dialogue.sent.empty() || index < dialogue.sent.front().index)) continue;
       auto kind = kind_of(side.at(index).frame, side.meaning(index), node);
       if (!kind) continue;
       auto known = std::ranges::find(out, kind->name, [](const Group& group) { return group.kind.name; });
@@ -82,6 +86,7 @@ std::string place_of(std::size_t index) { return fmt::format("frame {}", index +
 void compare_events(const Side& then, const Side& now, const Group& group, std::vector<std::string>& out) {
   for (std::size_t i = 0; i < std::max(group.then.size(), group.now.size()); ++i) {
     if (i >= group.now.size()) {
+      if (group.kind.content == Kind::Content::late) return;
       out.push_back(
           fmt::format("{} does not come now: {}", place_of(group.then[i]), text_of(then, group.then[i])));
     } else if (i >= group.then.size()) {
@@ -162,7 +167,8 @@ void compare_rates(const Side& then, const Side& now, const Group& group, std::v
 Unasked compare_group(const Side& then, const Side& now, const Group& group) {
   Unasked out{group.kind.name, group.then.size(), group.now.size(), {}, group.kind.not_compared};
   switch (group.kind.content) {
-    case Kind::Content::events: compare_events(then, now, group, out.differences); return out;
+    case Kind::Content::events:
+    case Kind::Content::late: compare_events(then, now, group, out.differences); return out;
     case Kind::Content::states: compare_states(then, now, group, out.differences); break;
     case Kind::Content::length: compare_lengths(then, now, group, out.differences); break;
   }
@@ -201,6 +207,44 @@ ComparedAnswer compare_answer(const Side& then, const Side& now, std::optional<s
   return out;
 }
 
+/// The toggle bit of guarding goes on from the answer before (CiA 301, 7.2.8.2.2.1), which may stand before
+/// the section: until a reset has set it to 0 only that it changes is compared.
+class Guarding {
+ public:
+  explicit Guarding(NodeId node) : node_(node) {}
+
+  void forgive(const can::Frame& sent, const Side& then, const Side& now, ComparedAnswer& answer) {
+    const auto kind = answer_of(sent, node_);
+    if (!kind || !answer.then || !answer.now) return;
+    if (kind->of == AnswerKind::Of::reset) {
+      known_ = true;
+      apart_ = false;
+    }
+    if (kind->of != AnswerKind::Of::remote || kind->id != error_control + node_.value()) return;
+    constexpr unsigned toggle = 0x80;
+    const auto& before = then.at(*answer.then).frame;
+    const auto& after = now.at(*answer.now).frame;
+    if (before.dlc != 1 || after.dlc != 1) return;
+    const unsigned changed = before.data[0] ^ after.data[0];
+    // A heartbeat, which has no toggle bit, may come in place of an answer; what toggles then shows in the
+    // next one.
+    if (changed == 0 && (after.data[0] & toggle) == 0) apart_ = false;
+    if (!known_) apart_ = (changed & toggle) != 0;
+    known_ = true;
+    answer.differs = changed != (apart_ ? toggle : 0U);
+    if (!answer.differs && apart_) answer.not_compared = "the toggle bit goes on from what was before";
+    if (answer.differs && answer.fields.empty()) {
+      answer.fields = canopen::differences(canopen::fields_of(before, then.meaning(*answer.then)),
+                                           canopen::fields_of(after, now.meaning(*answer.now)));
+    }
+  }
+
+ private:
+  NodeId node_;
+  bool known_ = false;
+  bool apart_ = false;  ///< the toggle bits are the opposite of each other
+};
+
 }  // namespace
 
 Side::Side(std::span<const can::CapturedFrame> all, std::size_t from, std::size_t to, NodeId node)
@@ -211,7 +255,7 @@ Side::Side(std::span<const can::CapturedFrame> all, std::size_t from, std::size_
     meanings_.push_back(decoder.meaning(frames[i].frame, frames[i].direction));
 }
 
-bool Exchange::differs() const { return std::ranges::any_of(answers, &ComparedAnswer::differs); }
+bool Exchange::differs() const { return !now || std::ranges::any_of(answers, &ComparedAnswer::differs); }
 
 std::size_t ReplayComparison::exchanges_that_differ() const {
   return static_cast<std::size_t>(std::ranges::count_if(exchanges, &Exchange::differs));
@@ -222,24 +266,36 @@ std::size_t ReplayComparison::unasked_that_differ() const {
       std::ranges::count_if(unasked, [](const Unasked& each) { return !each.differences.empty(); }));
 }
 
-Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node) {
+Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node,
+                                        const std::vector<std::size_t>& skipped) {
   ReplayComparison out;
   const auto& before = then.dialogue.sent;
   const auto& after = now.dialogue.sent;
-  if (before.size() != after.size())
-    return fail(fmt::format("of {} frames {} are seen to be sent", before.size(), after.size()), {},
-                "the host lost frames: is the machine busy?");
+  const auto wanted = before.size() - skipped.size();
+  constexpr auto* busy = "the host lost frames: is the machine busy?";
+  if (after.size() != wanted)
+    return fail(fmt::format("of {} frames {} are seen to be sent", wanted, after.size()), {}, busy);
+  Guarding guarding(node);
+  std::size_t sent = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    if (then.at(before[i].index).frame != now.at(after[i].index).frame)
-      return fail(fmt::format("frame {} was not sent in its place", before[i].index + 1), {},
-                  "the host lost frames: is the machine busy?");
-    Exchange exchange{before[i].index, after[i].index, {}};
-    const auto count = std::max(before[i].answers.size(), after[i].answers.size());
-    const auto nth = [](const Sent& sent, std::size_t n) {
-      return n < sent.answers.size() ? std::optional(sent.answers[n]) : std::nullopt;
+    Exchange exchange{before[i].index, std::nullopt, {}};
+    if (std::ranges::binary_search(skipped, i)) {
+      out.exchanges.push_back(std::move(exchange));
+      continue;
+    }
+    const auto& frame = then.at(before[i].index).frame;
+    const auto& again = after[sent++];
+    if (frame != now.at(again.index).frame)
+      return fail(fmt::format("frame {} was not sent in its place", before[i].index + 1), {}, busy);
+    exchange.now = again.index;
+    const auto count = std::max(before[i].answers.size(), again.answers.size());
+    const auto nth = [](const Sent& one, std::size_t n) {
+      return n < one.answers.size() ? std::optional(one.answers[n]) : std::nullopt;
     };
-    for (std::size_t n = 0; n < count; ++n)
-      exchange.answers.push_back(compare_answer(then, now, nth(before[i], n), nth(after[i], n)));
+    for (std::size_t n = 0; n < count; ++n) {
+      exchange.answers.push_back(compare_answer(then, now, nth(before[i], n), nth(again, n)));
+      guarding.forgive(frame, then, now, exchange.answers.back());
+    }
     out.exchanges.push_back(std::move(exchange));
   }
   for (const auto& group : groups_of(then, now, node)) out.unasked.push_back(compare_group(then, now, group));

@@ -27,6 +27,9 @@ struct Side {
 
   [[nodiscard]] const can::CapturedFrame& at(std::size_t index) const { return frames[index]; }
   [[nodiscard]] const std::string& meaning(std::size_t index) const { return meanings_[index - first]; }
+  [[nodiscard]] bool is_block_segment(std::size_t index) const {
+    return meaning(index).starts_with("SDO block segment");
+  }
 
  private:
   std::vector<std::string> meanings_;
@@ -41,9 +44,10 @@ struct ComparedAnswer {
 };
 
 struct Exchange {
-  std::size_t then = 0, now = 0;  ///< capture indices of the frame that was sent
+  std::size_t then = 0;            ///< capture index of the frame that was sent
+  std::optional<std::size_t> now;  ///< absent: it was not sent, since the device had left the transfer
   std::vector<ComparedAnswer> answers;
-  [[nodiscard]] bool differs() const;
+  [[nodiscard]] bool differs() const;  ///< also where nothing could be sent
 };
 
 /// Frames of one kind that nobody asked for.
@@ -62,9 +66,12 @@ struct ReplayComparison {
   [[nodiscard]] bool differs() const { return exchanges_that_differ() + unasked_that_differ() > 0; }
 };
 
-/// `now` holds the replay of `then`. Answers are compared by their bytes; of what comes unasked the number,
-/// how often it comes and, where its content is no measured value, what it says. When exactly it comes is not
-/// compared. Error: the replay is not whole, the host lost frames that it sent itself.
-[[nodiscard]] Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node);
+/// `now` holds the replay of `then`, but for what was `skipped` (indices into Dialogue::sent, ascending).
+/// Answers are compared by their bytes; of what comes unasked the number, how often it comes and, where its
+/// content is no measured value, what it says. When exactly it comes is not compared, nor with which toggle
+/// bit guarding goes on from what was before. Error: the replay is not whole, the host lost frames that it
+/// sent itself.
+[[nodiscard]] Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node,
+                                                      const std::vector<std::size_t>& skipped = {});
 
 }  // namespace conform::cli

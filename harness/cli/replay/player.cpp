@@ -17,28 +17,29 @@ namespace {
 
 using can::Direction;
 
-/// What the server may still say when the last request was not answered then.
-constexpr Duration least_tail = std::chrono::milliseconds(5);
+/// The command specifier of a server: bits 7 to 5.
+constexpr unsigned command_bits = 0x20;
 
 bool is_abort(const can::Frame& frame) { return frame.size() == 8 && frame.data[0] == 0x80; }
 
 class Player {
  public:
-  Player(engine::Recorder& recorder, std::span<const can::CapturedFrame> frames, const Dialogue& recorded,
-         const device::Profile& profile, const std::function<Result<void>()>& power)
+  Player(engine::Recorder& recorder, const Side& side, const device::Profile& profile,
+         const std::function<Result<void>()>& power)
       : recorder_(recorder),
-        frames_(frames),
-        recorded_(recorded),
+        side_(side),
+        frames_(side.frames),
+        recorded_(side.dialogue),
         profile_(profile),
         power_(power),
         bit_rate_(recorder.transport().info().bit_rate),
-        state_(recorded.sent.size()) {}
+        state_(side.dialogue.sent.size()) {}
 
-  Result<Played> run(const Section& section) {
+  Result<Played> run() {
     Played out;
     out.first = recorder_.capture().size();
     now_ = recorder_.now();
-    then_ = frames_[section.first].time;
+    then_ = frames_[side_.first].time;
     for (const auto& turn : recorded_.turns) {
       const auto index =
           turn.answer ? recorded_.sent[turn.sent].answers[*turn.answer] : recorded_.sent[turn.sent].index;
@@ -46,15 +47,18 @@ class Player {
       auto done = turn.answer ? await(turn) : send(turn.sent);
       if (!done) return std::unexpected(done.error());
     }
-    if (auto switched = switch_power(section.end); !switched) return std::unexpected(switched.error());
-    const auto tail = frames_[section.end - 1].time - then_;
-    if (auto done = recorder_.wait_until(now_ + std::max(tail, least_tail)); !done)
-      return std::unexpected(done.error());
-    out.end = recorder_.capture().size();
-    const auto limit = last_was_ignored() ? std::max(tail, profile_.quiet_time) : tail;
-    if (limit > std::max(tail, least_tail)) {
-      if (auto done = recorder_.wait_until(now_ + limit); !done) return std::unexpected(done.error());
+    if (auto switched = switch_power(side_.end); !switched) return std::unexpected(switched.error());
+    // What came behind the last frame of the section was not recorded with it: an answer that is one too many
+    // may stand among the frames of the next case.
+    const auto tail = frames_[side_.end - 1].time - then_;
+    if (auto done = recorder_.wait_until(now_ + tail); !done) return std::unexpected(done.error());
+    out.recorded_end = out.end = recorder_.capture().size();
+    if (last_was_ignored() && tail < profile_.quiet_time) {
+      if (auto done = recorder_.wait_until(now_ + profile_.quiet_time); !done)
+        return std::unexpected(done.error());
+      out.end = recorder_.capture().size();
     }
+    out.skipped = std::move(skipped_);
     return out;
   }
 
@@ -66,7 +70,15 @@ class Player {
   };
 
   Result<void> send(std::size_t number) {
-    const auto& captured = frames_[recorded_.sent[number].index];
+    const auto index = recorded_.sent[number].index;
+    const auto& captured = frames_[index];
+    const bool is_segment = side_.is_block_segment(index);
+    if (is_segment && has_left_) {
+      skipped_.push_back(number);
+      state_[number].over = true;
+      return {};
+    }
+    if (!is_segment && answer_of(captured.frame, profile_.node)) has_left_ = false;
     auto due = now_ + (captured.time - then_);
     // Stamps are of the end of a frame.
     if (bit_rate_ > 0) due -= can::bit_time(can::frame_bits(captured.frame), bit_rate_);
@@ -110,7 +122,7 @@ class Player {
     const auto found = recorder_.find(state.next, matches, state.latest + limit);
     if (!found) return std::unexpected(found.error());
     if (!*found) {
-      state.over = true;
+      state.over = has_left_ = true;
       now_ = recorder_.now();
       then_ = answer.time;
       return {};
@@ -118,6 +130,10 @@ class Player {
     const auto& came = recorder_.capture().frames()[**found];
     state.next = **found + 1;
     state.latest = came.time;
+    // Another command than then: an abort mostly, behind which nothing more comes.
+    const bool is_other =
+        (came.frame.data[0] ^ answer.frame.data[0]) >= command_bits || came.frame.dlc != answer.frame.dlc;
+    if (kind->of == AnswerKind::Of::sdo && is_other) has_left_ = true;
     state.over = kind->of == AnswerKind::Of::sdo && is_abort(came.frame) && !is_abort(answer.frame);
     // A frame of ours may have gone out in between.
     if (answer.time >= then_) {
@@ -155,12 +171,15 @@ class Player {
   }
 
   engine::Recorder& recorder_;
+  const Side& side_;
   std::span<const can::CapturedFrame> frames_;
   const Dialogue& recorded_;
   const device::Profile& profile_;
   const std::function<Result<void>()>& power_;
   std::uint32_t bit_rate_;
   std::vector<State> state_;
+  std::vector<std::size_t> skipped_;
+  bool has_left_ = false;  ///< the server did not answer the latest request as it did then
   std::size_t switched_ = 0;
   // The same moment in both captures: gaps count from here.
   BusTime now_{}, then_{};
@@ -168,8 +187,7 @@ class Player {
 
 }  // namespace
 
-Result<void> may_replay(std::span<const can::CapturedFrame> frames, const Dialogue& recorded,
-                        const device::Profile& profile, steps::Tier allowed) {
+Result<void> may_replay(const Side& then, const device::Profile& profile, steps::Tier allowed) {
   const auto dictionary = device::dictionary_of(profile);
   const engine::TierGuard guard(profile, dictionary);
   const auto number = [](std::size_t index) { return "frame " + std::to_string(index + 1); };
@@ -177,10 +195,14 @@ Result<void> may_replay(std::span<const can::CapturedFrame> frames, const Dialog
     return fail("the replay would " + std::string(need.what), number(index),
                 "--allow " + std::string(steps::word_of(need.tier)) + " lets it; nothing was sent");
   };
-  for (const auto& sent : recorded.sent) {
-    const auto& frame = frames[sent.index].frame;
-    const auto object = steps::download_begun(frame, profile.node);
-    const auto need = object ? steps::need_of_download(*object) : steps::need_of(frame, profile.node);
+  for (const auto& sent : then.dialogue.sent) {
+    const auto& frame = then.at(sent.index).frame;
+    // A segment of a block download may look like anything; the request that began it is judged.
+    const bool is_segment = then.is_block_segment(sent.index);
+    const auto object = is_segment ? std::nullopt : steps::download_begun(frame, profile.node);
+    const auto need = is_segment ? steps::Need{steps::Tier::config, "send anything but uploads"}
+                      : object   ? steps::need_of_download(*object)
+                                 : steps::need_of(frame, profile.node);
     if (!need.covered_by(allowed)) return refuse(sent.index, need);
     if (!object || guard.may_write(*object)) continue;
     if (profile.is_untouchable(*object)) {
@@ -193,14 +215,14 @@ Result<void> may_replay(std::span<const can::CapturedFrame> frames, const Dialog
         number(sent.index), "--device FILE with the profile of the run that was recorded; nothing was sent");
   }
   const steps::Need power{steps::Tier::config, "switch the power of the device"};
-  if (!recorded.power.empty() && !power.covered_by(allowed)) return refuse(recorded.power.front(), power);
+  const auto& switches = then.dialogue.power;
+  if (!switches.empty() && !power.covered_by(allowed)) return refuse(switches.front(), power);
   return {};
 }
 
-Result<Played> play(engine::Recorder& recorder, std::span<const can::CapturedFrame> frames,
-                    const Section& section, const Dialogue& recorded, const device::Profile& profile,
+Result<Played> play(engine::Recorder& recorder, const Side& then, const device::Profile& profile,
                     const std::function<Result<void>()>& power) {
-  return Player(recorder, frames, recorded, profile, power).run(section);
+  return Player(recorder, then, profile, power).run();
 }
 
 }  // namespace conform::cli

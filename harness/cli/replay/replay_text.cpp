@@ -85,6 +85,7 @@ std::string sent_words(const Side& then, const Exchange& exchange) {
 std::string exchange_text(const Exchange& exchange, const Side& then, const Side& now,
                           const reports::Style& style) {
   std::string out = fmt::format("  {}{}\n", judged(exchange.differs(), style), sent_words(then, exchange));
+  if (!exchange.now) out += fmt::format("{}not sent: the device had left the transfer\n", indent);
   for (const auto& answer : exchange.answers) {
     if (!answer.differs) {
       const auto why =
@@ -94,7 +95,7 @@ std::string exchange_text(const Exchange& exchange, const Side& then, const Side
       continue;
     }
     out += answer_line("then", then, answer.then, exchange.then);
-    out += answer_line("now", now, answer.now, exchange.now);
+    out += answer_line("now", now, answer.now, *exchange.now);
     if (!answer.fields.empty()) out += fields_line(answer.fields);
   }
   return out;
@@ -115,7 +116,7 @@ std::string replay_text(const ReplayComparison& comparison, const Side& then, co
   std::string out;
   Headings headings(then);
   std::string heading;
-  std::size_t stretch = 0;
+  std::size_t stretch = 0, skipped = 0;
   const auto end_stretch = [&] {
     if (stretch > shown_of_stretch)
       out += fmt::format("{}... and {} more that are the same\n", indent, stretch - shown_of_stretch);
@@ -129,6 +130,8 @@ std::string replay_text(const ReplayComparison& comparison, const Side& then, co
     const bool differs = exchange.differs();
     if (quiet && !differs) continue;
     if (differs) end_stretch();
+    // One of many segments says it all.
+    if (!exchange.now && ++skipped > 1) continue;
     if (!heading.empty()) out += paint(std::exchange(heading, {}), Ink::strong, style) + "\n";
     if (!differs && ++stretch > shown_of_stretch) continue;
     out += exchange_text(exchange, then, now, style);

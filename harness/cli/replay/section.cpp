@@ -36,6 +36,10 @@ std::vector<Place> places_in(std::span<const can::CapturedFrame> frames) {
 
 std::unexpected<Error> unknown_case(std::span<const can::CapturedFrame> frames, std::string_view name,
                                     const std::string& where) {
+  if (name.starts_with("monitor/")) {
+    return fail("a monitor watches the whole run, and nothing is sent for it", where,
+                "name the case that ran meanwhile, as the report of the finding does");
+  }
   const auto known = cases_in(frames);
   if (known.empty()) {
     return fail(
