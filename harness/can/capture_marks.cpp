@@ -21,11 +21,10 @@ constexpr std::array<std::pair<CasePart, std::string_view>, 2> numbered_parts{
 
 /// "2" or "2: upload 1000h:00"
 bool parse_number(std::string_view text, CaseMark& mark) {
-  const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, mark.number);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mark.number);
   if (error != std::errc{} || mark.number == 0) return false;
-  if (end == last) return true;
-  const std::string_view rest(end, static_cast<std::size_t>(last - end));
+  const auto rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  if (rest.empty()) return true;
   if (!rest.starts_with(": ")) return false;
   mark.words = rest.substr(2);
   return true;

@@ -30,7 +30,7 @@ std::vector<Place> places_in(std::span<const can::CapturedFrame> frames) {
   }
   // Of two marks of one frame the one that was put there last may be the one that happened first.
   const auto rank = [](const Place& place) { return std::pair(place.frame, place.mark.part); };
-  std::ranges::stable_sort(out, {}, rank);
+  std::ranges::sort(out, {}, rank);
   return out;
 }
 
