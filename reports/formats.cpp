@@ -18,8 +18,8 @@ namespace conform::reports {
 namespace {
 
 std::string write_junit(const result::RunResult& run, const Beside& /*beside*/) { return junit(run); }
-std::string write_evidence(const result::RunResult& run, const Beside& /*beside*/) {
-  return markdown_evidence(run);
+std::string write_evidence(const result::RunResult& run, const Beside& beside) {
+  return markdown_evidence(run, beside);
 }
 std::string write_text(const result::RunResult& run, const Beside& /*beside*/) {
   return summary(run, Style{});
@@ -34,13 +34,12 @@ std::string write_code_quality(const result::RunResult& run, const Beside& /*bes
   return code_quality(run);
 }
 std::string write_badge(const result::RunResult& run, const Beside& /*beside*/) { return badge(run); }
-std::string write_html(const result::RunResult& run, const Beside& /*beside*/) { return html_report(run); }
 
 // A table and not self-registration: the linker drops registrars from static libraries.
 constexpr std::array<Format, 10> table{{
     {"junit", "JUnit XML for CI systems (Jenkins, GitLab, Azure, GitHub actions)", ".xml", write_junit},
     {"html", "report for people in one file: opens from an e-mail, prints, works offline", ".html",
-     write_html},
+     html_report},
     {"json", "everything that was found, for other programs and for 'report' later", ".json", write_json},
     {"markdown", "at most 60 lines for pull requests and job summaries", ".md", markdown},
     {"markdown-evidence", "the findings with their frames, for a wiki", ".md", write_evidence},

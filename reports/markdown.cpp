@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "reports/markdown_text.hpp"
 #include "reports/tally.hpp"
 #include "reports/text_tools.hpp"
+#include "result/cause_captures.hpp"
 
 namespace conform::reports {
 namespace {
@@ -87,12 +87,13 @@ std::string wants_text(const RunResult& run) {
 
 /// "[html](report.html)": a link where the file lies in a folder near this one, else its path.
 std::string rest_text(const Beside& beside) {
-  const auto folder = std::filesystem::path(beside.path).parent_path();
   std::vector<std::string> parts;
-  for (const auto& [name, path] : beside.reports) {
+  auto files = beside.reports;
+  if (!beside.captures.empty()) files.emplace("one capture per cause", beside.captures);
+  for (const auto& [name, path] : files) {
     if (path == beside.path) continue;
-    const auto relative = std::filesystem::path(path).lexically_relative(folder).generic_string();
-    const bool links = !relative.empty() && !relative.starts_with("../..");
+    const auto relative = beside.relative(path);
+    const bool links = relative != path && !relative.starts_with("../..");
     parts.push_back(links ? fmt::format("[{}]({})", escaped(name), link_target(relative))
                           : fmt::format("{} {}", escaped(name), code(path)));
   }

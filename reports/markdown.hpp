@@ -21,7 +21,7 @@ struct MarkdownOptions {
 
 /// Everything for a wiki page: table by area, failures and warnings with their frames folded, what was not
 /// judged and why.
-[[nodiscard]] std::string markdown_evidence(const result::RunResult& run,
+[[nodiscard]] std::string markdown_evidence(const result::RunResult& run, const Beside& beside = {},
                                             const MarkdownOptions& options = {});
 
 }  // namespace conform::reports

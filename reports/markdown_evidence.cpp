@@ -90,11 +90,13 @@ class Document {
 };
 
 /// The finding that the rest rests on, and one line for each further requirement.
-std::string cause_text(const RunResult& run, const Cause& cause) {
+std::string cause_text(const RunResult& run, const Beside& beside, const Cause& cause, std::size_t number) {
   std::string text =
       finding_text(run, {cause.primary.owner, cause.primary.finding, cause.primary.verdict, false});
   if (const auto known = likeness_words(run, cause); !known.empty())
     text += fmt::format("\nIt {}.\n", escaped(known, 600));
+  if (const auto capture = beside.capture_of(run, cause, number); !capture.empty())
+    text += fmt::format("\nFrames for Wireshark: {}\n", code(capture));
   const auto rules = broken_rules(cause);
   if (rules.size() > 1) text += "\nOf the same cause, as far as can be told from outside:\n\n";
   for (std::size_t i = 1; i < rules.size(); ++i) {
@@ -109,11 +111,11 @@ std::string cause_text(const RunResult& run, const Cause& cause) {
   return text;
 }
 
-std::vector<std::string> findings_text(const RunResult& run, const std::vector<Cause>& causes,
-                                       Verdict verdict) {
+std::vector<std::string> findings_text(const RunResult& run, const Beside& beside,
+                                       const std::vector<Cause>& causes, Verdict verdict) {
   std::vector<std::string> items;
-  for (const Cause& cause : causes) {
-    if (cause.verdict == verdict) items.push_back(cause_text(run, cause));
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    if (causes[i].verdict == verdict) items.push_back(cause_text(run, beside, causes[i], i + 1));
   }
   for (const CaseResult& one : run.cases) {
     if (one.verdict == verdict && findings_of(one).empty())
@@ -180,7 +182,7 @@ std::string facts_text(const RunResult& run) {
 
 }  // namespace
 
-std::string markdown_evidence(const RunResult& run, const MarkdownOptions& options) {
+std::string markdown_evidence(const RunResult& run, const Beside& beside, const MarkdownOptions& options) {
   Document document(options.size_limit);
   document.add(markdown_head(run));
   const auto causes = result::causes_of(run);
@@ -193,9 +195,9 @@ std::string markdown_evidence(const RunResult& run, const MarkdownOptions& optio
   for (std::size_t i = 0; i < run.notes.size(); ++i) {
     document.add(fmt::format("{}- {}\n", i == 0 ? "\n" : "", escaped(run.notes[i])));
   }
-  document.section("Failures", findings_text(run, causes, Verdict::fail));
+  document.section("Failures", findings_text(run, beside, causes, Verdict::fail));
   document.section("Not judged", unjudged_text(run));
-  document.section("Warnings", findings_text(run, causes, Verdict::warn));
+  document.section("Warnings", findings_text(run, beside, causes, Verdict::warn));
   return document.take();
 }
 

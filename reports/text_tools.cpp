@@ -120,6 +120,24 @@ std::string log_safe(std::string_view text) {
   return replace_all(std::move(out), "##", "\\x23\\x23");
 }
 
+std::string url_path(std::string_view path) {
+  std::string out;
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    if (plain) {
+      out += c;
+    } else {
+      constexpr std::string_view digits = "0123456789ABCDEF";
+      const auto byte = static_cast<std::uint8_t>(c);
+      out += '%';
+      out += digits[byte >> 4U];
+      out += digits[byte & 0xFU];
+    }
+  }
+  return out;
+}
+
 std::string brief_duration(Duration duration) {
   const std::int64_t us = std::max<std::int64_t>(microseconds(duration), 0);
   if (us < 9'950) return fmt::format("{}.{} ms", (us + 50) / 1000, (us + 50) / 100 % 10);

@@ -33,6 +33,10 @@ namespace conform::reports {
 /// ("::error::", "##[...]", "##vso[...]").
 [[nodiscard]] std::string log_safe(std::string_view text);
 
+/// A path of a file as a relative reference in a page: what URLs have a meaning for is percent-encoded, and
+/// nothing in it is taken for a scheme.
+[[nodiscard]] std::string url_path(std::string_view path);
+
 /// "0.4 ms", "12 ms", "1.24 s", "3 min 05 s": how long something took, rounded for reading.
 [[nodiscard]] std::string brief_duration(Duration duration);
 /// Milliseconds with three decimals: "1.240", "-0.500".

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "can/transport.hpp"
@@ -37,6 +38,8 @@ class Capture {
   void reserve(std::size_t frames) { frames_.reserve(frames); }
   /// Appends `text` to the comment of frame `index` (separated by "; ").
   void comment(std::size_t index, std::string text);
+  /// Continues the comment of frame `index` by `text`, where it ends with `end`.
+  void continue_comment(std::size_t index, std::string_view end, std::string_view text);
   [[nodiscard]] const std::vector<CapturedFrame>& frames() const { return frames_; }
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
 

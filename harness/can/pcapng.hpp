@@ -20,6 +20,10 @@ namespace conform::can {
 [[nodiscard]] Bytes pcapng_head(const CaptureInfo& info);
 void append_pcapng(Bytes& out, const CapturedFrame& frame, const CaptureInfo& info);
 
+/// Name and version of the program that a file says it was written by, from its first bytes; empty: it says
+/// none, or is no pcapng.
+[[nodiscard]] std::string pcapng_application(ByteView head);
+
 /// Reads pcapng of either byte order with CAN_SOCKETCAN interfaces; unknown blocks and options are skipped.
 /// All frames must be of one interface: the one named `only` if given (others are then skipped), else the
 /// first that has frames. `where` names the file in errors, which carry the byte offset.

@@ -76,6 +76,11 @@ class Reader {
     return std::move(loaded_);
   }
 
+  std::string application() {
+    if (bytes_.size() < 12 || load_le(bytes_.first(4)) != section_header || !block()) return {};
+    return std::move(loaded_.info.tool);
+  }
+
  private:
   [[nodiscard]] std::uint32_t u32(ByteView view, std::size_t at) const {
     return static_cast<std::uint32_t>(integer(view.subspan(at, 4)));
@@ -258,6 +263,11 @@ class Reader {
 };
 
 }  // namespace
+
+std::string pcapng_application(ByteView head) {
+  const std::string nowhere;
+  return Reader(head, nowhere, {}).application();
+}
 
 Result<LoadedCapture> read_pcapng(ByteView bytes, const std::string& where, std::string_view only) {
   return Reader(bytes, where, only).run();

@@ -140,6 +140,11 @@ int dispatch(int argc, char** argv) {
   run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark, while they come")
       ->type_name("FILE");
   run_sub
+      ->add_option(
+          "--captures", run.captures,
+          "Folder for one pcapng per cause, with the frames of its first case; earlier ones are removed")
+      ->type_name("FOLDER");
+  run_sub
       ->add_option("--candump", run.candump,
                    "Write all frames as candump log, for can-utils, while they come")
       ->type_name("FILE");
@@ -186,6 +191,9 @@ int dispatch(int argc, char** argv) {
       ->add_option("--capture", report.capture,
                    "Comment this capture of the run with what was found (pcapng)")
       ->type_name("FILE");
+  report_sub
+      ->add_option("--captures", report.captures, "Folder for one pcapng per cause, cut out of --capture")
+      ->type_name("FOLDER");
   add_bundle(*report_sub, report.bundle, report.sign);
   report_sub->add_flag("-q,--quiet", report.quiet, "Print no summary");
   report_sub->add_option("--color", report.color, "Colours: auto, always or never")
@@ -304,6 +312,52 @@ int dispatch(int argc, char** argv) {
       "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
   judge_sub->add_flag("-q,--quiet", judge.quiet, "Print only what did not pass, and the summary");
   judge_sub->add_option("--color", judge.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+
+  ReplayCommand replay;
+  auto* replay_sub = app.add_subcommand(
+      "replay", "Send what the harness sent in a recorded case; exits with 1 where the answers differ");
+  replay_sub->add_option("recording", replay.capture, "Capture of a run: pcapng, or a log of candump -l")
+      ->required()
+      ->type_name("CAPTURE");
+  replay_sub->add_option("--case", replay.case_name, "The case, as reports name it, with its instance")
+      ->type_name("ID");
+  replay_sub
+      ->add_option("--frames", replay.frames,
+                   "Frames instead of a case, such as 120-180, as Wireshark counts")
+      ->type_name("FIRST-LAST");
+  replay_sub
+      ->add_option("-i,--interface", replay.interface, "CAN interface the device is on, for example can0")
+      ->type_name("NAME");
+  replay_sub->add_flag("--simulate", replay.simulate, "Send it to the reference node on a simulated bus");
+  replay_sub->add_option("--variant", replay.variants, "Legal variant of the simulated node; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  replay_sub->add_option("--defect", replay.defects, "Defect to switch on in the simulated node; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  replay_sub
+      ->add_option("-n,--node", replay.node,
+                   "Node-ID of the device, 1 to 127 (default: the one the frames speak to)")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  replay_sub->add_option("-d,--device", replay.device, "Device profile (YAML): times, what may be written")
+      ->type_name("FILE");
+  replay_sub
+      ->add_option("--eds", replay.eds,
+                   "Description of the device (EDS, DCF, XDD, XDC); with --simulate the node is its twin")
+      ->type_name("FILE");
+  replay_sub
+      ->add_option(
+          "--allow", replay.allow,
+          "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")
+      ->type_name("RISK");
+  replay_sub->add_option("--capture", replay.record, "Write the frames of the replay as pcapng")
+      ->type_name("FILE");
+  replay_sub->add_option("--seed", replay.seed, "Seed of the simulation (default 1)")->type_name("NUMBER");
+  replay_sub->add_flag("-q,--quiet", replay.quiet, "Print only what differs, and the summary");
+  replay_sub->add_option("--color", replay.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
 
@@ -464,6 +518,7 @@ int dispatch(int argc, char** argv) {
   if (compare_sub->parsed()) return compare_command(compare);
   if (recover_sub->parsed()) return recover_command(recover);
   if (judge_sub->parsed()) return judge_command(judge);
+  if (replay_sub->parsed()) return replay_command(replay);
   if (lint_sub->parsed()) return lint_command(lint);
   if (eds_sub->parsed()) return eds.run();
   if (list_sub->parsed()) return list_command(list);

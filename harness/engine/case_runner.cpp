@@ -61,6 +61,7 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   skipped_.clear();
   empty_walks_.clear();
   entered_steps_ = false;
+  steps_done_ = cleanups_done_ = 0;
   outermost_ = nullptr;
   session_.begin_case(planned.scenario->risk);
   std::optional<Multiplexer> about;
@@ -117,6 +118,21 @@ Result<void> CaseRunner::run(const PlannedCase& planned, result::CaseResult& out
   return run_cleanup(scenario.cleanup);
 }
 
+Result<Actual> CaseRunner::act(const Step& step, can::CasePart part) {
+  auto& recorder = session_.recorder();
+  session_.begin_step(step);
+  if (recorder.tells_parts()) {
+    auto& number = part == can::CasePart::cleanup ? cleanups_done_ : steps_done_;
+    recorder.begin_part(can::to_comment({.name = out_->name(), .part = part, .number = ++number}),
+                        step.action->acts() ? Recorder::FirstFrame::ours : Recorder::FirstFrame::any);
+  }
+  auto actual = step.action->run(session_);
+  // Behind the step, because only then all names have their values.
+  if (recorder.tells_parts()) recorder.end_part(session_.words_of(step));
+  session_.end_step();
+  return actual;
+}
+
 /// Cleanup judges nothing and always runs to its end.
 Result<void> CaseRunner::run_cleanup(const Steps& list) {
   for (const auto& step : list) {
@@ -127,9 +143,7 @@ Result<void> CaseRunner::run_cleanup(const Steps& list) {
       return !holds || *holds == wanted;
     };
     if (!says(step.when, true) || !says(step.unless, false)) continue;
-    session_.begin_step(step);
-    auto actual = step.action->run(session_);
-    session_.end_step();
+    auto actual = act(step, can::CasePart::cleanup);
     if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
     if (actual && !step.label.empty()) session_.label(step, *actual);
   }
@@ -156,9 +170,7 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   }
   if (step.walk) return run_walk(step);
   witness_.begin_step();
-  session_.begin_step(step);
-  auto actual = step.action->run(session_);
-  session_.end_step();
+  auto actual = act(step, can::CasePart::step);
   if (!actual) return cannot_go_on(step, actual.error());
   if (step.action->rests_on_time() || is_late(*actual, session_)) witness_.note_time();
   if (!step.label.empty()) session_.label(step, *actual);

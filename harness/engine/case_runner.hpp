@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "can/capture_marks.hpp"
 #include "engine/case_book.hpp"
 #include "engine/given.hpp"
 #include "engine/plan.hpp"
@@ -51,6 +52,9 @@ class CaseRunner {
 
   [[nodiscard]] Result<void> run_cleanup(const Steps& list);
 
+  /// Carries out the action of a step; the frames of the capture tell of it.
+  [[nodiscard]] Result<steps::Actual> act(const steps::Step& step, can::CasePart part);
+
   [[nodiscard]] Result<Flow> run_steps(const Steps& list);
   [[nodiscard]] Result<Flow> run_step(const steps::Step& step);
   [[nodiscard]] Result<Flow> run_walk(const steps::Step& step);
@@ -88,6 +92,7 @@ class CaseRunner {
   std::vector<std::pair<const steps::Condition*, bool>> skipped_;  ///< of deciding steps that were left out
   std::vector<std::string> empty_walks_;  ///< each `over` that had nothing to walk over, in words
   bool entered_steps_ = false;
+  std::size_t steps_done_ = 0, cleanups_done_ = 0;
   const steps::Step* outermost_ = nullptr;  ///< the step of the scenario's own list that runs
   const Steps* list_ = nullptr;             ///< that list
 };

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/text.hpp"
+#include "can/capture_marks.hpp"
 #include "engine/baseline.hpp"
 #include "engine/case_runner.hpp"
 #include "engine/channels.hpp"
@@ -55,7 +56,9 @@ class Run {
                  "node-ID, bit rate, power?"});
     } else {
       run_cases();
+      run_.recorder.begin_part(std::string(can::cases_are_over));
       if (!out_.aborted) putting_back_.finish();
+      run_.recorder.end_part();
     }
     life_.tell_restarts();
     life_.tell_tries();
@@ -208,10 +211,18 @@ class Run {
     return {};
   }
 
+  void begin_part(const CaseResult& result, can::CasePart part) {
+    if (run_.recorder.tells_parts())
+      run_.recorder.begin_part(can::to_comment({.name = result.name(), .part = part}));
+  }
+
   /// Once. What befell the host meanwhile, if it matters.
   Result<std::optional<HostTrouble>> try_case(const PlannedCase& planned, CaseResult& result) {
     auto& recorder = run_.recorder;
-    if (auto ready = reach_start(*planned.scenario); !ready) {
+    begin_part(result, can::CasePart::preparation);
+    auto ready = reach_start(*planned.scenario);
+    recorder.end_part();
+    if (!ready) {
       result.reason = "not run: " + ready.error().text();
       // A reset may have brought back what cases before this one wrote.
       putting_back_.after_fault({});
@@ -228,6 +239,7 @@ class Run {
     life_.note_losses();
     result.end = recorder.now();
     const auto lateness = recorder.take_lateness();
+    begin_part(result, can::CasePart::putting_back);
     if (ran) ran = after_case(result);
     if (!ran) {
       // The environment failed in the middle: nothing of this case counts as passed or failed.
@@ -237,8 +249,10 @@ class Run {
       std::function<Result<void>()> clean_up;
       if (entered) clean_up = [&] { return runner_.clean_up(*planned.scenario); };
       putting_back_.after_fault(clean_up);
+      recorder.end_part();
       return std::unexpected(ran.error());
     }
+    recorder.end_part();
     result.finished = true;
     const bool other_client =
         run_.session.channel().has_other_client(result.first_frame, recorder.capture().size());

@@ -22,7 +22,8 @@ struct RunOptions {
   PlanOptions plan;
   bool strict = false;            ///< recommended and optional rules fail as well
   std::chrono::sys_days today{};  ///< by which waivers expire; 1970: none does
-  bool measure = false;  ///< the result tells times and the load of the bus, for reports that show them
+  bool measure = false;        ///< the result tells times and the load of the bus, for reports that show them
+  bool comment_parts = false;  ///< frames of the capture tell the case and the step they belong to
   /// Takes the power of the device away and gives it back, where a scenario wants it, and when the device
   /// does not come back by a reset. Empty: by hand only. Its error is none of the device.
   std::function<Result<void>()> power_cycle;

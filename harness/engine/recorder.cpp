@@ -51,8 +51,35 @@ Result<bool> Recorder::pump(BusTime deadline) {
 
 void Recorder::record(can::CapturedFrame frame) {
   capture_.add(std::move(frame));
-  if (!mark_.empty()) capture_.comment(capture_.size() - 1, std::exchange(mark_, {}));
+  const auto index = capture_.size() - 1;
+  if (!mark_.empty()) capture_.comment(index, std::exchange(mark_, {}));
+  if (part_ && !part_->frame) {
+    const auto& captured = capture_.frames()[index];
+    const bool ours = captured.direction == can::Direction::transmitted && !is_produced(captured.frame);
+    if (ours || part_->first == FirstFrame::any) {
+      capture_.comment(index, part_->comment);
+      part_->frame = index;
+    }
+  }
   observer_->recorded(capture_.frames().back());
+}
+
+bool Recorder::is_produced(const can::Frame& frame) const {
+  return std::ranges::any_of(running_, [&frame](const Running& running) {
+    auto produced = running.production.frame;
+    if (running.production.counts_to) produced.data[0] = frame.data[0];
+    return produced == frame;
+  });
+}
+
+void Recorder::begin_part(std::string comment, FirstFrame first) {
+  if (tells_parts_) part_ = Part{std::move(comment), first};
+}
+
+void Recorder::end_part(std::string_view words) {
+  if (part_ && part_->frame && !words.empty())
+    capture_.continue_comment(*part_->frame, part_->comment, ": " + std::string(words));
+  part_.reset();
 }
 
 void Recorder::woke(Duration late) {

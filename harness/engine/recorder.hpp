@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -43,6 +44,16 @@ class Recorder {
   [[nodiscard]] can::Transport& transport() { return transport_; }
   /// What happened now, as the comment of the next frame that is recorded.
   void mark_next_frame(std::string_view what) { mark_ = what; }
+  /// Whether frames are told what they are part of; nobody pays for it whose capture is not kept.
+  void tell_parts(bool tell) { tells_parts_ = tell; }
+  [[nodiscard]] bool tells_parts() const { return tells_parts_; }
+  /// A part of the run begins, and this is the comment of its first frame: of ours (productions in the
+  /// background are no part of anything), or, where it sends nothing, of anybody. What was said of a part
+  /// without frames is forgotten.
+  enum class FirstFrame : std::uint8_t { ours, any };
+  void begin_part(std::string comment, FirstFrame first = FirstFrame::ours);
+  /// It is over; `words` continue the comment of its first frame, if it had one.
+  void end_part(std::string_view words = {});
   /// Who is told of every frame; lives longer than this.
   void set_observer(Observer& observer) { observer_ = &observer; }
   [[nodiscard]] Observer& observer() { return *observer_; }
@@ -114,6 +125,7 @@ class Recorder {
   [[nodiscard]] std::unexpected<Error> broken(Error error);
   void woke(Duration late);
   void record(can::CapturedFrame frame);
+  [[nodiscard]] bool is_produced(const can::Frame& frame) const;
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;
@@ -127,6 +139,13 @@ class Recorder {
   std::optional<Error> fault_;
   can::Capture capture_;
   std::string mark_;  ///< for the next frame
+  struct Part {
+    std::string comment;
+    FirstFrame first = FirstFrame::ours;
+    std::optional<std::size_t> frame{};  ///< capture index of the first one
+  };
+  std::optional<Part> part_;
+  bool tells_parts_ = false;
   Observer nobody_;
   Observer* observer_ = &nobody_;
   std::vector<Running> running_;

@@ -32,6 +32,7 @@ struct RunContext {
     session.try_all_objects(options.plan.all_objects);
     if (options.observer != nullptr) recorder.set_observer(*options.observer);
     session.allow(options.plan.allowed);
+    recorder.tell_parts(options.comment_parts);
   }
   RunContext(const RunContext&) = delete;
   RunContext& operator=(const RunContext&) = delete;

@@ -35,6 +35,7 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
 }
 
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
+  if (asks_nothing_) return fail_scenario("the value of " + to_string(object) + " is not asked for");
   if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
   auto answer = channel_.upload(object, std::nullopt);
   adapt();
@@ -359,6 +360,14 @@ void RunSession::begin_step(const steps::Step& step) {
   stimulus_open_ = step.action->acts();
   object_ = step.action->object();
   at_once_ = step.at_once;
+}
+
+std::string RunSession::words_of(const steps::Step& step) {
+  if (step.action == nullptr) return {};
+  asks_nothing_ = true;
+  auto words = printable(step.action->words(*this));
+  asks_nothing_ = false;
+  return words;
 }
 
 std::vector<Change> RunSession::take_journal() { return std::exchange(journal_, {}); }

@@ -121,6 +121,8 @@ class RunSession final : public steps::Session {
   void begin_case(scenario::Risk risk);  ///< forgets names, labels, windows; the journal is empty
   void begin_step(const steps::Step& step);
   void end_step() { at_once_ = false; }
+  /// What the step does, as far as it can be told without asking the device for anything.
+  [[nodiscard]] std::string words_of(const steps::Step& step);
   /// NMT commands of the engine itself: baseline, restore, liveness.
   [[nodiscard]] Result<void> command(canopen::NmtCommand command);
   [[nodiscard]] std::optional<steps::Value> take_name(const std::string& name);
@@ -207,6 +209,7 @@ class RunSession final : public steps::Session {
   bool request_open_ = false;   ///< the next frame of ours is a new request
   std::size_t request_ = 0;     ///< no answer to the latest request has a lower capture index
   bool all_objects_ = false;
+  bool asks_nothing_ = false;  ///< words are made: nothing may be sent for them
   bool write_refused_ = false;
   bool state_changed_ = true;
   std::optional<Ordered> ordered_;

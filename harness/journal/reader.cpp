@@ -107,7 +107,9 @@ class Parser {
     header.eds = text_of(line.at("eds"));
     if (line.contains("suites")) header.suites = text_of(line.at("suites"));
     header.epoch_ns = line.at("epoch").get<std::int64_t>();
-    header.reports = {.capture = text_of(line.at("capture")), .candump = text_of(line.at("candump"))};
+    header.reports.capture = text_of(line.at("capture"));
+    header.reports.candump = text_of(line.at("candump"));
+    if (line.contains("captures")) header.reports.captures = text_of(line.at("captures"));
     if (line.contains("bundle")) header.reports.bundle = text_of(line.at("bundle"));
     header.reports.bundle_signed = line.value("bundle_signed", false);
     const auto add = [&header](const std::string& format, const Json& path) {

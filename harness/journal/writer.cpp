@@ -43,6 +43,7 @@ void Writer::begin(const Header& header, const result::RunResult& run) {
               {"reports", std::move(reports)},
               {"capture", text_json(header.reports.capture)},
               {"candump", text_json(header.reports.candump)},
+              {"captures", text_json(header.reports.captures)},
               {"bundle", text_json(header.reports.bundle)},
               {"bundle_signed", header.reports.bundle_signed},
               {"run", without_cases(run)}}

@@ -21,6 +21,7 @@ inline constexpr int version = 2;
 /// Files the run was asked for, as absolute paths.
 struct ReportPaths {
   std::string capture{}, candump{};              ///< empty: not asked for
+  std::string captures{};                        ///< folder of one capture per cause
   std::map<std::string, std::string> reports{};  ///< the others, by the name of the format: "junit"
   std::string bundle{};                          ///< empty: not asked for
   bool bundle_signed = false;                    ///< and it was to be signed

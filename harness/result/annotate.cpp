@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result/annotate.hpp"
 
+#include "can/capture_marks.hpp"
+
 namespace conform::result {
 namespace {
 
@@ -14,7 +16,11 @@ void add(can::Capture& capture, std::size_t index, const std::string& text) {
 void annotate(can::Capture& capture, const RunResult& run) {
   for (const auto& one : run.cases) {
     if (!one.finished) continue;
-    if (one.first_frame < one.end_frame) add(capture, one.first_frame, one.name());
+    // A monitor watches the whole run.
+    if (one.suite != "monitor" && one.first_frame < one.end_frame) {
+      add(capture, one.first_frame, can::to_comment({.name = one.name(), .part = can::CasePart::begin}));
+      add(capture, one.end_frame - 1, can::to_comment({.name = one.name(), .part = can::CasePart::end}));
+    }
     for (const auto& judgement : one.judgements) {
       for (const auto& finding : judgement.findings) {
         for (const auto& frame : finding.evidence) {

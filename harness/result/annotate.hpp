@@ -7,8 +7,8 @@
 
 namespace conform::result {
 
-/// Comments the first frame of each finished case with its name, and frames that decided a finding with its
-/// words. A comment that is there already is not added again.
+/// Comments the first and the last frame of each finished case with its name, and frames that decided a
+/// finding with its words. A comment that is there already is not added again.
 void annotate(can::Capture& capture, const RunResult& run);
 
 }  // namespace conform::result

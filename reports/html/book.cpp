@@ -28,8 +28,9 @@ constexpr std::size_t name_limit = 200;
 
 }  // namespace
 
-Book::Book(const result::RunResult& run)
+Book::Book(const result::RunResult& run, const Beside& beside)
     : run_(run),
+      beside_(beside),
       causes_(result::causes_of(run)),
       by_case_(causes_by_case(causes_)),
       requirements_(requirement_verdicts(run)) {

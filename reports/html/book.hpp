@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/beside.hpp"
 #include "reports/cause_lines.hpp"
 #include "reports/tally.hpp"
 #include "result/causes.hpp"
@@ -17,9 +18,11 @@ namespace conform::reports::html {
 
 class Book {
  public:
-  explicit Book(const result::RunResult& run);
+  /// Both must outlive the book.
+  Book(const result::RunResult& run, const Beside& beside);
 
   [[nodiscard]] const result::RunResult& run() const { return run_; }
+  [[nodiscard]] const Beside& beside() const { return beside_; }
   [[nodiscard]] const std::vector<result::Cause>& causes() const { return causes_; }
   [[nodiscard]] const std::vector<RequirementVerdict>& requirements() const { return requirements_; }
   /// Cases that can judge a requirement, in the order of the run.
@@ -46,6 +49,7 @@ class Book {
 
  private:
   const result::RunResult& run_;
+  const Beside& beside_;
   std::vector<result::Cause> causes_;
   CauseOfCase by_case_;
   std::vector<RequirementVerdict> requirements_;

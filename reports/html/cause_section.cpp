@@ -43,6 +43,14 @@ std::string known_mistakes(const Book& book, const Cause& cause) {
       all.size() == 1 ? "a known defect" : "one of these known defects", items);
 }
 
+/// A link to the frames, where they were written beside the report.
+std::string capture_link(const Book& book, const Cause& cause) {
+  const auto path = book.beside().capture_of(book.run(), cause, book.number_of(cause));
+  if (path.empty()) return {};
+  return fmt::format("<p class=\"quiet\">Frames for Wireshark: <a href=\"{}\">{}</a></p>\n",
+                     text(url_path(path)), clipped(path, 300));
+}
+
 std::string one_cause(const Book& book, const Cause& cause) {
   const LocatedFinding primary{cause.primary.owner, cause.primary.finding, cause.primary.verdict, false};
   const std::string anchor = book.anchor(cause);
@@ -53,7 +61,7 @@ std::string one_cause(const Book& book, const Cause& cause) {
       book.number_of(cause), clipped(cause.about, 300), clipped(headline(*cause.primary.finding), 600),
       text(extent(cause)));
   out += known_mistakes(book, cause);
-  out += card(book, primary) + rules_table(book, cause);
+  out += card(book, primary) + capture_link(book, cause) + rules_table(book, cause);
   if (cause.cases.size() > 1)
     out += folded(fmt::format("{} with a finding of this cause", counted(cause.cases.size(), "case")),
                   book.case_list(cause.cases));

@@ -73,8 +73,8 @@ std::string navigation(const std::vector<std::pair<std::string_view, std::string
 
 }  // namespace
 
-std::string html_report(const result::RunResult& run) {
-  const Book book(run);
+std::string html_report(const result::RunResult& run, const Beside& beside) {
+  const Book book(run, beside);
   struct Section {
     std::string_view id, words;
     std::string (*write)(const Book&);

@@ -166,6 +166,29 @@ TEST_CASE("Nothing on a page is fetched, and only our own style and script are o
   CHECK_FALSE(contains(policy, "unsafe"));
 }
 
+TEST_CASE("A cause links to its capture where the run has written one, and to nothing else") {
+  const RunResult run = testing::sample_run();
+  Beside beside{.path = "/out/report.html"};
+  const auto links = [&] {
+    std::vector<std::string> out;
+    const auto document = parsed(html_report(run, beside));
+    for (const auto& found : document.select_nodes("//a/@href")) {
+      const std::string target = found.attribute().value();
+      if (!target.starts_with('#')) out.push_back(target);
+    }
+    return out;
+  };
+  CHECK(links().empty());
+  beside.captures = "/out/cap tures";
+  const auto found = links();
+  REQUIRE_FALSE(found.empty());
+  CHECK(found.front().starts_with("cap%20tures/cause-01-"));
+  CHECK(found.front().ends_with(".pcapng"));
+  // Whatever the folder is called: a path and no scheme.
+  beside.captures = "/out/javascript:alert(1)//";
+  for (const auto& target : links()) CHECK(target.starts_with("javascript%3Aalert%281%29/"));
+}
+
 TEST_CASE("Strings of a device stay text on a page") {
   const std::string hostile = "\"><img src=x onerror=alert(1)> '&amp; ]]> <!-- {{x}}";
   const std::string page = html_report(testing::hostile_run(hostile));

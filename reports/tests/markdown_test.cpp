@@ -43,9 +43,9 @@ TEST_CASE("Strings of a device are neither markup nor mentions") {
 TEST_CASE("The Markdown report with evidence stays below its limit") {
   RunResult run = testing::sample_run();
   for (int i = 0; i < 200; ++i) run.cases.push_back(run.cases[1]);
-  const std::string text = markdown_evidence(run, {20'000});
+  const std::string text = markdown_evidence(run, {}, {20'000});
   CHECK(text.size() < 20'500);
-  const std::string cut = markdown_evidence(testing::sample_run(), {4'000});
+  const std::string cut = markdown_evidence(testing::sample_run(), {}, {4'000});
   CHECK(cut.size() < 4'500);
   CHECK(contains(cut, "more, see the other reports of this run"));
 }
@@ -110,4 +110,21 @@ TEST_CASE("The Markdown report says which known mistake a cause looks like") {
   CHECK(
       contains(text, "\nIt looks like 1003-nonzero-write-accepted of the reference node: 1003h:00 confirms"));
   CHECK_FALSE(contains(text, "run.command"));
+}
+
+TEST_CASE("The Markdown report names the capture of a cause where the run has written one") {
+  const RunResult run = testing::sample_run();
+  CHECK_FALSE(contains(markdown_evidence(run), ".pcapng"));
+  const Beside beside{.path = "/out/evidence.md", .captures = "/out/captures"};
+  CHECK(contains(markdown_evidence(run, beside), "Frames for Wireshark: `captures/cause-01-"));
+  CHECK(contains(markdown(run, beside), "[one capture per cause](captures)"));
+  // Where nothing of it was seen on the bus, there is nothing to name.
+  RunResult silent = run;
+  for (auto& one : silent.cases) {
+    one.end_frame = one.first_frame;
+    for (auto& judgement : one.judgements) {
+      for (auto& finding : judgement.findings) finding.evidence.clear();
+    }
+  }
+  CHECK_FALSE(contains(markdown_evidence(silent, beside), ".pcapng"));
 }

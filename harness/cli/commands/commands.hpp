@@ -49,6 +49,7 @@ struct RunCommand {
   std::string color = "auto";  ///< auto, always, never
   Reports reports;
   std::string capture, candump;
+  std::string captures;  ///< folder for one capture per cause
   std::string bundle;    ///< archive with all of it; empty: none
   std::string sign;      ///< private key that signs it; empty: not signed
   std::string journal;   ///< file; empty: the usual place
@@ -61,6 +62,7 @@ struct ReportCommand {
   std::string source;  ///< result.json or journal
   Reports reports;     ///< all empty, and no capture and bundle: those that the run was asked for
   std::string capture;
+  std::string captures;  ///< folder; from `capture`
   std::string bundle, sign;
   bool quiet = false;
   std::string color = "auto";
@@ -141,6 +143,25 @@ struct JudgeCommand {
   std::string bundle, sign;
 };
 [[nodiscard]] int judge_command(const JudgeCommand& options);
+
+struct ReplayCommand {
+  std::string capture;    ///< pcapng or candump log
+  std::string case_name;  ///< as reports name it, with its instance; empty: `frames`
+  std::string frames;     ///< "120-180", from 1
+  std::string interface;
+  bool simulate = false;
+  std::vector<std::string> defects;   ///< of the simulated reference node
+  std::vector<std::string> variants;  ///< legal ones, of the same node
+  std::optional<std::uint32_t> node;  ///< absent: the one that the frames speak to
+  std::string device, eds;            ///< profile and description of the device
+  std::string allow;                  ///< risk tier; empty: by interface
+  std::uint64_t seed = 1;             ///< of the simulation
+  std::string record;                 ///< file for the frames of the replay
+  bool quiet = false;                 ///< print only what differs
+  std::string color = "auto";
+};
+/// 0: the same answers; 1: other ones; exit_environment: the bus failed, or nothing was heard.
+[[nodiscard]] int replay_command(const ReplayCommand& options);
 
 struct LintCommand {
   std::vector<std::string> files;  ///< empty: all of the suites

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `report`: the reports of a run anew, from what it found (result.json) or from its journal.
 #include "cli/commands/commands.hpp"
+#include "cli/run/cause_captures.hpp"
 #include "cli/run/run_reports.hpp"
 #include "cli/run/run_source.hpp"
 #include "cli/run/terminal.hpp"
@@ -11,8 +12,13 @@ namespace conform::cli {
 int report_command(const ReportCommand& options) {
   auto source = read_run(options.source);
   if (!source) return report_error(source.error(), exit_usage);
-  auto paths = absolute_paths(options.reports, options.capture, {}, options.bundle);
-  const bool chosen = !paths.reports.empty() || !paths.capture.empty() || !paths.bundle.empty();
+  auto paths = absolute_paths(options.reports, options.capture, {}, options.captures, options.bundle);
+  const bool chosen =
+      !paths.reports.empty() || !paths.capture.empty() || !paths.captures.empty() || !paths.bundle.empty();
+  if (!paths.captures.empty()) {
+    if (auto emptied = empty_capture_folder(paths.captures); !emptied)
+      return report_error(emptied.error(), exit_environment);
+  }
   RunReports reports(chosen ? std::move(paths) : source->reports);
   if (const auto bundle = absolute(options.bundle);
       chosen && !bundle.empty() && (bundle == absolute(options.source) || bundle == absolute(options.sign)))

@@ -17,10 +17,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/pages/cct_run.hpp"
 #include "cli/proof/selftest.hpp"
-#include "cli/proof/variant_profile.hpp"
 #include "cli/run/bus_facts.hpp"
+#include "cli/run/device_under_test.hpp"
 #include "cli/run/guardian.hpp"
-#include "cli/run/known_device.hpp"
 #include "cli/run/run_journal.hpp"
 #include "cli/run/run_reports.hpp"
 #include "cli/run/run_source.hpp"
@@ -29,7 +28,6 @@
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
 #include "engine/monitor_cases.hpp"
-#include "node/node.hpp"
 #include "reports/annotations.hpp"
 #include "reports/compare.hpp"
 #include "reports/console.hpp"
@@ -56,24 +54,6 @@ void catch_signals() {
   if (hangup.sa_handler != SIG_IGN) ::sigaction(SIGHUP, &action, nullptr);
   // A closed pipe (| head) must not cost the reports.
   std::signal(SIGPIPE, SIG_IGN);
-}
-
-Result<KnownDevice> device_of(const RunCommand& options, const std::string& suites) {
-  DeviceWords words{options.device, options.eds, options.node, options.waivers};
-  const bool of_reference_node = options.simulate && words.profile.empty() && words.eds.empty();
-  if (of_reference_node) words.profile = suites + "/devices/reference-node.yaml";
-  auto known = known_device(words, options.simulate ? std::optional(NodeId(5)) : std::nullopt);
-  // It stands in the suites.
-  if (known && of_reference_node)
-    std::erase_if(known->files, [&](const UsedFile& each) { return each.path == words.profile; });
-  if (known && of_reference_node && !options.variants.empty()) {
-    auto node = refnode::Node::create(
-        {.node_id = known->profile.node.value(), .defects = {}, .variants = options.variants});
-    if (!node) return std::unexpected(node.error());
-    known->profile = profile_of_variants(known->profile, (*node)->dictionary(), options.variants);
-  }
-  if (known && !options.interface.empty()) known->profile.interface = options.interface;
-  return known;
 }
 
 /// What the command line knows of a run.
@@ -186,14 +166,17 @@ int run(const RunCommand& options, RunReports& reports) {
   if (!suites) return refuse(suites.error(), exit_usage);
   const auto patterns = load_patterns(root->root);
   if (!patterns) return refuse(patterns.error(), exit_usage);
-  auto known = device_of(options, root->root);
+  auto known = device_under_test({options.device, options.eds, options.node, options.waivers},
+                                 {options.simulate, options.variants, root->root});
   if (!known) return refuse(known.error(), exit_usage);
   auto* const profile = &known->profile;
+  if (!options.interface.empty()) profile->interface = options.interface;
 
   engine::RunOptions run_options;
   run_options.strict = options.strict;
   run_options.today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   run_options.measure = !reports.none() || baseline.has_value();
+  run_options.comment_parts = reports.keeps_comments();
   run_options.stop = &stop_signal;
   constexpr Duration power_limit = std::chrono::seconds(60);
   if (!options.simulate && !profile->power_cycle.empty())
@@ -386,7 +369,8 @@ int run_command(const RunCommand& options) {
   catch_signals();
   // Also into a file, so that what was said is there when the program is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  RunReports reports(absolute_paths(options.reports, options.capture, options.candump, options.bundle));
+  RunReports reports(
+      absolute_paths(options.reports, options.capture, options.candump, options.captures, options.bundle));
   if (options.dry_run) {
     RunReports none({});
     return run(options, none);

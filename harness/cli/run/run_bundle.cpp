@@ -97,6 +97,7 @@ Result<void> RunBundle::seal(const RunResult& run, const journal::ReportPaths& a
     beside.reports.emplace(format.name, "/" + name_of(format));
   }
   if (frames.pcapng) beside.reports.emplace("capture", "/captures/run.pcapng");
+  if (!frames.causes.empty()) beside.captures = "/captures";
   for (const auto* format : formats) {
     beside.path = "/" + name_of(*format);
     contents.push_back(
@@ -107,6 +108,9 @@ Result<void> RunBundle::seal(const RunResult& run, const journal::ReportPaths& a
   } else {
     manifest.left_out.push_back({role::capture, printable(frames.why_not)});
   }
+  for (const auto& each : frames.causes)
+    contents.push_back(
+        {"captures/" + each.name, role::capture, std::string(each.bytes.begin(), each.bytes.end())});
   if (frames.candump) contents.push_back({"captures/run.log", role::capture, std::move(*frames.candump)});
   if (asked.bundle_signed && !key_)
     manifest.left_out.push_back(

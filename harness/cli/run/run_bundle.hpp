@@ -5,10 +5,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "bundle/keys.hpp"
 #include "can/capture.hpp"
+#include "cli/run/cause_captures.hpp"
 #include "cli/run/run_inputs.hpp"
 #include "journal/writer.hpp"
 #include "result/run_result.hpp"
@@ -36,6 +38,7 @@ class RunBundle {
     std::optional<std::string> pcapng{};   ///< absent: left out
     std::optional<std::string> candump{};  ///< where it was asked for
     std::string why_not{};                 ///< without pcapng
+    std::vector<CauseCapture> causes{};    ///< a part of them for each cause
   };
   /// The reports that `asked` names, result.json, HTML, JUnit and Markdown in any case; frames and inputs.
   [[nodiscard]] Result<void> seal(const result::RunResult& run, const journal::ReportPaths& asked,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/run_reports.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "base/files.hpp"
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
+#include "cli/run/cause_captures.hpp"
 #include "cli/run/run_frames.hpp"
 #include "cli/run/terminal.hpp"
 #include "reports/formats.hpp"
@@ -28,9 +30,11 @@ std::string absolute(const std::string& path) {
 
 journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
                                     const std::string& capture, const std::string& candump,
-                                    const std::string& bundle) {
-  journal::ReportPaths out{
-      .capture = absolute(capture), .candump = absolute(candump), .bundle = absolute(bundle)};
+                                    const std::string& captures, const std::string& bundle) {
+  journal::ReportPaths out{.capture = absolute(capture),
+                           .candump = absolute(candump),
+                           .captures = absolute(captures),
+                           .bundle = absolute(bundle)};
   for (const auto& [format, path] : asked) {
     if (!path.empty()) out.reports.emplace(format, absolute(path));
   }
@@ -43,7 +47,7 @@ std::vector<std::string> RunReports::all() const {
     if (const auto found = paths_.reports.find(std::string(format.name)); found != paths_.reports.end())
       out.push_back(found->second);
   }
-  for (const auto& path : {paths_.capture, paths_.candump, paths_.bundle}) {
+  for (const auto& path : {paths_.capture, paths_.candump, paths_.captures, paths_.bundle}) {
     if (!path.empty()) out.push_back(path);
   }
   return out;
@@ -53,6 +57,7 @@ reports::Beside RunReports::beside(const std::string& path) const {
   reports::Beside out{path, paths_.reports};
   if (!paths_.capture.empty()) out.reports.emplace("capture", paths_.capture);
   if (!paths_.candump.empty()) out.reports.emplace("candump", paths_.candump);
+  if (has_causes_) out.captures = paths_.captures;
   return out;
 }
 
@@ -68,6 +73,9 @@ Result<void> RunReports::begin(const std::string& tool, const std::vector<std::s
       if (absolute(input) == paths[i])
         return fail("a report would be written over an input of the run", paths[i]);
     }
+  }
+  if (!paths_.captures.empty()) {
+    if (auto emptied = empty_capture_folder(paths_.captures); !emptied) return emptied;
   }
   return say(tool, not_ended);
 }
@@ -166,6 +174,19 @@ void RunReports::write_words(result::RunResult& run) {
   }
 }
 
+void RunReports::write_causes(result::RunResult& run, const can::Capture& capture,
+                              const can::CaptureInfo& info, RunBundle::Frames& frames) {
+  if (paths_.captures.empty() && !bundle_.asked()) return;
+  auto made = cause_captures(run, capture, info);
+  auto written = made ? write_cause_captures(paths_.captures, *made) : std::unexpected(made.error());
+  if (!written) {
+    run.unwritten.push_back(written.error().text());
+    report_error(written.error(), 0);
+  }
+  if (made) frames.causes = std::move(*made);
+  has_causes_ = written && !paths_.captures.empty();
+}
+
 void RunReports::write_bundle(result::RunResult& run, RunBundle::Frames frames) {
   if (auto sealed = bundle_.seal(run, paths_, std::move(frames)); !sealed) {
     run.unwritten.push_back(sealed.error().text());
@@ -195,6 +216,7 @@ void RunReports::write(result::RunResult& run, const can::Capture& capture, cons
     if (!log_is_whole) put(run, paths_.candump, log);
     frames.candump = std::move(log);
   }
+  write_causes(run, capture, info, frames);
   write_words(run);
   // Last, because what could not be written is told in it.
   if (bundle_.asked()) write_bundle(run, std::move(frames));
@@ -216,20 +238,33 @@ void RunReports::write_others(result::RunResult& run, const std::vector<std::str
       report_error(loaded.error(), 0);
     }
   }
-  write_words(run);
-  if (!bundle_.asked()) return;
-  std::vector<std::string> places{paths_.capture};
-  if (frames_are_ours_) places.insert(places.end(), {bundle_.frames(), paths_.bundle});
-  places.insert(places.end(), elsewhere.begin(), elsewhere.end());
   RunBundle::Frames frames;
-  if (auto found = find_frames(places, run); !found) {
+  if (bundle_.asked() || !paths_.captures.empty()) {
+    std::vector<std::string> places{paths_.capture};
+    if (frames_are_ours_) places.insert(places.end(), {bundle_.frames(), paths_.bundle});
+    places.insert(places.end(), elsewhere.begin(), elsewhere.end());
+    take_frames(run, places, frames);
+  }
+  write_words(run);
+  if (bundle_.asked()) write_bundle(run, std::move(frames));
+}
+
+void RunReports::take_frames(result::RunResult& run, const std::vector<std::string>& places,
+                             RunBundle::Frames& frames) {
+  const auto found = find_frames(places, run);
+  if (!found) {
     frames.why_not = found.error().text();
-  } else {
+    if (paths_.captures.empty()) return;
+    run.unwritten.push_back(found.error().text());
+    report_error(found.error(), 0);
+    return;
+  }
+  if (bundle_.asked()) {
     const auto bytes = can::write_pcapng(found->capture, found->info);
     frames.pcapng.emplace(bytes.begin(), bytes.end());
     if (!paths_.candump.empty()) frames.candump = can::write_candump_log(found->capture, found->info);
   }
-  write_bundle(run, std::move(frames));
+  write_causes(run, found->capture, found->info, frames);
 }
 
 }  // namespace conform::cli

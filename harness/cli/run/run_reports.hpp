@@ -20,6 +20,7 @@ namespace conform::cli {
 /// What was asked for of the formats, by their names: "junit" and a path; an empty one is not asked for.
 [[nodiscard]] journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
                                                   const std::string& capture, const std::string& candump,
+                                                  const std::string& captures = {},
                                                   const std::string& bundle = {});
 
 /// `path` from the root on, so that it names the same file in another process; empty stays empty.
@@ -32,7 +33,11 @@ class RunReports {
   [[nodiscard]] const journal::ReportPaths& paths() const { return paths_; }
   [[nodiscard]] bool none() const {
     return paths_.reports.empty() && paths_.capture.empty() && paths_.candump.empty() &&
-           paths_.bundle.empty();
+           paths_.captures.empty() && paths_.bundle.empty();
+  }
+  /// Whether some file is to tell the comments of frames.
+  [[nodiscard]] bool keeps_comments() const {
+    return !paths_.capture.empty() || !paths_.captures.empty() || bundle_.asked();
   }
   /// One that the user named first, or empty.
   [[nodiscard]] std::string first() const;
@@ -71,12 +76,18 @@ class RunReports {
   [[nodiscard]] Result<void> say(const std::string& tool, const std::string& what);
   void write_words(result::RunResult& run);
   [[nodiscard]] reports::Beside beside(const std::string& path) const;
+  /// The captures of causes, in their folder and in what is sealed afterwards.
+  void write_causes(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info,
+                    RunBundle::Frames& frames);
+  /// The frames of a run that is over, out of the first of these places that has them.
+  void take_frames(result::RunResult& run, const std::vector<std::string>& places, RunBundle::Frames& frames);
   void write_bundle(result::RunResult& run, RunBundle::Frames frames);
   [[nodiscard]] std::vector<std::string> all() const;
 
   journal::ReportPaths paths_;
   RunBundle bundle_;
   std::optional<can::CaptureStream> pcapng_, candump_;
+  bool has_causes_ = false;       ///< the captures of causes are made, and reports name them
   bool frames_are_ours_ = false;  ///< beside the bundle, until they stand in it
 };
 

@@ -42,6 +42,7 @@ class Install(unittest.TestCase):
         share = os.path.join(self.prefix, "share")
         for name in ("canopen-conform/suites/cia301", "canopen-conform/suites/requirements/cia301",
                      "canopen-conform/suites/devices/reference-node.yaml", "canopen-conform/suites/schema",
+                     "canopen-conform/wireshark/canopen-conform/decode_as_entries",
                      "doc/canopen-conform/README.md", "doc/canopen-conform/LICENSE", "doc/canopen-conform/docs/architecture.md"):
             self.assertTrue(os.path.exists(os.path.join(share, name)), name)
 

@@ -57,6 +57,7 @@ Header header() {
           .epoch_ns = 12,
           .reports = {.capture = "/c.pcapng",
                       .candump = {},
+                      .captures = "/causes",
                       .reports = {{"junit", "/j.xml"}},
                       .bundle = "/b.tar.zst",
                       .bundle_signed = true}};
@@ -87,6 +88,7 @@ TEST_CASE("a killed run keeps the verdicts it reached, and says of the others wh
   CHECK_FALSE(journal->reported);
   CHECK(journal->header.interface == "can0");
   CHECK(journal->header.reports.capture == "/c.pcapng");
+  CHECK(journal->header.reports.captures == "/causes");
   CHECK(journal->header.reports.bundle == "/b.tar.zst");
   CHECK(journal->header.reports.bundle_signed);
   CHECK(journal->header.reports.reports == std::map<std::string, std::string>{{"junit", "/j.xml"}});

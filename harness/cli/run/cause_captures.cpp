@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run/cause_captures.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "base/files.hpp"
+#include "base/text.hpp"
+#include "can/pcapng.hpp"
+#include "cli/replay/section.hpp"
+#include "result/cause_captures.hpp"
+
+namespace conform::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Before and behind what is told.
+constexpr std::size_t context = 20;
+/// So far away from a case its preparation and its putting back are looked for.
+constexpr std::size_t neighbourhood = 2000;
+
+/// The first bytes tell which program wrote it.
+bool is_ours(const fs::path& path) {
+  // A comment of a section has 64 KiB at most.
+  constexpr std::size_t enough = std::size_t{128} << 10U;
+  std::ifstream file(path, std::ios::binary);
+  std::string head(enough, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const ByteView bytes(reinterpret_cast<const std::uint8_t*>(head.data()), head.size());
+  return can::pcapng_application(bytes).starts_with("canopen-conform ");
+}
+
+result::FrameRange with_neighbours(result::FrameRange range, const result::CaseResult& one,
+                                   const can::Capture& capture) {
+  const auto& frames = capture.frames();
+  const auto from = one.first_frame - std::min(one.first_frame, neighbourhood);
+  const auto until = std::min(frames.size(), one.end_frame + neighbourhood);
+  const auto found = section_of_case(std::span(frames).subspan(from, until - from), one.name(), {});
+  if (!found) return range;
+  range.first = std::min(range.first, from + found->first);
+  // The last case has no neighbour that would end it.
+  if (until - from > found->end) range.end = std::max(range.end, from + found->end);
+  return range;
+}
+
+can::Capture part_of(const can::Capture& capture, result::FrameRange range) {
+  can::Capture out;
+  for (auto i = range.first; i < range.end; ++i) out.add(capture.frames()[i]);
+  return out;
+}
+
+}  // namespace
+
+Result<void> empty_capture_folder(const std::string& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return fail("cannot make the folder: " + failed.message(), folder);
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    std::error_code ignored;
+    if (!result::is_capture_name(entry.path().filename().string()) || entry.is_symlink(ignored) ||
+        !entry.is_regular_file(ignored) || !is_ours(entry.path()))
+      continue;
+    fs::remove(entry.path(), failed);
+    if (failed)
+      return fail("cannot remove what an earlier run left: " + failed.message(), entry.path().string());
+  }
+  if (failed) return fail("cannot look into the folder: " + failed.message(), folder);
+  return {};
+}
+
+Result<std::vector<CauseCapture>> cause_captures(const result::RunResult& run, const can::Capture& capture,
+                                                 const can::CaptureInfo& info) {
+  std::vector<CauseCapture> out;
+  const auto causes = result::causes_of(run);
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    const auto& cause = causes[i];
+    auto range = result::frames_of(cause, run);
+    if (!range) continue;
+    if (range->end > capture.size())
+      return fail("the capture does not hold the frames of " + cause.primary.owner->name(), {},
+                  "is it the capture of this run?");
+    if (const auto* one = result::case_of(cause, run)) *range = with_neighbours(*range, *one, capture);
+    range->first -= std::min(range->first, context);
+    range->end = std::min(capture.size(), range->end + context);
+    auto about = info;
+    about.comment = cause.primary.finding->requirement + " in " + cause.primary.owner->name() + ", frames " +
+                    std::to_string(range->first + 1) + " to " + std::to_string(range->end) +
+                    " of the run: " + printable(cause.primary.finding->actual);
+    out.push_back({result::capture_name(cause, i + 1), can::write_pcapng(part_of(capture, *range), about)});
+  }
+  return out;
+}
+
+Result<void> write_cause_captures(const std::string& folder, const std::vector<CauseCapture>& captures) {
+  if (folder.empty()) return {};
+  for (const auto& each : captures) {
+    if (auto written = write_file_atomically((fs::path(folder) / each.name).string(), each.bytes); !written)
+      return written;
+  }
+  return {};
+}
+
+}  // namespace conform::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The folder with one capture for each cause of a run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "can/capture.hpp"
+#include "result/run_result.hpp"
+
+namespace conform::cli {
+
+/// Makes the folder, or removes what an earlier run has put there: files with the name of a capture of a
+/// cause that this program has written, and nothing else. Error: it is no folder, or cannot be written to.
+[[nodiscard]] Result<void> empty_capture_folder(const std::string& folder);
+
+/// A file of that folder: pcapng.
+struct CauseCapture {
+  std::string name;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The captures of all causes of the run: the case each is told with, from its preparation until what it
+/// changed is put back, the frames that show the finding, and some before and behind. Error: the capture has
+/// less frames than the run.
+[[nodiscard]] Result<std::vector<CauseCapture>> cause_captures(const result::RunResult& run,
+                                                               const can::Capture& capture,
+                                                               const can::CaptureInfo& info);
+
+/// Writes them into the folder; an empty one is none. Error: the first file that could not be written.
+[[nodiscard]] Result<void> write_cause_captures(const std::string& folder,
+                                                const std::vector<CauseCapture>& captures);
+
+}  // namespace conform::cli
