@@ -21,12 +21,15 @@ void HeartbeatProducer::start() {
 }
 
 void HeartbeatProducer::on_reset() {
-  if (choices.crosses_reset && raster_.runs()) device_->send(Service::heartbeat, waiting_);
+  // The next one, some time early; where one has just been sent, none waits behind it.
+  if (choices.crosses_reset && raster_.runs() && device_->now - sent_ >= period_ / 2)
+    device_->send(Service::heartbeat, waiting_);
   raster_.stop();
 }
 
 void HeartbeatProducer::on_boot_up() {
   waiting_ = message();
+  sent_ = device_->now;
   start();
 }
 
@@ -39,7 +42,10 @@ void HeartbeatProducer::on_time() {
   if (raster_.due(device_->now, period_, choices.jitter_percent)) transmit();
 }
 
-void HeartbeatProducer::transmit() { device_->send(Service::heartbeat, message()); }
+void HeartbeatProducer::transmit() {
+  sent_ = device_->now;
+  device_->send(Service::heartbeat, message());
+}
 
 // One byte: the NMT state; bit 7 is reserved.
 conform::can::Frame HeartbeatProducer::message() const {

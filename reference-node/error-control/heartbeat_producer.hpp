@@ -15,7 +15,7 @@ struct HeartbeatProducerChoices {
   bool at_once = false;          ///< the first right after 1017h was written, and after boot-up
   bool at_state_change = false;  ///< one more, while 1017h is not 0
   int jitter_percent = 0;        ///< late and early by turns
-  bool crosses_reset = false;    ///< one is in the transmit buffer when a reset comes, and is sent
+  bool crosses_reset = false;    ///< the next is in the transmit buffer when a reset comes, and is sent
 };
 
 struct HeartbeatProducerRules {
@@ -53,6 +53,7 @@ class HeartbeatProducer {
 
   Device* device_;
   conform::can::Frame waiting_{};  ///< what a heartbeat would have told last
+  BusTime sent_{};                 ///< when the last one was
   Duration period_{};
   Raster raster_;
 };

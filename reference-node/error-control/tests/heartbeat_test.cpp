@@ -25,6 +25,17 @@ TEST_CASE("A stored heartbeat time counts from the boot-up message") {
   CHECK(bench.wait(1s, true) == Frames{"@120 705: 00", "@620 705: 7F"});
 }
 
+TEST_CASE("A heartbeat that crosses a reset is the next one, and none comes right behind another") {
+  Bench bench(Bench::Wanted{{.node_id = 5, .variants = {"heartbeat-crosses-reset"}}});
+  bench.wait(100ms);
+  bench.sdo("2B 17 10 00 C8 00 00 00");
+  CHECK(bench.sdo("23 10 10 01 73 61 76 65") == "60 10 10 01 00 00 00 00");
+  bench.wait(350ms);
+  CHECK(bench.send("000: 81 05") == Frames{"705: 7F"});
+  bench.wait(20ms + 201ms);
+  CHECK(bench.send("000: 81 05").empty());
+}
+
 TEST_CASE("A missing heartbeat is reported once, and its return as well") {
   Bench bench;
   bench.wait(100ms);
