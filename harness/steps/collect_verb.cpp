@@ -53,13 +53,13 @@ class Collect final : public Action {
   std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
   Channels rests_on() const override { return source_.rests_on(); }
-  std::string words(Session&) const override {
+  std::string words(Session& session) const override {
     if (!answers_) {
-      return "collect " + source_.words() + " " + end_.words() +
+      return "collect " + source_.words(session) + " " + end_.words() +
              (enough_ > 0 ? " or until " + std::to_string(enough_) + " have come" : "");
     }
-    return "collect " + source_.words() + " per " +
-           (stimulus_.empty() ? "SYNC" : "frame on CAN-ID " + stimulus_.text()) + ", until " +
+    return "collect " + source_.words(session) + " per " +
+           (stimulus_.empty() ? "SYNC" : "frame on " + can_id_words(stimulus_, session)) + ", until " +
            end_.time.text() + " after the last";
   }
 

@@ -26,6 +26,11 @@ std::string relative(BusTime time, const Window& window) {
   return to_string(std::chrono::round<std::chrono::microseconds>(time - window.anchor));
 }
 
+std::string can_id_words(const Expression& id, Session& session) {
+  const auto number = id.number(session);
+  return "CAN-ID " + (number ? to_string(CanId(static_cast<std::uint32_t>(*number))) : id.text());
+}
+
 std::optional<Source> Source::parse(const yaml::Field& field, const NameCheck& names) {
   Source out;
   const auto text = field.text();

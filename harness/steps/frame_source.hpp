@@ -13,6 +13,9 @@ namespace conform::steps {
 /// "12.5 ms" behind the beginning of the window.
 [[nodiscard]] std::string relative(BusTime time, const Window& window);
 
+/// "CAN-ID 281h"; of a name that has no value yet, the name.
+[[nodiscard]] std::string can_id_words(const Expression& id, Session& session);
+
 /// The frames a verb is about: a CAN-ID, or a service of the device under test.
 struct Source {
   Expression id;
@@ -22,7 +25,9 @@ struct Source {
 
   /// Channels that a frame of the source comes through; that none comes is no ground for anything.
   [[nodiscard]] Channels rests_on() const;
-  [[nodiscard]] std::string words() const { return service.empty() ? "CAN-ID " + id.text() : service; }
+  [[nodiscard]] std::string words(Session& session) const {
+    return service.empty() ? can_id_words(id, session) : service;
+  }
   /// The entry that configures the service.
   [[nodiscard]] std::vector<ObjectReference> concerns() const;
   [[nodiscard]] Result<Session::Match> match(Session& session) const;

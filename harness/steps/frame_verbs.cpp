@@ -159,8 +159,8 @@ class AwaitFrame final : public Action {
   std::vector<ObjectReference> concerns() const override { return source_.concerns(); }
   bool acts() const override { return false; }
   Channels rests_on() const override { return source_.rests_on(); }
-  std::string words(Session&) const override {
-    return "a frame of " + source_.words() + " within " + within_.text();
+  std::string words(Session& session) const override {
+    return "a frame of " + source_.words(session) + " within " + within_.text();
   }
   Result<Actual> run(Session& session) const override {
     const auto window = window_of(session, after_);
@@ -177,7 +177,7 @@ class AwaitFrame final : public Action {
     Actual out;
     if (!*found) {
       out.kind = Actual::Kind::silence;
-      out.detail = "no frame of " + source_.words() + " within " + to_string(most);
+      out.detail = "no frame of " + source_.words(session) + " within " + to_string(most);
       return out;
     }
     const auto captured = session.capture().frames()[**found];
@@ -222,9 +222,9 @@ class Silence final : public Action {
     return sources_.empty() ? std::vector<ObjectReference>{} : sources_.front().concerns();
   }
   bool acts() const override { return false; }
-  std::string words(Session&) const override {
+  std::string words(Session& session) const override {
     std::vector<std::string> parts;
-    for (const auto& source : sources_) parts.push_back(source.words());
+    for (const auto& source : sources_) parts.push_back(source.words(session));
     return "silence of " + join(parts, ", ") + " " + end_.words();
   }
   Result<Actual> run(Session& session) const override {

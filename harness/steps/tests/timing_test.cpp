@@ -105,6 +105,22 @@ TEST_CASE("a collection per SYNC goes on behind the last SYNC and measures the a
   CHECK(actual.measured.at("latency") == 3'000'000);
 }
 
+TEST_CASE("a step is told with the CAN-ID that its name stands for") {
+  FakeSession session;
+  const auto words = [&session](const std::string& action) {
+    const auto steps = parsed_steps("- let: {id: 281h}\n" + action);
+    REQUIRE(steps.size() == 2);
+    return steps[1].action->words(session);
+  };
+  const std::string wait = "- frame: {id: $id, within: 200 ms}\n";
+  CHECK(words(wait) == "a frame of CAN-ID $id within 200 ms");
+  session.set("id", Value::of_number(0x281));
+  CHECK(words(wait) == "a frame of CAN-ID 281h within 200 ms");
+  CHECK(words("- silence: {of: [$id, emcy], for: 1 s}\n") == "silence of CAN-ID 281h, emcy for 1 s");
+  CHECK(words("- collect: {from: $id, per: $id, for: 1 s}\n")
+            .starts_with("collect CAN-ID 281h per frame on CAN-ID 281h"));
+}
+
 TEST_CASE("a SYNC that the device sends itself is one to be answered, and does not prolong the collection") {
   FakeSession session;
   session.set("sync_can_id", Value::of_number(0x88));
