@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Device descriptions on the command line: lint, show, diff. Usage: eds_cli_test.py PROGRAM"""
+"""Device descriptions on the command line: lint, show, diff. Usage: eds_cli_test.py PROGRAM [NODE_MODULES]
+
+NODE_MODULES: has the schema of SARIF, put there by reports/tests/browser/install."""
+import glob
 import json
 import os
 import subprocess
@@ -9,6 +12,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
+MODULES = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
 HERE = os.path.dirname(os.path.abspath(__file__))
 FIXTURES = os.path.join(HERE, "../../eds/tests/fixtures")
 PAGE = os.path.join(HERE, "../../../docs/eds-lint.md")
@@ -105,6 +109,22 @@ class Descriptions(unittest.TestCase):
         (invocation,) = only["invocations"]
         self.assertFalse(invocation["executionSuccessful"])
         self.assertIn("file.eds", invocation["toolExecutionNotifications"][0]["message"]["text"])
+
+    def test_sarif_fits_its_schema_for_every_description(self):
+        schemas = glob.glob(os.path.join(MODULES, "@microsoft/jest-sarif/lib/schemas/sarif-2.1.0*.json"))
+        if not schemas:
+            self.skipTest("no schema of SARIF: reports/tests/browser/install FOLDER")
+        try:
+            import jsonschema
+        except ImportError:
+            self.skipTest("python3-jsonschema is not installed")
+        with open(schemas[0], encoding="utf-8") as file:
+            validator = jsonschema.Draft4Validator(json.load(file))
+        hostile = self.write("hostile \u00e4 %20 #.eds", b"[FileInfo]\nFileName=\xff\x00<]]>\x1b[31m\nFileVersion=08\n[zz]\n")
+        for path in [*sorted(glob.glob(os.path.join(FIXTURES, "*"))), hostile, "/no/such file.eds"]:
+            with self.subTest(path=path):
+                log = json.loads(run("lint", "-f", "sarif", path).stdout)
+                self.assertEqual([error.message for error in validator.iter_errors(log)], [])
 
     def test_what_cannot_be_read_exits_2_and_says_why(self):
         for path, said in [
