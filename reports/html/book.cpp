@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,8 +29,10 @@ constexpr std::size_t name_limit = 200;
 
 }  // namespace
 
-Book::Book(const result::RunResult& run)
+Book::Book(const result::RunResult& run, Extent extent, std::string prefix)
     : run_(run),
+      extent_(extent),
+      prefix_(std::move(prefix)),
       causes_(result::causes_of(run)),
       by_case_(causes_by_case(causes_)),
       requirements_(requirement_verdicts(run)) {
@@ -42,7 +45,7 @@ Book::Book(const result::RunResult& run)
   for (const Cause& cause : causes_) {
     for (const auto& id : cause.requirements) by_requirement_.emplace(id, &cause);
   }
-  for (std::size_t i = 0; i < requirements_.size(); ++i) {
+  for (std::size_t i = 0; i < requirements_.size() && extent_ == Extent::whole; ++i) {
     const auto& id = requirements_[i].id;
     anchors_.emplace(id, is_plain(id) ? "r-" + id : fmt::format("r.{}", i + 1));
   }
@@ -80,7 +83,8 @@ std::string Book::anchor(const std::string& requirement) const {
 std::string Book::anchor(const Cause& cause) const { return fmt::format("cause-{}", number_of(cause)); }
 
 std::string Book::case_link(const CaseResult& one) const {
-  return link(anchor(one), clipped(one.name(), name_limit));
+  const std::string shown = clipped(one.name(), name_limit);
+  return extent_ == Extent::whole ? link(anchor(one), shown) : shown;
 }
 
 std::string Book::case_link(const std::string& name) const {
@@ -113,13 +117,15 @@ std::string Book::case_list(const std::vector<const CaseResult*>& cases) const {
       continue;
     }
     out += fmt::format("<li>{}", clipped(id, name_limit));
-    for (const CaseResult* one : instances)
-      out += " " + link(anchor(*one), fmt::format("[{}]", clipped(one->instance, name_limit)));
+    for (const CaseResult* one : instances) {
+      const auto shown = fmt::format("[{}]", clipped(one->instance, name_limit));
+      out += " " + (extent_ == Extent::whole ? link(anchor(*one), shown) : shown);
+    }
     out += "</li>\n";
   }
   return out + "</ul>\n";
 }
 
-std::string Book::fresh_id() const { return fmt::format("d{}", ++drawn_); }
+std::string Book::fresh_id() const { return fmt::format("{}{}", prefix_, ++drawn_); }
 
 }  // namespace conform::reports::html

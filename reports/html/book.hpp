@@ -15,9 +15,13 @@
 
 namespace conform::reports::html {
 
+/// What of a run stands on the page: all of it, or findings of it alone, so that there is nothing to link to.
+enum class Extent : unsigned char { whole, excerpt };
+
 class Book {
  public:
-  explicit Book(const result::RunResult& run);
+  /// `prefix`: of the names that it gives to elements, where a page tells of two runs.
+  explicit Book(const result::RunResult& run, Extent extent = Extent::whole, std::string prefix = "d");
 
   [[nodiscard]] const result::RunResult& run() const { return run_; }
   [[nodiscard]] const std::vector<result::Cause>& causes() const { return causes_; }
@@ -46,6 +50,8 @@ class Book {
 
  private:
   const result::RunResult& run_;
+  Extent extent_;
+  std::string prefix_;
   std::vector<result::Cause> causes_;
   CauseOfCase by_case_;
   std::vector<RequirementVerdict> requirements_;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/html/difference.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/timeline.hpp"
 #include "reports/text_tools.hpp"
@@ -51,15 +52,7 @@ std::string actual_text(const Finding& finding) {
   const auto from = wanted.find('"');
   if (from == std::string::npos || !came.starts_with('"')) return text(came);
   const std::string_view value = std::string_view(wanted).substr(from);
-  std::size_t begin = 0;
-  while (begin < std::min(came.size(), value.size()) && came[begin] == value[begin]) ++begin;
-  std::size_t end = 0;
-  while (end < std::min(came.size(), value.size()) - begin &&
-         came[came.size() - 1 - end] == value[value.size() - 1 - end])
-    ++end;
-  // Only whole characters are cut out.
-  while (begin > 0 && begin < came.size() && is_utf8_continuation(came[begin])) --begin;
-  while (end > 0 && is_utf8_continuation(came[came.size() - end])) --end;
+  const auto [begin, end] = shared_ends(came, value);
   if (begin + end < 4 || begin + end >= came.size()) return text(came);
   const std::string_view view = came;
   return fmt::format("{}<mark>{}</mark>{}", text(view.substr(0, begin)),

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reports/html/card.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
@@ -129,9 +130,7 @@ std::string case_section(const Book& book) {
     for (const auto* one : members) rows.push_back(row(book, *one));
     out += row_lists("cases", rows) + "</div>\n";
   }
-  return fmt::format(
-      "<section id=\"cases\" aria-labelledby=\"cases-title\">\n<h2 id=\"cases-title\">Cases</h2>\n{}</section>\n",
-      out);
+  return section("cases", "Cases", out, {"case", "cases"});
 }
 
 }  // namespace conform::reports::html

@@ -20,18 +20,19 @@
   // ---- filter ----
   var form = by("filter"), q = by("q"), shown = by("shown");
   var boxes = all("input[name=v]", form);
-  var kinds = { cause: [], requirement: [], "case": [] };
-  all("#causes article").forEach(function (e) { kinds.cause.push({ element: e }); });
-  all("#requirements li[data-v]").forEach(function (e) { kinds.requirement.push({ element: e }); });
-  all("#cases li[data-v]").forEach(function (e) { kinds["case"].push({ element: e }); });
+  // The lists of the page, the last one first: it is the one with the most detail.
+  var lists = all("[data-rows]").reverse().map(function (list) {
+    return { one: list.dataset.row, many: list.dataset.rows, rows: all("[data-v]", list).map(function (e) { return { element: e }; }) };
+  });
   // Lists first: a group is empty when its lists are.
-  var groups = all("#requirements .rows, #cases .rows").concat(all("#requirements .group, #cases .group"));
+  var groups = all("[data-rows] .rows").concat(all("[data-rows] .group"));
   var few = 400;
 
   function textOf(entry) {
     if (entry.text === undefined) {
       var group = entry.element.closest(".group");
-      var heading = group ? group.querySelector("h3").textContent : "";
+      var title = group && group.querySelector("h3");
+      var heading = title ? title.textContent : "";
       entry.text = (heading + "/" + entry.element.textContent).toLowerCase();
     }
     return entry.text;
@@ -46,21 +47,21 @@
   function apply() {
     var want = wanted();
     var counts = [], rows = 0;
-    ["case", "requirement", "cause"].forEach(function (kind) {
+    lists.forEach(function (list) {
       var visible = 0;
-      kinds[kind].forEach(function (entry) {
+      list.rows.forEach(function (entry) {
         var fits = !want.verdicts.length || want.verdicts.indexOf(entry.element.dataset.v) >= 0;
         fits = fits && want.words.every(function (word) { return textOf(entry).indexOf(word) >= 0; });
         hide(entry.element, !fits);
         if (fits) visible += 1;
       });
       rows += visible;
-      var total = kinds[kind].length;
-      if (total) counts.push(visible + " of " + total + " " + kind + (total === 1 ? "" : "s"));
+      var total = list.rows.length;
+      if (total) counts.push(visible + " of " + total + " " + (total === 1 ? list.one : list.many));
     });
     // So many are laid out at once: the page then has its true length.
     document.querySelector("main").classList.toggle("narrowed", rows < few);
-    groups.forEach(function (group) { hide(group, !group.querySelector("li[data-v]:not([hidden])")); });
+    groups.forEach(function (group) { hide(group, !group.querySelector("[data-v]:not([hidden])")); });
     var active = want.words.length || want.verdicts.length;
     shown.textContent = active ? counts.join(", ") : "";
   }
