@@ -20,7 +20,7 @@ using result::Turn;
 using result::Verdict;
 
 constexpr std::size_t text_limit = 300;
-constexpr std::size_t value_limit = 300;
+constexpr std::size_t value_limit = 160;
 /// Of a value that is longer than what is shown of it; the JSON has the whole.
 constexpr std::size_t whole_limit = 4000;
 
@@ -31,7 +31,7 @@ std::string verdict_badge(std::optional<Verdict> verdict) {
 std::string one_turn(const Compared& page, const Turn& turn, std::string_view kind) {
   const auto* info = page.after.run().requirement(turn.requirement);
   std::string out = fmt::format(
-      "<li data-v=\"{}\">\n<p><span class=\"sr\">was </span>{} <span aria-hidden=\"true\">&#x2192;</span><span class=\"sr\">now "
+      "<li data-v=\"{}\">\n<p><span class=\"sr\">was </span>{} <span aria-hidden=\"true\">&#x2192;</span> <span class=\"sr\">now "
       "</span>{} <b>{}</b> ",
       kind, verdict_badge(turn.before), verdict_badge(turn.after), clipped(turn.requirement, 200));
   if (info != nullptr) {

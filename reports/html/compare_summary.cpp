@@ -3,7 +3,6 @@
 
 #include "reports/html/bar.hpp"
 #include "reports/html/compare_sections.hpp"
-#include "reports/html/difference.hpp"
 #include "reports/html/facts.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/phrases.hpp"
@@ -44,23 +43,28 @@ std::string_view code_words(int code) {
 /// How many there are of each kind of difference, each with the way to it.
 std::string numbers(const Comparison& comparison) {
   struct Number {
-    std::string_view section, words;
+    std::string_view section, one, many;
     std::size_t count;
   };
-  const Number all[]{{"new", "causes are new", comparison.new_causes.size()},
-                     {"gone", "causes are gone", comparison.gone_causes.size()},
-                     {"turned", "requirements are worse", comparison.worse.size()},
-                     {"turned", "requirements are better", comparison.better.size()},
-                     {"turned", "requirements are no longer judged", comparison.lost.size()},
-                     {"turned", "requirements are now judged as well", comparison.gained.size()},
-                     {"answers", "answers are other ones", comparison.observed.size()},
-                     {"answers", "scenarios were tried for other objects", comparison.instances.size()},
-                     {"dictionary", "entries differ", comparison.entries.size()},
-                     {"times", "times differ", comparison.times.size()}};
+  const Number all[]{
+      {"new", "cause is new", "causes are new", comparison.new_causes.size()},
+      {"gone", "cause is gone", "causes are gone", comparison.gone_causes.size()},
+      {"turned", "requirement is worse", "requirements are worse", comparison.worse.size()},
+      {"turned", "requirement is better", "requirements are better", comparison.better.size()},
+      {"turned", "requirement is no longer judged", "requirements are no longer judged",
+       comparison.lost.size()},
+      {"turned", "requirement is now judged as well", "requirements are now judged as well",
+       comparison.gained.size()},
+      {"answers", "answer is another one", "answers are other ones", comparison.observed.size()},
+      {"answers", "scenario was tried for other objects", "scenarios were tried for other objects",
+       comparison.instances.size()},
+      {"dictionary", "entry differs", "entries differ", comparison.entries.size()},
+      {"times", "time differs", "times differ", comparison.times.size()}};
   std::string out;
   for (const auto& each : all) {
     if (each.count > 0)
-      out += fmt::format("<li><b>{}</b> {}</li>\n", each.count, link(each.section, each.words));
+      out += fmt::format("<li><b>{}</b> {}</li>\n", each.count,
+                         link(each.section, each.count == 1 ? each.one : each.many));
   }
   return out.empty() ? out : fmt::format("<h2>Differences</h2>\n<ul class=\"list\">\n{}</ul>\n", out);
 }
@@ -97,18 +101,25 @@ std::string cause_list(const Compared& page) {
                      items);
 }
 
-/// Facts of both runs; those that differ have a mark, not a colour alone.
+/// Facts of both runs; those that differ say so in words, those that do not are said once.
 std::string both(const Compared& page) {
   auto facts = facts_of(page.before.run(), page.after.run());
   facts.insert(facts.begin(), {"file", "Result", page.options.old_name, page.options.new_name});
+  const auto shown = [](const std::string& value) {
+    return value.empty() ? std::string("<span class=\"quiet\">(not there)</span>")
+                         : clipped(value, value_limit);
+  };
   std::string rows;
   for (const auto& each : facts) {
     if (each.before.empty() && each.after.empty()) continue;
-    const auto shown = difference(each.before, each.after, value_limit);
-    rows += fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td></tr>\n",
-                        each.differs() ? " class=\"other\"" : "", sentence(each.label),
-                        each.differs() ? " <span class=\"b other\">differs</span>" : "", shown.before,
-                        shown.after);
+    const auto label = sentence(each.label);
+    rows += each.differs()
+                ? fmt::format(
+                      "<tr class=\"other\"><th scope=\"row\">{} <span class=\"b other\">differs</span></th>"
+                      "<td>{}</td><td>{}</td></tr>\n",
+                      label, shown(each.before), shown(each.after))
+                : fmt::format("<tr><th scope=\"row\">{}</th><td colspan=\"2\">{}</td></tr>\n", label,
+                              shown(each.after));
   }
   return table("What was compared", "both", {{"<span class=\"sr\">fact</span>"}, {"old"}, {"new"}}, rows);
 }

@@ -93,6 +93,7 @@ TEST_CASE("Every kind of difference has its section") {
   holds("//section[@id='dictionary']", "Communication profile (1000h-1FFFh)");
   holds("//section[@id='dictionary']", "2000h:0305 0009 00");
   holds("//section[@id='dictionary']", "2003h:050005h(not there)");
+  holds("//section[@id='summary']", "1 cause is new");
   holds("//section[@id='dictionary']", "may be a value of the process");
   holds("//section[@id='times']",
         "SDO answer, all of them: median 5.0 ms, was 2.0 ms. longer in 100 % of all pairs");

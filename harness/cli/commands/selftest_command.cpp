@@ -129,6 +129,9 @@ int selftest_command(const SelftestCommand& options) {
   if (!suites) return report_error(suites.error(), exit_usage);
   auto profile = device::load_profile_file(root->root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
+  // What takes minutes is not lost in the end: the page says that it is not ready until it is.
+  if (const auto tried = write_unless_empty(options.html, "the selftest has not ended\n"); !tried)
+    return report_error(tried.error(), exit_environment);
   Proof proof;
   proof.tool = "canopen-conform " CONFORM_VERSION;
   proof.command = command_of(options);

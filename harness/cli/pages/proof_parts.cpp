@@ -23,10 +23,6 @@ using reports::prose;
 
 constexpr std::size_t text_limit = 300;
 
-std::string not_asked(std::string_view command) {
-  return fmt::format("<p>Not asked for in this run. <code class=\"copy\">{}</code></p>\n", command);
-}
-
 std::string row(std::string_view kind, const std::string& content) {
   return fmt::format("<li data-v=\"{}\">\n{}</li>\n", kind, content);
 }

@@ -89,6 +89,10 @@ const std::string no_area = "(no area)";
 
 }  // namespace
 
+std::string not_asked(std::string_view command) {
+  return fmt::format("<p>Not asked for in this run. <code class=\"copy\">{}</code></p>\n", command);
+}
+
 ProofBook::ProofBook(const Proof& proof) : proof_(proof) {
   if (!proof.matrix) return;
   const auto& matrix = *proof.matrix;
@@ -188,7 +192,8 @@ std::string area_section(const ProofBook& book) {
 }
 
 std::string defect_section(const ProofBook& book) {
-  if (!book.proof().matrix) return {};
+  if (!book.proof().matrix)
+    return section("defects", "Defects", not_asked("canopen-conform selftest --html proof.html"));
   const auto& defects = book.proof().matrix->defects;
   std::string out;
   for (const auto& area : book.areas()) {

@@ -47,6 +47,9 @@ class ProofBook {
   std::map<std::string, std::vector<const DefectVerdict*>> proofs_;
 };
 
+/// What stands in the place of a part that nobody asked for: the command that gives it.
+[[nodiscard]] std::string not_asked(std::string_view command);
+
 [[nodiscard]] std::string proof_summary(const ProofBook& book);
 /// The kill matrix in numbers: rules and defects by area.
 [[nodiscard]] std::string area_section(const ProofBook& book);
