@@ -2,7 +2,7 @@
 #include "cli/pages/proof_page.hpp"
 
 #include <algorithm>
-#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 

@@ -55,7 +55,7 @@ std::string one_blame(const ProofBook& book, const Blame& blame) {
   return row(shown_kind::look, out);
 }
 
-std::string pairs_of(const std::vector<PairBlame>& pairs) {
+std::string pairs_words(const std::vector<PairBlame>& pairs) {
   if (pairs.empty()) return {};
   std::string rows;
   for (const auto& pair : pairs) {
@@ -143,7 +143,7 @@ std::string blame_section(const ProofBook& book) {
       "that the defect violates. That is so for <b>{} of {}</b> ({:.1f} %); {} show several causes.</p>\n",
       right, counted(blames.size(), "defect"), share, several);
   out += lists("blames", rows, {}, "");
-  return section("blame", title, out + pairs_of(book.proof().matrix->pairs),
+  return section("blame", title, out + pairs_words(book.proof().matrix->pairs),
                  {"misblamed defect", "misblamed defects"});
 }
 
