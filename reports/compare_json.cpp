@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "reports/compare.hpp"
 #include "result/run_json.hpp"
 
@@ -68,6 +69,34 @@ Json value_json(const result::ValueChange& change) {
           {"after", text_json(change.after)}};
 }
 
+/// "communication profile", ... without the range, which is that of the index.
+std::string area_json(const result::EntryChange& change) {
+  const auto words = result::to_string(result::area_of(change.object.index));
+  return std::string(words.substr(0, words.find(" (")));
+}
+
+Json entry_json(const result::EntryChange& change) {
+  return {{"name", conform::to_string(change.object)},
+          {"before", text_json(change.before)},
+          {"after", text_json(change.after)},
+          {"area", area_json(change)},
+          {"process", change.is_process}};
+}
+
+/// What was compared.
+Json run_json(const result::RunResult& run, const std::string& file) {
+  return {{"file", text_json(file)},
+          {"device", text_json(run.device)},
+          {"tool", text_json(run.tool)},
+          {"host", text_json(run.host)},
+          {"started", run.started_utc_ns},
+          {"elapsed", run.elapsed.count()},
+          {"exit_code", result::exit_code(run)},
+          {"properties", list_of(run.properties, [](const result::Property& property) {
+             return Json{{"name", text_json(property.name)}, {"value", text_json(property.value)}};
+           })}};
+}
+
 Json observed_json(const result::ObservedChange& change) {
   return {{"case", text_json(change.where->name())},
           {"requirement", text_json(change.requirement)},
@@ -108,7 +137,7 @@ std::string compare_json(const result::Comparison& comparison, const CompareOpti
            {"now_judged", turns(comparison.gained)},
            {"answers", list_of(comparison.observed, observed_json)},
            {"identity", values(comparison.identity)},
-           {"entries", values(comparison.entries)},
+           {"entries", list_of(comparison.entries, entry_json)},
            {"times", list_of(comparison.times, times_json)},
            {"circumstances", values(comparison.circumstances)},
            {"only_in_old", list_of(comparison.only_in_old, text_json)},
@@ -119,6 +148,10 @@ std::string compare_json(const result::Comparison& comparison, const CompareOpti
                 {"gone", list_of(change.gone, text_json)},
                 {"added", list_of(change.added, text_json)}};
   });
+  if (comparison.before != nullptr && comparison.after != nullptr) {
+    out["runs"] = {{"old", run_json(*comparison.before, options.old_name)},
+                   {"new", run_json(*comparison.after, options.new_name)}};
+  }
   return out.dump(1) + "\n";
 }
 

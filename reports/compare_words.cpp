@@ -124,6 +124,16 @@ Lines value_lines(const std::vector<result::ValueChange>& changes) {
   return out;
 }
 
+Lines entry_lines(const Comparison& comparison) {
+  Lines out;
+  for (const auto& each : comparison.entries) {
+    DifferenceLine line{{}, to_string(each.object) + ": " + was_words(each.before, each.after), {}};
+    if (each.is_process) line.details.emplace_back(process_words);
+    out.push_back(std::move(line));
+  }
+  return out;
+}
+
 Lines observed_lines(const Comparison& comparison) {
   Lines out;
   for (const auto& each : comparison.observed) {
@@ -147,26 +157,10 @@ Lines instance_lines(const Comparison& comparison) {
   return out;
 }
 
-/// Never more than the test can say.
-std::string likelihood(double p) {
-  if (p < 1e-9) return "less than 1e-9";
-  return fmt::format("{:.0e}", p);
-}
-
 Lines time_lines(const Comparison& comparison) {
   Lines out;
-  for (const auto& each : comparison.times) {
-    const auto what = each.of.empty() ? each.kind + ", all of them" : each.kind + " " + each.of;
-    const auto percent = std::lround(100 * std::max(each.longer, 1 - each.longer));
-    const std::string_view how =
-        each.is_spread ? (each.longer > 0.5 ? "farther from the middle" : "nearer to the middle")
-                       : (each.longer > 0.5 ? "longer" : "shorter");
-    out.push_back({{},
-                   fmt::format("{}: {} {}, was {}", what, each.is_spread ? "nine of ten within" : "median",
-                               brief_duration(each.after), brief_duration(each.before)),
-                   {fmt::format("{} in {} % of all pairs; by chance: {} ({} and {} samples)", how, percent,
-                                likelihood(each.p), each.samples_before, each.samples_after)}});
-  }
+  for (const auto& each : comparison.times)
+    out.push_back({{}, times_title(each) + ": " + times_words(each), {certainty_words(each)}});
   return out;
 }
 
@@ -184,7 +178,31 @@ Lines left_out_lines(const Comparison& comparison) {
   return out;
 }
 
+/// Never more than the test can say.
+std::string likelihood(double p) {
+  if (p < 1e-9) return "less than 1e-9";
+  return fmt::format("{:.0e}", p);
+}
+
 }  // namespace
+
+std::string times_title(const result::TimesChange& change) {
+  return change.of.empty() ? change.kind + ", all of them" : change.kind + " " + change.of;
+}
+
+std::string times_words(const result::TimesChange& change) {
+  return fmt::format("{} {}, was {}", change.is_spread ? "nine of ten within" : "median",
+                     brief_duration(change.after), brief_duration(change.before));
+}
+
+std::string certainty_words(const result::TimesChange& change) {
+  const auto percent = std::lround(100 * std::max(change.longer, 1 - change.longer));
+  const std::string_view how =
+      change.is_spread ? (change.longer > 0.5 ? "farther from the middle" : "nearer to the middle")
+                       : (change.longer > 0.5 ? "longer" : "shorter");
+  return fmt::format("{} in {} % of all pairs; by chance: {} ({} and {} samples)", how, percent,
+                     likelihood(change.p), change.samples_before, change.samples_after);
+}
 
 std::vector<DifferenceSection> differences(const Comparison& comparison) {
   std::vector<DifferenceSection> out{
@@ -196,7 +214,7 @@ std::vector<DifferenceSection> differences(const Comparison& comparison) {
       {"Now judged as well", turn_lines(comparison.gained)},
       {"Other answers", observed_lines(comparison)},
       {"Identity", value_lines(comparison.identity)},
-      {"Dictionary", value_lines(comparison.entries)},
+      {"Dictionary", entry_lines(comparison)},
       {"Tried for other objects", instance_lines(comparison)},
       {"Times", time_lines(comparison)},
       {"Circumstances", value_lines(comparison.circumstances)},
@@ -206,35 +224,39 @@ std::vector<DifferenceSection> differences(const Comparison& comparison) {
   return out;
 }
 
-std::string outcome_words(const Comparison& comparison, bool strict) {
+Outcome outcome_of(const Comparison& comparison, bool strict) {
   const auto failures = static_cast<std::size_t>(
       std::ranges::count(comparison.new_causes, Verdict::fail, &result::NewCause::verdict));
   const auto warnings = comparison.new_causes.size() - failures;
-  const auto code = exit_code(comparison, strict);
-  std::vector<std::string> parts;
-  if (failures > 0) parts.push_back(counted(failures, "new failure"));
-  if (warnings > 0) parts.push_back(counted(warnings, "new warning"));
+  Outcome out{exit_code(comparison, strict), "not worse", {}};
+  if (failures > 0) out.parts.push_back(counted(failures, "new failure"));
+  if (warnings > 0) out.parts.push_back(counted(warnings, "new warning"));
   if (const auto undecided = comparison.undecided(); undecided > 0)
-    parts.push_back(counted(undecided, "requirement") + " could not be judged any more");
+    out.parts.push_back(counted(undecided, "requirement") + " could not be judged any more");
   if (!comparison.gone_causes.empty())
-    parts.push_back(counted(comparison.gone_causes.size(), "cause") + " gone");
+    out.parts.push_back(counted(comparison.gone_causes.size(), "cause") + " gone");
   if (comparison.known_failures > 0) {
-    parts.push_back(counted(comparison.known_failures, "failure") + " that the old run has as well " +
-                    (comparison.known_failures == 1 ? "does" : "do") + " not count");
+    out.parts.push_back(counted(comparison.known_failures, "failure") + " that the old run has as well " +
+                        (comparison.known_failures == 1 ? "does" : "do") + " not count");
   }
-  std::string head = "not worse";
-  if (code == 1) {
-    head = "worse";
-  } else if (code == 3) {
-    head = "not decided";
+  if (out.code == 1) {
+    out.head = "worse";
+  } else if (out.code == 3) {
+    out.head = "not decided";
   } else if (comparison.is_same()) {
-    head = "no difference";
+    out.head = "no difference";
   } else if (!comparison.gone_causes.empty() && warnings == 0) {
-    head = "better";
+    out.head = "better";
   } else if (comparison.new_causes.empty()) {
-    head = "different, but not worse";
+    out.head = "different, but not worse";
   }
-  return parts.empty() ? head : head + ": " + join(parts, "; ");
+  return out;
+}
+
+std::string outcome_words(const Comparison& comparison, bool strict) {
+  const auto outcome = outcome_of(comparison, strict);
+  const std::string head(outcome.head);
+  return outcome.parts.empty() ? head : head + ": " + join(outcome.parts, "; ");
 }
 
 }  // namespace conform::reports

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/files.hpp"
+#include "base/text_bytes.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -127,8 +128,7 @@ Result<void> write_file_atomically(const std::string& path, ByteView bytes) {
 }
 
 Result<void> write_file_atomically(const std::string& path, std::string_view text) {
-  return write_file_atomically(path,
-                               ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  return write_file_atomically(path, bytes_of(text));
 }
 
 Result<std::string> read_file(const std::string& path, std::uint64_t limit) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/bytes.hpp"
+#include "base/text_bytes.hpp"
 
 struct evp_md_ctx_st;
 
@@ -29,10 +29,5 @@ class Sha256 {
 
 [[nodiscard]] std::string sha256(ByteView bytes);
 [[nodiscard]] std::string sha256(std::string_view bytes);
-
-/// The bytes of a text.
-[[nodiscard]] inline ByteView bytes_of(std::string_view text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 }  // namespace conform::bundle

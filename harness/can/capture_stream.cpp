@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/files.hpp"
+#include "base/text_bytes.hpp"
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
 
@@ -33,9 +34,7 @@ void CaptureStream::add(const CapturedFrame& frame) {
 
 void CaptureStream::flush() {
   oldest_.reset();
-  auto rest = format_ == Format::pcapng
-                  ? ByteView(bytes_)
-                  : ByteView(reinterpret_cast<const std::uint8_t*>(text_.data()), text_.size());
+  auto rest = format_ == Format::pcapng ? ByteView(bytes_) : bytes_of(text_);
   while (!rest.empty() && error_ == 0) {
     const auto count = ::write(file_.get(), rest.data(), rest.size());
     if (count >= 0) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/text_bytes.hpp"
 #include "can/pcapng.hpp"
 #include "can/pcapng_format.hpp"
 
@@ -33,7 +34,7 @@ class BlockWriter {
     // The length has 16 bits; cut long texts between UTF-8 characters.
     std::size_t size = std::min<std::size_t>(text.size(), 65'000);
     while (size < text.size() && size > 0 && (static_cast<std::uint8_t>(text[size]) & 0xC0U) == 0x80U) --size;
-    option(code, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), size));
+    option(code, bytes_of(text).first(size));
   }
   void end_of_options() { u32(0); }
   void finish() {

@@ -246,6 +246,9 @@ int dispatch(int argc, char** argv) {
   compare_sub->add_option("-f,--format", compare.format, "Output: text, markdown or json")
       ->check(CLI::IsMember({"text", "markdown", "json"}).description(""))
       ->type_name("FORMAT");
+  compare_sub
+      ->add_option("--html", compare.html, "Also write it as one page for a browser, to send or to print")
+      ->type_name("FILE");
   compare_sub->add_flag("--strict", compare.strict, "A new warning is worse, too");
   compare_sub->add_option("--color", compare.color, "Colours: auto, always or never")
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
@@ -462,6 +465,15 @@ int dispatch(int argc, char** argv) {
   selftest_sub->add_flag(
       "--edits", selftest.edits,
       "Instead of the defects: break every entry of the dictionary in every way (absent, other length ...)");
+  selftest_sub->add_flag(
+      "--variants", selftest.variants,
+      "Instead of the defects: every legal variant of the reference node, none of which may be failed");
+  selftest_sub->add_flag("--full", selftest.full,
+                         "Defects with --blame, --variants and --edits, one after the other");
+  selftest_sub
+      ->add_option("--html", selftest.html,
+                   "Write what was proven as one page for a browser, to send or to print")
+      ->type_name("FILE");
   selftest_sub->add_flag("--mutants", selftest.mutants,
                          "Instead of the defects: small mistakes at every place of the reference node "
                          "(canopen-conform-mutants only)");

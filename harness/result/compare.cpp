@@ -7,15 +7,13 @@
 #include <map>
 #include <set>
 
+#include "result/compare_steps.hpp"
 #include "result/requirement_verdicts.hpp"
 
 namespace conform::result {
 namespace {
 
-bool is_decided(std::optional<Verdict> verdict) {
-  return verdict == Verdict::pass || verdict == Verdict::waived || verdict == Verdict::warn ||
-         verdict == Verdict::fail;
-}
+bool is_decided(std::optional<Verdict> verdict) { return verdict && is_decided(*verdict); }
 /// Files that the user gives about the device: another one makes no other device.
 bool is_of_the_user(std::string_view property) {
   return property.starts_with("input.") || property.starts_with("dut.description");
@@ -89,6 +87,8 @@ class Comparing {
   }
 
   Comparison all() {
+    out_.before = &before_;
+    out_.after = &after_;
     compare_causes();
     compare_requirements();
     out_.observed = observed_changes(before_, after_);
@@ -253,8 +253,8 @@ std::size_t Comparison::undecided() const {
 
 bool Comparison::is_same() const {
   return new_causes.empty() && gone_causes.empty() && worse.empty() && better.empty() && lost.empty() &&
-         gained.empty() && observed.empty() && identity.empty() && entries.empty() && instances.empty() &&
-         times.empty();
+         gained.empty() && observed.empty() && identity.empty() && instances.empty() && times.empty() &&
+         std::ranges::all_of(entries, &EntryChange::is_process);
 }
 
 Comparison compare(const RunResult& before, const RunResult& after) { return Comparing(before, after).all(); }

@@ -42,6 +42,9 @@ struct Turn {
 
 /// Points into both runs.
 struct Comparison {
+  const RunResult* before = nullptr;
+  const RunResult* after = nullptr;
+
   std::vector<NewCause> new_causes;  ///< failures first, whole causes before those that have spread
   std::vector<GoneCause> gone_causes;
   std::size_t known_failures = 0;  ///< causes of the new run with a failure that the old run has as well
@@ -54,7 +57,7 @@ struct Comparison {
 
   std::vector<ObservedChange> observed;  ///< another answer, whatever was judged of it
   std::vector<ValueChange> identity;     ///< properties dut.*
-  std::vector<ValueChange> entries;      ///< of the dictionary
+  std::vector<EntryChange> entries;      ///< of the dictionary
   std::vector<InstancesChange> instances;
   std::vector<TimesChange> times;
   std::vector<ValueChange> circumstances;  ///< tool, suites, seed, bus: no difference of the device
@@ -62,7 +65,7 @@ struct Comparison {
 
   /// Requirements that were judged and now could not be: the host, the bus, or a precondition.
   [[nodiscard]] std::size_t undecided() const;
-  /// Nothing but circumstances.
+  /// Nothing but circumstances, and what may be values of the process.
   [[nodiscard]] bool is_same() const;
 };
 

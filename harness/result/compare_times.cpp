@@ -180,6 +180,20 @@ Duration quantile(std::span<const Duration> sorted, double share) {
   return sorted[static_cast<std::size_t>(std::lround(share * last))];
 }
 
+TimesSeries series_of(const TimesChange& change, const RunResult& before, const RunResult& after) {
+  TimesSeries out;
+  for (const auto& now : after.measurements) {
+    if (now.kind != change.kind || (!change.of.empty() && now.of != change.of)) continue;
+    for (const auto& was : before.measurements) {
+      if (was.kind != now.kind || was.of != now.of) continue;
+      if (was.samples.size() < fewest_samples || now.samples.size() < fewest_samples) continue;
+      out.before.insert(out.before.end(), was.samples.begin(), was.samples.end());
+      out.after.insert(out.after.end(), now.samples.begin(), now.samples.end());
+    }
+  }
+  return out;
+}
+
 std::vector<TimesChange> times_changes(const RunResult& before, const RunResult& after) {
   return TimesComparison(before, after).take();
 }

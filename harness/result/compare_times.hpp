@@ -34,4 +34,12 @@ struct TimesChange {
 
 [[nodiscard]] std::vector<TimesChange> times_changes(const RunResult& before, const RunResult& after);
 
+/// The samples behind a change, of both runs: of one series, or of all of its kind that both runs have enough
+/// of. In the order of the measurements.
+struct TimesSeries {
+  std::vector<Sample> before, after;
+};
+[[nodiscard]] TimesSeries series_of(const TimesChange& change, const RunResult& before,
+                                    const RunResult& after);
+
 }  // namespace conform::result

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/text.hpp"
+#include "base/text_bytes.hpp"
 
 namespace conform::result {
 namespace {
@@ -273,7 +274,7 @@ bool is_utf8(std::string_view text) {
 
 Json text_json(const std::string& text) {
   if (is_utf8(text)) return text;
-  return {{"hex", hex_text(ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()))}};
+  return {{"hex", hex_text(bytes_of(text))}};
 }
 
 std::string text_of(const Json& json) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,9 +29,11 @@ constexpr std::size_t name_limit = 200;
 
 }  // namespace
 
-Book::Book(const result::RunResult& run, const Beside& beside)
+Book::Book(const result::RunResult& run, Beside beside, Extent extent, std::string prefix)
     : run_(run),
-      beside_(beside),
+      beside_(std::move(beside)),
+      extent_(extent),
+      prefix_(std::move(prefix)),
       causes_(result::causes_of(run)),
       by_case_(causes_by_case(causes_)),
       requirements_(requirement_verdicts(run)) {
@@ -43,7 +46,7 @@ Book::Book(const result::RunResult& run, const Beside& beside)
   for (const Cause& cause : causes_) {
     for (const auto& id : cause.requirements) by_requirement_.emplace(id, &cause);
   }
-  for (std::size_t i = 0; i < requirements_.size(); ++i) {
+  for (std::size_t i = 0; i < requirements_.size() && extent_ == Extent::whole; ++i) {
     const auto& id = requirements_[i].id;
     anchors_.emplace(id, is_plain(id) ? "r-" + id : fmt::format("r.{}", i + 1));
   }
@@ -81,7 +84,8 @@ std::string Book::anchor(const std::string& requirement) const {
 std::string Book::anchor(const Cause& cause) const { return fmt::format("cause-{}", number_of(cause)); }
 
 std::string Book::case_link(const CaseResult& one) const {
-  return link(anchor(one), clipped(one.name(), name_limit));
+  const std::string shown = clipped(one.name(), name_limit);
+  return extent_ == Extent::whole ? link(anchor(one), shown) : shown;
 }
 
 std::string Book::case_link(const std::string& name) const {
@@ -114,13 +118,15 @@ std::string Book::case_list(const std::vector<const CaseResult*>& cases) const {
       continue;
     }
     out += fmt::format("<li>{}", clipped(id, name_limit));
-    for (const CaseResult* one : instances)
-      out += " " + link(anchor(*one), fmt::format("[{}]", clipped(one->instance, name_limit)));
+    for (const CaseResult* one : instances) {
+      const auto shown = fmt::format("[{}]", clipped(one->instance, name_limit));
+      out += " " + (extent_ == Extent::whole ? link(anchor(*one), shown) : shown);
+    }
     out += "</li>\n";
   }
   return out + "</ul>\n";
 }
 
-std::string Book::fresh_id() const { return fmt::format("d{}", ++drawn_); }
+std::string Book::fresh_id() const { return fmt::format("{}{}", prefix_, ++drawn_); }
 
 }  // namespace conform::reports::html

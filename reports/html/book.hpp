@@ -16,10 +16,14 @@
 
 namespace conform::reports::html {
 
+/// What of a run stands on the page: all of it, or findings of it alone, so that there is nothing to link to.
+enum class Extent : unsigned char { whole, excerpt };
+
 class Book {
  public:
-  /// Both must outlive the book.
-  Book(const result::RunResult& run, const Beside& beside);
+  /// `run` must outlive it. `prefix`: of the names that it gives to elements, where a page tells of two runs.
+  explicit Book(const result::RunResult& run, Beside beside = {}, Extent extent = Extent::whole,
+                std::string prefix = "d");
 
   [[nodiscard]] const result::RunResult& run() const { return run_; }
   [[nodiscard]] const Beside& beside() const { return beside_; }
@@ -49,7 +53,9 @@ class Book {
 
  private:
   const result::RunResult& run_;
-  const Beside& beside_;
+  Beside beside_;
+  Extent extent_;
+  std::string prefix_;
   std::vector<result::Cause> causes_;
   CauseOfCase by_case_;
   std::vector<RequirementVerdict> requirements_;

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
+#include "reports/html/difference.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/timeline.hpp"
 #include "reports/text_tools.hpp"
@@ -26,18 +28,6 @@ std::string told(const RunResult& run, std::string_view name) {
   return value == nullptr ? std::string() : *value;
 }
 
-/// A word of a command line of a POSIX shell.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("-_./:=").find(c) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : printable(word)) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string values(const std::vector<std::string>& all) {
   std::string out;
   for (const auto& each : all) out += fmt::format("<li>{}</li>\n", clipped(each, value_limit));
@@ -52,15 +42,7 @@ std::string actual_text(const Finding& finding) {
   const auto from = wanted.find('"');
   if (from == std::string::npos || !came.starts_with('"')) return text(came);
   const std::string_view value = std::string_view(wanted).substr(from);
-  std::size_t begin = 0;
-  while (begin < std::min(came.size(), value.size()) && came[begin] == value[begin]) ++begin;
-  std::size_t end = 0;
-  while (end < std::min(came.size(), value.size()) - begin &&
-         came[came.size() - 1 - end] == value[value.size() - 1 - end])
-    ++end;
-  // Only whole characters are cut out.
-  while (begin > 0 && begin < came.size() && is_utf8_continuation(came[begin])) --begin;
-  while (end > 0 && is_utf8_continuation(came[came.size() - end])) --end;
+  const auto [begin, end] = shared_ends(came, value);
   if (begin + end < 4 || begin + end >= came.size()) return text(came);
   const std::string_view view = came;
   return fmt::format("{}<mark>{}</mark>{}", text(view.substr(0, begin)),
@@ -108,28 +90,29 @@ std::string repeat_command(const RunResult& run, const CaseResult& one, const st
     for (const char* kind : {"defect", "variant"}) {
       const std::string list = told(run, fmt::format("simulation.{}s", kind));
       for (const auto word : split(list, ' ')) {
-        if (!word.empty()) out += fmt::format(" --{} {}", kind, quoted(std::string(word)));
+        if (!word.empty()) out += fmt::format(" --{} {}", kind, shell_word(word));
       }
     }
   } else {
-    if (!interface.empty()) out += " -i " + quoted(interface);
-    if (const auto node = told(run, "dut.node_id"); !node.empty()) out += " -n " + quoted(node);
+    if (!interface.empty()) out += " -i " + shell_word(interface);
+    if (const auto node = told(run, "dut.node_id"); !node.empty()) out += " -n " + shell_word(node);
   }
   if (const auto description = told(run, "dut.description"); !description.empty())
-    out += " --eds " + quoted(description);
+    out += " --eds " + shell_word(description);
   // The profile of the reference node is taken by itself.
   const auto used = told(run, "input.profile");
   // The digest stands behind its name.
   const auto profile = used.substr(0, used.rfind(' '));
   if (!profile.empty() && !profile.ends_with("devices/reference-node.yaml"))
-    out += " --device " + quoted(profile);
-  if (const auto allowed = told(run, "run.allowed"); !allowed.empty()) out += " --allow " + quoted(allowed);
-  if (const auto seed = told(run, "run.seed"); !seed.empty()) out += " --seed " + quoted(seed);
-  if (one.suite != "monitor") return out + " " + quoted(one.name());
+    out += " --device " + shell_word(profile);
+  if (const auto allowed = told(run, "run.allowed"); !allowed.empty())
+    out += " --allow " + shell_word(allowed);
+  if (const auto seed = told(run, "run.seed"); !seed.empty()) out += " --seed " + shell_word(seed);
+  if (one.suite != "monitor") return out + " " + shell_word(one.name());
   // A monitor is no case of its own: it judges whatever goes on, also before the first case.
   if (std::ranges::any_of(run.cases, [&](const CaseResult& each) { return each.name() == during; }))
-    return out + " " + quoted(during);
-  return requirement.empty() ? out : out + " -r " + quoted(requirement);
+    return out + " " + shell_word(during);
+  return requirement.empty() ? out : out + " -r " + shell_word(requirement);
 }
 
 std::string card(const Book& book, const LocatedFinding& located) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reports/html/card.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
@@ -121,6 +122,14 @@ std::string case_section(const Book& book) {
     suites[at->second].second.push_back(&one);
   }
   std::string out;
+  const auto quiet = std::ranges::count_if(cases, [](const CaseResult& one) {
+    return one.verdict == Verdict::pass || one.verdict == Verdict::not_applicable;
+  });
+  if (quiet > 0)
+    out += fmt::format(
+        "<p class=\"on-paper\">On paper {} left out, passed or not applicable; the page itself has them, and "
+        "the list of requirements says which decided.</p>\n",
+        quiet == 1 ? "1 case is" : fmt::format("{} cases are", quiet));
   for (const auto& [suite, members] : suites) {
     out += fmt::format("<div class=\"group\">\n<h3>{} <span class=\"quiet\">{}</span></h3>\n",
                        suite.empty() ? "(no suite)" : clipped(suite, text_limit),
@@ -129,9 +138,7 @@ std::string case_section(const Book& book) {
     for (const auto* one : members) rows.push_back(row(book, *one));
     out += row_lists("cases", rows) + "</div>\n";
   }
-  return fmt::format(
-      "<section id=\"cases\" aria-labelledby=\"cases-title\">\n<h2 id=\"cases-title\">Cases</h2>\n{}</section>\n",
-      out);
+  return section("cases", "Cases", out, {"case", "cases"});
 }
 
 }  // namespace conform::reports::html

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "reports/html/card.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
@@ -96,11 +97,7 @@ std::string cause_section(const Book& book) {
   std::string content;
   for (const Cause& cause : book.causes()) content += one_cause(book, cause);
   content += bare_cases(book);
-  if (content.empty()) return {};
-  return fmt::format(
-      "<section id=\"causes\" aria-labelledby=\"causes-title\">\n<h2 id=\"causes-title\">Causes</h2>\n"
-      "{}</section>\n",
-      content);
+  return section("causes", "Causes", content, {"cause", "causes"});
 }
 
 }  // namespace conform::reports::html

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
@@ -53,10 +54,7 @@ std::string change_section(const Book& book) {
                     restored_count == 1 ? "1 entry" : fmt::format("{} entries", restored_count));
     out += folded(title, table(restored));
   }
-  return fmt::format(
-      "<section id=\"changes\" aria-labelledby=\"changes-title\">\n<h2 id=\"changes-title\">What the run changed "
-      "in the device</h2>\n{}</section>\n",
-      out);
+  return section("changes", "What the run changed in the device", out);
 }
 
 }  // namespace conform::reports::html

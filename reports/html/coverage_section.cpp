@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reports/html/bar.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/phrases.hpp"
@@ -111,11 +112,7 @@ std::string reasons(const Book& book) {
 
 std::string coverage_section(const Book& book) {
   const std::string content = table(book) + waivers(book) + wants(book.run()) + reasons(book);
-  if (content.empty()) return {};
-  return fmt::format(
-      "<section id=\"coverage\" aria-labelledby=\"coverage-title\">\n<h2 id=\"coverage-title\">Coverage of "
-      "the requirements</h2>\n{}</section>\n",
-      content);
+  return section("coverage", "Coverage of the requirements", content);
 }
 
 }  // namespace conform::reports::html

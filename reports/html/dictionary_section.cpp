@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
@@ -24,18 +25,18 @@ using Judged = std::map<Multiplexer, JudgedEntry>;
 constexpr std::size_t few_rows = 30;  ///< a table that need not be folded
 
 /// Parts of the dictionary as CiA 301, 7.4.1 divides it.
-struct Part {
+struct Range {
   std::uint16_t last;
   std::string_view title;
 };
 constexpr std::array parts{
-    Part{0x0FFF, "Data types and reserved (0000h to 0FFFh)"},
-    Part{0x1FFF, "Communication profile (1000h to 1FFFh)"}, Part{0x5FFF, "Manufacturer (2000h to 5FFFh)"},
-    Part{0x9FFF, "Device profile (6000h to 9FFFh)"}, Part{0xFFFF, "Beyond (A000h to FFFFh)"}};
+    Range{0x0FFF, "Data types and reserved (0000h to 0FFFh)"},
+    Range{0x1FFF, "Communication profile (1000h to 1FFFh)"}, Range{0x5FFF, "Manufacturer (2000h to 5FFFh)"},
+    Range{0x9FFF, "Device profile (6000h to 9FFFh)"}, Range{0xFFFF, "Beyond (A000h to FFFFh)"}};
 
 std::size_t part_of(Multiplexer object) {
   return static_cast<std::size_t>(
-      std::ranges::find_if(parts, [&](const Part& each) { return object.index.value() <= each.last; }) -
+      std::ranges::find_if(parts, [&](const Range& each) { return object.index.value() <= each.last; }) -
       parts.begin());
 }
 
@@ -163,16 +164,13 @@ std::string dictionary_section(const Book& book) {
   std::string out;
   // What one looks for first; the whole table may be long.
   if (differing_count > 0)
-    out += fmt::format("<div class=\"group differs\">\n<h3>Differing: {}</h3>\n{}</div>\n",
+    out += fmt::format("<div class=\"group differs\" data-again=\"\">\n<h3>Differing: {}</h3>\n{}</div>\n",
                        differing_count == 1 ? "1 entry" : fmt::format("{} entries", differing_count),
                        table("Differing entries", differing_rows));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (counts[i] > 0) out += part(parts[i].title, counts[i], wrong[i], rows[i]);
   }
-  return fmt::format(
-      "<section id=\"dictionary\" aria-labelledby=\"dictionary-title\">\n<h2 id=\"dictionary-title\">Object dictionary</h2>\n"
-      "{}</section>\n",
-      out);
+  return section("dictionary", "Object dictionary", out, {"entry", "entries"});
 }
 
 }  // namespace conform::reports::html

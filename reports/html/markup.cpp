@@ -79,6 +79,22 @@ std::string fact(std::string_view label, std::string_view value) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", label, value);
 }
 
+std::string table(std::string_view label, std::string_view kind, const std::vector<Column>& columns,
+                  std::string_view rows) {
+  std::string head;
+  for (const auto& column : columns)
+    head +=
+        fmt::format("<th scope=\"col\"{}>{}</th>", column.is_number ? " class=\"num\"" : "", column.words);
+  return fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{}\"><table class=\"{}\"><thead><tr>{}</tr></thead>"
+      "<tbody>\n{}</tbody></table></div>\n",
+      label, kind, head, rows);
+}
+
+std::string number_cell(std::size_t number) {
+  return fmt::format("<td class=\"num{}\">{}</td>", number == 0 ? " zero" : "", number);
+}
+
 std::string coordinate(double value) {
   const double rounded = std::round(value * 10) / 10;
   return fmt::format("{:g}", rounded == 0 ? 0.0 : rounded);

@@ -38,6 +38,17 @@ namespace conform::reports::html {
 /// One line of a list of facts: <dt>label</dt><dd>value</dd>, both markup; nothing where there is no value.
 [[nodiscard]] std::string fact(std::string_view label, std::string_view value);
 
+struct Column {
+  std::string_view words;  ///< markup
+  bool is_number = false;
+};
+/// A table that scrolls by itself where the page is narrow. `label` names it for who cannot see it; `rows`
+/// are <tr> elements.
+[[nodiscard]] std::string table(std::string_view label, std::string_view kind,
+                                const std::vector<Column>& columns, std::string_view rows);
+/// "<td class=num>"; nothing is told quietly.
+[[nodiscard]] std::string number_cell(std::size_t number);
+
 /// A frame of the capture as Wireshark numbers it: from 1.
 [[nodiscard]] constexpr std::size_t frame_number(std::size_t capture_index) { return capture_index + 1; }
 

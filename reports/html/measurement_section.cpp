@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/plots.hpp"
 #include "reports/html/sections.hpp"
@@ -18,8 +19,6 @@ using result::Measurement;
 using result::RunResult;
 using result::Sample;
 
-// More dots than these nobody tells apart, and each takes its bytes in an e-mail.
-constexpr std::size_t most_dots = 1500;
 // So many series of one kind get a drawing each; more are drawn together and listed, the slowest first.
 constexpr std::size_t most_drawings = 12;
 constexpr std::size_t listed_first = 15;
@@ -44,19 +43,6 @@ Span span_of(const RunResult& run) {
     for (const auto& sample : each.samples) take(sample.at, sample.at);
   }
   return span.begin <= span.end ? span : Span{};
-}
-
-/// Evenly drawn, but the longest ones always: they are what one looks for.
-std::vector<Sample> thinned(std::vector<Sample> samples) {
-  if (samples.size() <= most_dots) return samples;
-  constexpr std::size_t kept = 50;
-  std::ranges::nth_element(samples, samples.begin() + kept, std::greater{}, &Sample::value);
-  std::vector<Sample> out(samples.begin(), samples.begin() + kept);
-  std::sort(samples.begin() + kept, samples.end());
-  const std::size_t rest = samples.size() - kept;
-  const std::size_t wanted = most_dots - kept;
-  for (std::size_t i = 0; i < wanted; ++i) out.push_back(samples[kept + i * rest / wanted]);
-  return out;
 }
 
 std::string limits_text(const Measurement& one) {
@@ -228,11 +214,7 @@ std::string time_spent(const RunResult& run) {
 
 std::string measurement_section(const Book& book) {
   const std::string content = measured(book, span_of(book.run())) + load(book) + time_spent(book.run());
-  if (content.empty()) return {};
-  return fmt::format(
-      "<section id=\"measurements\" aria-labelledby=\"measurements-title\">\n<h2 id=\"measurements-title\">"
-      "Measurements</h2>\n{}</section>\n",
-      content);
+  return section("measurements", "Measurements", content);
 }
 
 }  // namespace conform::reports::html

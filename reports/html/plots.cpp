@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "reports/html/axis.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/text_tools.hpp"
+#include "result/compare_times.hpp"
 
 namespace conform::reports::html {
 namespace {
@@ -25,6 +27,8 @@ constexpr double strip_right = 770;
 constexpr double counts_left = 788;
 constexpr double right = width - 8;
 constexpr std::size_t bins = 24;
+// More dots than these nobody tells apart, and each takes its bytes in an e-mail.
+constexpr std::size_t most_dots = 1500;
 // A limit so many times beyond the longest sample is said and not drawn: the samples would be one line.
 constexpr double far = 4;
 
@@ -111,12 +115,19 @@ std::string dots(const std::vector<Sample>& samples, const Limits& limits, const
   return out;
 }
 
-std::string histogram(const std::vector<Sample>& samples, const Axis& y) {
-  std::array<std::size_t, bins> counts{};
+using BinCounts = std::array<std::size_t, bins>;
+
+BinCounts counts_of(const std::vector<Sample>& samples, const Axis& y) {
+  BinCounts counts{};
   for (const Sample& sample : samples) {
     const double share = (bottom - y.at(ms(sample.value))) / (bottom - top);
     ++counts.at(std::min(static_cast<std::size_t>(share * bins), bins - 1));
   }
+  return counts;
+}
+
+std::string histogram(const std::vector<Sample>& samples, const Axis& y) {
+  const BinCounts counts = counts_of(samples, y);
   const std::size_t most = std::max<std::size_t>(*std::ranges::max_element(counts), 1);
   constexpr double step = (bottom - top) / bins;
   std::string path;
@@ -134,7 +145,100 @@ std::string histogram(const std::vector<Sample>& samples, const Axis& y) {
       label((counts_left + right) / 2, bottom + 17, "t", fmt::format("how many, up to {}", most)));
 }
 
+// Of two series: a strip each, and the counts back to back around the middle of what is left.
+constexpr double pair_gap = 18;
+constexpr double first_right = 404;
+constexpr double second_left = first_right + pair_gap;
+constexpr double second_right = 764;
+constexpr double middle = 870;
+constexpr double half = 78;
+
+/// Strip of one run, with its own time, on the scale that both have.
+std::string half_strip(const std::vector<Sample>& samples, const Axis& y, double from, double to,
+                       std::string_view words) {
+  const auto [first, last] = std::ranges::minmax(samples, {}, &Sample::at);
+  const Axis x(0, s(last.at - first.at), from + 4, to - 4);
+  std::string lines = fmt::format("M{} {}V{}H{}", from, top, bottom, to), grid, marks;
+  for (const double tick : y.ticks(4)) grid += fmt::format("M{} {}H{}", from, coordinate(y.at(tick)), to);
+  for (const double tick : x.ticks(4)) {
+    lines += fmt::format("M{} {}v4", coordinate(x.at(tick)), bottom);
+    marks += label(x.at(tick), bottom + 17, "t", fmt::format("{:g}", tick));
+  }
+  return fmt::format("<path class=\"grid\" d=\"{}\"/><path class=\"axis\" d=\"{}\"/>{}{}\n", grid, lines,
+                     marks, label((from + to) / 2, height - 1, "t key", words)) +
+         dots(samples, {}, x, y, first.at);
+}
+
+/// Median, or the ends of the range that holds nine of ten.
+std::string middle_lines(const std::vector<Sample>& samples, const Axis& y, double from, double to,
+                         bool is_spread) {
+  std::vector<Duration> values;
+  for (const auto& sample : samples) values.push_back(sample.value);
+  std::ranges::sort(values);
+  std::string path;
+  for (const double share : is_spread ? std::vector{0.05, 0.95} : std::vector{0.5})
+    path += fmt::format("M{} {}H{}", from, coordinate(y.at(ms(result::quantile(values, share)))), to);
+  return fmt::format("<path class=\"nominal\" d=\"{}\"/>\n", path);
+}
+
+/// Shares of each series, so that another number of samples makes no other shape.
+std::string back_to_back(const std::vector<Sample>& before, const std::vector<Sample>& after, const Axis& y) {
+  const std::array counts{counts_of(before, y), counts_of(after, y)};
+  const std::array sizes{static_cast<double>(before.size()), static_cast<double>(after.size())};
+  double most = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (const auto count : counts.at(i)) most = std::max(most, static_cast<double>(count) / sizes.at(i));
+  }
+  constexpr double step = (bottom - top) / bins;
+  std::array<std::string, 2> paths;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      if (counts.at(i).at(bin) == 0) continue;
+      const double length =
+          std::max(half * static_cast<double>(counts.at(i).at(bin)) / sizes.at(i) / most, 1.5);
+      paths.at(i) += fmt::format("M{} {}h{}v{}H{}z", middle,
+                                 coordinate(bottom - step * static_cast<double>(bin + 1) + 0.5),
+                                 coordinate(i == 0 ? -length : length), coordinate(step - 1), middle);
+    }
+  }
+  return fmt::format(
+      "<path class=\"count was\" d=\"{}\"/><path class=\"count\" d=\"{}\"/><path class=\"axis\" d=\"M{} {}V{}\"/>{}{}{}\n",
+      paths[0], paths[1], middle, top, bottom, label(middle - 6, bottom + 17, "t end", "old"),
+      label(middle + 6, bottom + 17, "t start", "new"),
+      label(middle, height - 1, "t", fmt::format("shares, up to {:.0f} %", 100 * most)));
+}
+
 }  // namespace
+
+std::vector<Sample> thinned(std::vector<Sample> samples) {
+  if (samples.size() <= most_dots) return samples;
+  constexpr std::size_t kept = 50;
+  std::ranges::nth_element(samples, samples.begin() + kept, std::greater{}, &Sample::value);
+  std::vector<Sample> out(samples.begin(), samples.begin() + kept);
+  std::sort(samples.begin() + kept, samples.end());
+  const std::size_t rest = samples.size() - kept;
+  const std::size_t wanted = most_dots - kept;
+  for (std::size_t i = 0; i < wanted; ++i) out.push_back(samples[kept + i * rest / wanted]);
+  return out;
+}
+
+std::string pair_plot(const Book& book, std::string_view words, const std::vector<Sample>& before,
+                      const std::vector<Sample>& after, bool is_spread) {
+  if (before.empty() || after.empty()) return {};
+  auto all = before;
+  all.insert(all.end(), after.begin(), after.end());
+  const Axis y = scale_of(all, {});
+  std::string marks;
+  for (const double tick : y.ticks(4))
+    marks += label(left - 6, y.at(tick) + 4, "t end", fmt::format("{:g}", tick));
+  marks += label(4, top + 6, "t start", "ms") + label(4, bottom + 17, "t start", "s");
+  return svg_begin(book, words) + marks + half_strip(thinned(before), y, left, first_right, "old") +
+         half_strip(thinned(after), y, second_left, second_right, "new") + back_to_back(before, after, y) +
+         middle_lines(before, y, left, first_right, is_spread) +
+         middle_lines(before, y, middle - half, middle, is_spread) +
+         middle_lines(after, y, second_left, second_right, is_spread) +
+         middle_lines(after, y, middle, middle + half, is_spread) + "</svg></div>\n";
+}
 
 std::string strip_plot(const Book& book, std::string_view words, const std::vector<Sample>& samples,
                        const Limits& limits, BusTime begin, BusTime end) {

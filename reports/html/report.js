@@ -20,16 +20,18 @@
   // ---- filter ----
   var form = by("filter"), q = by("q"), shown = by("shown");
   var boxes = all("input[name=v]", form);
-  // What differs is shown twice: by itself, and in the whole table, where it is counted.
-  var kinds = { cause: [], requirement: [], "case": [], entry: [], again: [] };
-  var plural = { cause: "causes", requirement: "requirements", "case": "cases", entry: "entries" };
-  all("#causes article").forEach(function (e) { kinds.cause.push({ element: e }); });
-  all("#requirements li[data-v]").forEach(function (e) { kinds.requirement.push({ element: e }); });
-  all("#cases li[data-v]").forEach(function (e) { kinds["case"].push({ element: e }); });
-  all("#dictionary .whole tr[data-v]").forEach(function (e) { kinds.entry.push({ element: e }); });
-  all("#dictionary .differs tr[data-v]").forEach(function (e) { kinds.again.push({ element: e }); });
+  // The lists of the page, the last one first: it is the one with the most detail. What is shown a second time
+  // follows the filter and is not counted.
+  var lists = all("[data-rows]").reverse().map(function (list) {
+    var rows = all("[data-v]", list).map(function (e) { return { element: e, again: e.closest("[data-again]") !== null }; });
+    return {
+      one: list.dataset.row, many: list.dataset.rows, rows: rows,
+      total: rows.filter(function (row) { return !row.again; }).length,
+      isLong: list.querySelector(".rows") !== null
+    };
+  });
   // Lists first: a group is empty when its lists are.
-  var groups = all("#requirements .rows, #cases .rows").concat(all("#requirements .group, #cases .group, #dictionary .group"));
+  var groups = all("[data-rows] .rows").concat(all("[data-rows] .group"));
   // A long table is folded; what is looked for in it is shown.
   var tables = all("#dictionary details").map(function (e) { return { element: e, opened: false }; });
   var few = 400;
@@ -37,7 +39,8 @@
   function textOf(entry) {
     if (entry.text === undefined) {
       var group = entry.element.closest(".group");
-      var heading = group ? group.querySelector("h3").textContent : "";
+      var title = group && group.querySelector("h3");
+      var heading = title ? title.textContent : "";
       entry.text = (heading + "/" + entry.element.textContent).toLowerCase();
     }
     return entry.text;
@@ -52,23 +55,24 @@
   function apply() {
     var want = wanted();
     var counts = [], rows = 0;
-    ["case", "requirement", "entry", "again", "cause"].forEach(function (kind) {
+    lists.forEach(function (list) {
       var visible = 0;
-      kinds[kind].forEach(function (entry) {
+      list.rows.forEach(function (entry) {
         var fits = !want.verdicts.length || want.verdicts.indexOf(entry.element.dataset.v) >= 0;
         fits = fits && want.words.every(function (word) { return textOf(entry).indexOf(word) >= 0; });
         hide(entry.element, !fits);
-        if (fits) visible += 1;
+        if (fits && !entry.again) visible += 1;
       });
-      if (kind === "again") return;
-      if (kind !== "entry") rows += visible;
-      var total = kinds[kind].length;
-      if (total) counts.push(visible + " of " + total + " " + (total === 1 ? kind : plural[kind]));
+      if (list.isLong) rows += visible;
+      if (list.total) counts.push(visible + " of " + list.total + " " + (list.total === 1 ? list.one : list.many));
     });
     // So many are laid out at once: the page then has its true length.
-    document.querySelector("main").classList.toggle("narrowed", rows < few);
+    var main = document.querySelector("main");
+    main.classList.toggle("narrowed", rows < few);
     groups.forEach(function (group) { hide(group, !group.querySelector("[data-v]:not([hidden])")); });
     var active = want.words.length || want.verdicts.length;
+    // Whoever has chosen gets on paper what is on the screen.
+    main.classList.toggle("chosen", Boolean(active));
     tables.forEach(function (table) {
       var open = Boolean(active) && table.element.querySelectorAll("tr[data-v]:not([hidden])").length < few;
       if (open && !table.element.open) { table.element.open = true; table.opened = true; }

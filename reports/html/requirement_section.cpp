@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "reports/html/bar.hpp"
+#include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/sections.hpp"
 #include "reports/text_tools.hpp"
@@ -53,10 +53,7 @@ std::string requirement_section(const Book& book) {
     }
     out += row_lists("requirements", rows) + "</div>\n";
   }
-  return fmt::format(
-      "<section id=\"requirements\" aria-labelledby=\"requirements-title\">\n<h2 id=\"requirements-title\">"
-      "Requirements</h2>\n{}</section>\n",
-      out);
+  return section("requirements", "Requirements", out, {"requirement", "requirements"});
 }
 
 }  // namespace conform::reports::html

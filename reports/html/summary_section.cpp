@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "base/text.hpp"
 #include "reports/html/bar.hpp"
+#include "reports/html/facts.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/outcomes.hpp"
 #include "reports/html/sections.hpp"
@@ -16,55 +16,6 @@ namespace conform::reports::html {
 namespace {
 
 using result::RunResult;
-
-struct Label {
-  std::string_view name, shown;
-};
-/// Properties by the names under which a reader knows them; others keep the names they have.
-constexpr std::array labels{
-    Label{"dut.node_id", "Node-ID"},
-    Label{"dut.device_type", "Device type (1000h)"},
-    Label{"dut.vendor_id", "Vendor-ID (1018h:01)"},
-    Label{"dut.product_code", "Product code (1018h:02)"},
-    Label{"dut.revision", "Revision (1018h:03)"},
-    Label{"dut.serial", "Serial number (1018h:04)"},
-    Label{"dut.name", "Device name (1008h)"},
-    Label{"dut.hardware_version", "Hardware version (1009h)"},
-    Label{"dut.software_version", "Software version (100Ah)"},
-    Label{"dut.description", "Device description"},
-    Label{"dut.description_digest", "SHA-256 of the description"},
-    Label{"input.profile", "Device profile, SHA-256"},
-    Label{"input.waivers", "Waivers, SHA-256"},
-    Label{"input.recording", "Recorded trace, SHA-256"},
-    Label{"bundle.inputs", "SHA-256 of all that it was made of"},
-    Label{"can.interface", "Interface"},
-    Label{"can.driver", "Adapter, driver"},
-    Label{"can.bit_rate", "Bit rate (bit/s)"},
-    Label{"can.driver_version", "Version of the driver"},
-    Label{"can.firmware", "Firmware of the adapter"},
-    Label{"can.adapter", "Place of the adapter"},
-    Label{"can.sample_point", "Sample point"},
-    Label{"can.stamps", "Time stamps"},
-    Label{"can.transmit_queue", "Transmit queue (frames)"},
-    Label{"can.receive_buffer", "Receive buffer (bytes)"},
-    Label{"can.state", "Controller before the run"},
-    Label{"health.state", "Controller after the run"},
-    Label{"health.error_frames", "Error frames"},
-    Label{"health.frames_lost", "Frames that the host lost"},
-    Label{"health.bus_offs", "Times bus-off"},
-    Label{"health.full_transmit_queue", "Waits for the transmit queue"},
-    Label{"health.late_frames", "Frames looked at late"},
-    Label{"health.worst_lateness", "Latest look at a frame"},
-    Label{"host.kernel", "Kernel of the host"},
-    Label{"suite.digest", "Digest of the suite"},
-    Label{"suite.own", "Own scenarios"},
-    Label{"run.seed", "Seed"},
-    Label{"run.shuffle", "Order of the cases drawn by"},
-    Label{"run.allowed", "Highest risk allowed"},
-    Label{"run.command", "Command"},
-    Label{"simulation.defects", "Defects simulated"},
-    Label{"simulation.variants", "Variants simulated"},
-};
 
 std::string verdict_sentence(const RunResult& run, int code) {
   switch (code) {
@@ -115,29 +66,7 @@ std::string verdict_card(const Book& book) {
 
 std::string facts(const RunResult& run) {
   std::string out;
-  const auto add = [&](std::string_view label, std::string_view value) {
-    out += fact(sentence(label), clipped(value, 1000));
-  };
-  // The device first, then the bus, then what was asked for.
-  const auto rank = [](const result::Property& property) {
-    constexpr std::array<std::string_view, 8> order{"dut.",        "eds.", "can.",   "health.",
-                                                    "simulation.", "run.", "suite.", "host."};
-    return std::ranges::find_if(order, [&](auto front) { return property.name.starts_with(front); }) -
-           order.begin();
-  };
-  auto properties = run.properties;
-  std::ranges::stable_sort(properties, {}, rank);
-  for (const auto& property : properties) {
-    const auto known = std::ranges::find(labels, property.name, &Label::name);
-    const std::string name = clip(prose(property.name), 100);
-    add(known == labels.end() ? std::string_view(name) : known->shown, property.value);
-  }
-  add("Tool", run.tool);
-  add("Host", run.host);
-  const bool simulated = run.started_utc_ns == 0;
-  add("Started", simulated ? "simulation, on virtual time" : utc_timestamp(run.started_utc_ns));
-  add("Bus time", brief_duration(run.elapsed));
-  add("Exit code", std::to_string(result::exit_code(run)));
+  for (const auto& each : facts_of(run)) out += fact(sentence(each.label), clipped(each.value, 1000));
   return out;
 }
 

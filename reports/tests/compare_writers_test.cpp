@@ -87,7 +87,8 @@ TEST_CASE("nothing that a device says becomes a command of a terminal, a log or 
 TEST_CASE("of two long values both are shown") {
   result::Comparison comparison;
   const std::string same(5000, '=');
-  comparison.entries = {{"1021h:00", same + std::string(5000, 'A'), same + std::string(5000, 'B')}};
+  comparison.entries = {
+      {{Index(0x1021), SubIndex(0)}, same + std::string(5000, 'A'), same + std::string(5000, 'B')}};
   const auto text = compare_text(comparison, names, {});
   CHECK(holds(text, "BBBB"));
   CHECK(holds(text, "AAAA"));

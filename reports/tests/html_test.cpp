@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -13,33 +12,18 @@
 
 #include "catch.hpp"
 #include "fixture.hpp"
+#include "page.hpp"
 #include "reports/html/axis.hpp"
 #include "reports/html/card.hpp"
 #include "reports/html/markup.hpp"
 
 using namespace conform;
 using namespace conform::reports;
+using namespace conform::reports::testing;
 using namespace std::chrono_literals;
 using result::RunResult;
 
 namespace {
-
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
-
-pugi::xml_document parsed(const std::string& page) {
-  pugi::xml_document document;
-  const auto outcome = document.load_buffer(page.data(), page.size(),
-                                            pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
-  INFO(outcome.description() << " at " << page.substr(static_cast<std::size_t>(outcome.offset), 80));
-  REQUIRE(outcome);
-  return document;
-}
-
-std::string text_of(const pugi::xml_node& node) {
-  std::string out;
-  for (const auto& found : node.select_nodes(".//text()")) out += found.node().value();
-  return out;
-}
 
 /// A run with everything that a page can show.
 RunResult full_run() {
@@ -70,20 +54,7 @@ RunResult full_run() {
 TEST_CASE("A page is well-formed, its ids are unique and its links lead somewhere") {
   for (const auto& run :
        {full_run(), testing::hostile_run(testing::hostile_text()), testing::aborted_run(), RunResult{}}) {
-    const auto document = parsed(html_report(run));
-    std::set<std::string> ids;
-    for (const auto& found : document.select_nodes("//@id"))
-      CHECK(ids.insert(found.attribute().value()).second);
-    for (const auto& found : document.select_nodes("//@href")) {
-      const std::string target = found.attribute().value();
-      INFO(target);
-      REQUIRE(target.starts_with("#"));
-      CHECK(ids.contains(target.substr(1)));
-    }
-    for (const auto& found : document.select_nodes("//@aria-labelledby"))
-      CHECK(ids.contains(found.attribute().value()));
-    for (const auto& found : document.select_nodes("//label/@for"))
-      CHECK(ids.contains(found.attribute().value()));
+    check_names(parsed(html_report(run)));
   }
 }
 
@@ -139,31 +110,11 @@ TEST_CASE("A long dictionary is folded, and ten thousand entries are a page that
 }
 
 TEST_CASE("Headings of a page begin with one of the first level and skip none") {
-  const auto document = parsed(html_report(full_run()));
-  int before = 0;
-  for (const auto& found : document.select_nodes("//h1|//h2|//h3|//h4|//h5")) {
-    const int level = found.node().name()[1] - '0';
-    INFO(text_of(found.node()));
-    CHECK(level <= before + 1);
-    before = level;
-  }
-  CHECK(document.select_nodes("//h1").size() == 1);
-  CHECK(document.select_nodes("//main").size() == 1);
+  check_headings(parsed(html_report(full_run())));
 }
 
 TEST_CASE("Nothing on a page is fetched, and only our own style and script are obeyed") {
-  const auto document =
-      parsed(html_report(testing::hostile_run("<script>alert(1)</script><style>*{}</style>")));
-  CHECK(document.select_nodes("//@src|//link|//iframe|//object|//embed|//img|//base").empty());
-  // A policy without 'unsafe-inline' ignores these, so a page that needed them would be broken.
-  CHECK(document.select_nodes("//@style|//@onclick|//@onload").empty());
-  CHECK(document.select_nodes("//script").size() == 1);
-  CHECK(document.select_nodes("//style").size() == 1);
-  const std::string policy =
-      document.select_node("//meta[@http-equiv='Content-Security-Policy']/@content").attribute().value();
-  CHECK(policy.starts_with("default-src 'none'; style-src 'sha256-"));
-  CHECK(contains(policy, "script-src 'sha256-"));
-  CHECK_FALSE(contains(policy, "unsafe"));
+  check_alone(parsed(html_report(testing::hostile_run("<script>alert(1)</script><style>*{}</style>"))));
 }
 
 TEST_CASE("A cause links to its capture where the run has written one, and to nothing else") {
@@ -200,10 +151,7 @@ TEST_CASE("Strings of a device stay text on a page") {
 
 TEST_CASE("No byte of a device reaches a page as a control character") {
   const std::string page = html_report(testing::hostile_run(testing::hostile_text()));
-  CHECK(std::ranges::none_of(page, [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F;
-  }));
+  CHECK_FALSE(has_control_characters(page));
   CHECK(contains(page, "\\x00\\x01\\x02"));
 }
 

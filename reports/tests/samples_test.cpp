@@ -5,9 +5,12 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "catch.hpp"
+#include "comparison.hpp"
 #include "fixture.hpp"
+#include "reports/compare.hpp"
 #include "reports/console.hpp"
 #include "reports/formats.hpp"
 
@@ -54,6 +57,20 @@ TEST_CASE("The terminal shows its sample") {
   compare_with_sample("terminal.txt", lines_of(testing::sample_run(), {}));
   compare_with_sample("terminal-80.txt", lines_of(testing::sample_run(), {false, 80, 0}));
   compare_with_sample("terminal-colour.ansi", lines_of(testing::sample_run(), {true, 100, 0}));
+}
+
+TEST_CASE("A comparison writes its samples in every format") {
+  for (const auto& [name, text] : {std::pair("comparison", std::string("motor 2")),
+                                   std::pair("comparison-hostile", testing::hostile_text())}) {
+    const auto pair = testing::sample_pair(text);
+    const auto comparison = result::compare(pair.before, pair.after);
+    const CompareOptions options{false, "old.json", "new.json"};
+    const std::string front(name);
+    compare_with_sample(front + ".html", compare_html(comparison, options));
+    compare_with_sample(front + ".json", compare_json(comparison, options));
+    compare_with_sample(front + ".md", compare_markdown(comparison, options));
+    compare_with_sample(front + ".txt", compare_text(comparison, options, {}));
+  }
 }
 
 TEST_CASE("Formats are found by their names") {

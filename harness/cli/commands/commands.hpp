@@ -16,6 +16,7 @@ struct Profile;
 namespace conform::cli {
 
 struct LoadedSuites;
+struct Proof;
 
 inline constexpr int exit_usage = 2;
 inline constexpr int exit_environment = 3;
@@ -91,6 +92,7 @@ struct WaiveCommand {
 struct CompareCommand {
   std::string before, after;    ///< result.json or journal
   std::string format = "text";  ///< text, markdown, json
+  std::string html;             ///< file of the page, beside what is printed; empty: none
   bool strict = false;          ///< new warnings are worse
   std::string color = "auto";
 };
@@ -218,6 +220,8 @@ struct SelftestCommand {
   std::size_t pairs = 0;            ///< with blame
   std::string blame_page;           ///< file for docs/blame.md
   std::string patterns;             ///< file for suites/patterns/reference-node.json
+  bool variants = false;            ///< legal variants instead of the defects: none may be failed
+  bool full = false;                ///< the defects with blame, and legal variants and edits beside them
   bool edits = false;               ///< edits of every entry of the dictionary instead of the defects
   bool mutants = false;             ///< mutants instead of the defects
   std::vector<std::string> mutant;  ///< with mutants: only these numbers, rooms, files
@@ -225,11 +229,12 @@ struct SelftestCommand {
   bool quick = false;               ///< with mutants: without the scenarios that take long
   unsigned jobs = 0;                ///< 0: the machine's cores
   std::string markdown;             ///< file for docs/proof.md, with mutants for docs/mutants.md
+  std::string html;                 ///< file of the page
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);
-/// Its --mutants.
+/// Its --mutants; what became of them is added to the proof.
 [[nodiscard]] int mutants_command(const SelftestCommand& options, const device::Profile& profile,
-                                  const LoadedSuites& suites);
+                                  const LoadedSuites& suites, Proof& proof);
 
 /// Hidden: benchmark helpers used by scripts/benchmark.
 struct BenchCommand {

@@ -22,7 +22,7 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30U;
 
 int judge_command(const JudgeCommand& options) {
   constexpr const char* tool = "canopen-conform " CONFORM_VERSION;
-  RunReports files(absolute_paths(options.reports, {}, {}, options.bundle));
+  RunReports files(absolute_paths(options.reports, {.bundle = options.bundle}));
   if (auto key = files.sign_with(options.sign); !key) return report_error(key.error(), exit_usage);
   if (auto begun = files.begin(tool, {options.capture, options.profile, options.eds, options.sign}); !begun)
     return report_error(begun.error(), exit_environment);

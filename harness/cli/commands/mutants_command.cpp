@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "base/files.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/pages/mutants_page.hpp"
+#include "cli/pages/proof_page.hpp"
 #include "cli/proof/explained.hpp"
 #include "cli/proof/mutants.hpp"
 #include "cli/run/terminal.hpp"
@@ -22,7 +24,7 @@ constexpr double least_failed = 93.0;
 }  // namespace
 
 int mutants_command(const SelftestCommand& options, const device::Profile& profile,
-                    const LoadedSuites& suites) {
+                    const LoadedSuites& suites, Proof& proof) {
   const auto* build = mutant_build();
   if (build == nullptr) {
     return report_error(Error{.what = "this program has no mutants",
@@ -53,13 +55,16 @@ int mutants_command(const SelftestCommand& options, const device::Profile& profi
   for (const auto& line : stale) out += fmt::format("STALE {}: {}\n", build->explained, line);
   out += fmt::format("{} places could not be mutated: the compiler refused\n", build->dropped);
   print(out);
-  if (!options.markdown.empty()) {
+  // With everything else, that is the page of the defects.
+  if (!options.markdown.empty() && !options.full) {
     const auto written = write_file_atomically(options.markdown, mutants_page(*fates));
     if (!written) return report_error(written.error(), exit_environment);
   }
   const auto score = score_of(*fates);
   const bool enough = score.share_noticed() >= least_noticed && score.share_failed() >= least_failed;
-  return enough && stale.empty() ? 0 : 1;
+  proof.stale = stale;
+  proof.mutants = std::move(*fates);
+  return enough && proof.stale.empty() ? 0 : 1;
 }
 
 }  // namespace conform::cli

@@ -12,7 +12,8 @@ namespace conform::cli {
 int report_command(const ReportCommand& options) {
   auto source = read_run(options.source);
   if (!source) return report_error(source.error(), exit_usage);
-  auto paths = absolute_paths(options.reports, options.capture, {}, options.captures, options.bundle);
+  auto paths = absolute_paths(
+      options.reports, {.capture = options.capture, .captures = options.captures, .bundle = options.bundle});
   const bool chosen =
       !paths.reports.empty() || !paths.capture.empty() || !paths.captures.empty() || !paths.bundle.empty();
   if (!paths.captures.empty()) {

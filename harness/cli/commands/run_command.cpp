@@ -369,8 +369,10 @@ int run_command(const RunCommand& options) {
   catch_signals();
   // Also into a file, so that what was said is there when the program is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  RunReports reports(
-      absolute_paths(options.reports, options.capture, options.candump, options.captures, options.bundle));
+  RunReports reports(absolute_paths(options.reports, {.capture = options.capture,
+                                                      .candump = options.candump,
+                                                      .captures = options.captures,
+                                                      .bundle = options.bundle}));
   if (options.dry_run) {
     RunReports none({});
     return run(options, none);

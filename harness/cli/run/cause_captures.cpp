@@ -8,6 +8,7 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
+#include "base/text_bytes.hpp"
 #include "can/pcapng.hpp"
 #include "cli/replay/section.hpp"
 #include "result/cause_captures.hpp"
@@ -30,8 +31,7 @@ bool is_ours(const fs::path& path) {
   std::string head(enough, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(file.gcount()));
-  const ByteView bytes(reinterpret_cast<const std::uint8_t*>(head.data()), head.size());
-  return can::pcapng_application(bytes).starts_with("canopen-conform ");
+  return can::pcapng_application(bytes_of(head)).starts_with("canopen-conform ");
 }
 
 result::FrameRange with_neighbours(result::FrameRange range, const result::CaseResult& one,

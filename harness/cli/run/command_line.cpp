@@ -4,32 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
-#include "base/text.hpp"
+#include "base/shell_word.hpp"
 #include "reports/formats.hpp"
 
 namespace conform::cli {
 namespace {
-
-bool is_plain(char c) {
-  constexpr std::string_view others = "_-./:=,@%+";
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-         others.find(c) != std::string_view::npos;
-}
-
-/// Every byte that is not plain by its number: it survives a terminal, a mail and a text file.
-std::string escaped_word(std::string_view argument) {
-  std::string out = "$'";
-  for (const char c : argument) {
-    if (is_plain(c) || c == ' ') {
-      out += c;
-    } else {
-      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    }
-  }
-  return out + "'";
-}
 
 /// "--junit" or "--junit=FILE".
 bool says_where(std::string_view word) {
@@ -41,21 +20,6 @@ bool says_where(std::string_view word) {
 }
 
 }  // namespace
-
-std::string shell_word(std::string_view argument) {
-  if (!argument.empty() && std::ranges::all_of(argument, is_plain)) return std::string(argument);
-  // What has to be made printable would not come back from a report as it was.
-  if (printable(argument) != argument) return escaped_word(argument);
-  std::string out = "'";
-  for (const char c : argument) {
-    if (c == '\'') {
-      out += "'\\''";
-    } else {
-      out += c;
-    }
-  }
-  return out + "'";
-}
 
 std::string shell_line(std::span<char* const> arguments) {
   std::string out;

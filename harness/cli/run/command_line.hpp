@@ -4,14 +4,11 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace conform::cli {
 
-/// One argument as a shell takes it: as it is where nothing in it means anything to a shell, otherwise
-/// quoted; control characters and bytes that are no UTF-8 as $'\x1b', which bash, zsh and ksh know.
-[[nodiscard]] std::string shell_word(std::string_view argument);
-/// All of them with a blank between, but for options that only say where results go (--junit FILE, --bundle,
+/// All arguments with a blank between, but for options that only say where results go (--junit FILE,
+/// --bundle,
 /// --journal ...): who does it again wants no report written over, and two runs that differ in nothing else
 /// are the same run.
 [[nodiscard]] std::string shell_line(std::span<char* const> arguments);

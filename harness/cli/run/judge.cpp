@@ -8,6 +8,7 @@
 #include <span>
 
 #include "base/text.hpp"
+#include "base/text_bytes.hpp"
 #include "can/candump_log.hpp"
 #include "can/capture_marks.hpp"
 #include "can/pcapng.hpp"
@@ -107,8 +108,7 @@ Result<Recording> read_recording(std::string_view content, const std::string& wh
   if (content.empty()) return fail("the file is empty", where, "a pcapng file or a candump log (candump -l)");
   constexpr std::string_view section_header = "\x0A\x0D\x0D\x0A";
   if (content.starts_with(section_header)) {
-    auto loaded = can::read_pcapng(
-        ByteView(reinterpret_cast<const std::uint8_t*>(content.data()), content.size()), where, only);
+    auto loaded = can::read_pcapng(bytes_of(content), where, only);
     if (!loaded) return std::unexpected(loaded.error());
     return with_directions(std::move(*loaded));
   }

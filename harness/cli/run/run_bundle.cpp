@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "bundle/verify.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/run/run_frames.hpp"
 #include "reports/formats.hpp"
 #include "reports/tally.hpp"
 
@@ -96,7 +97,7 @@ Result<void> RunBundle::seal(const RunResult& run, const journal::ReportPaths& a
     formats.push_back(&format);
     beside.reports.emplace(format.name, "/" + name_of(format));
   }
-  if (frames.pcapng) beside.reports.emplace("capture", "/captures/run.pcapng");
+  if (frames.pcapng) beside.reports.emplace("capture", "/" + std::string(bundled_frames));
   if (!frames.causes.empty()) beside.captures = "/captures";
   for (const auto* format : formats) {
     beside.path = "/" + name_of(*format);
@@ -104,7 +105,7 @@ Result<void> RunBundle::seal(const RunResult& run, const journal::ReportPaths& a
         {name_of(*format), format->name == "json" ? role::result : role::report, format->write(run, beside)});
   }
   if (frames.pcapng) {
-    contents.push_back({"captures/run.pcapng", role::capture, std::move(*frames.pcapng)});
+    contents.push_back({std::string(bundled_frames), role::capture, std::move(*frames.pcapng)});
   } else {
     manifest.left_out.push_back({role::capture, printable(frames.why_not)});
   }

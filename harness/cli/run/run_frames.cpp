@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/files.hpp"
+#include "base/text_bytes.hpp"
 #include "bundle/digest.hpp"
 #include "bundle/verify.hpp"
 #include "can/pcapng.hpp"
@@ -17,7 +18,7 @@ constexpr std::uint64_t largest_capture = std::uint64_t{4} << 30U;
 
 Result<can::LoadedCapture> commented(std::string_view bytes, const std::string& path,
                                      const result::RunResult& run) {
-  auto loaded = can::read_pcapng(bundle::bytes_of(bytes), path);
+  auto loaded = can::read_pcapng(bytes_of(bytes), path);
   if (!loaded) return loaded;
   result::annotate(loaded->capture, run);
   loaded->info.tool = run.tool;
@@ -29,7 +30,7 @@ Result<can::LoadedCapture> frames_in(const std::string& path, const result::RunR
   const auto packed = bundle::contents(path, {role::capture});
   if (!packed) return commented_frames(path, run);
   for (const auto& each : *packed) {
-    if (each.name.ends_with(".pcapng")) return commented(each.bytes, path, run);
+    if (each.name == bundled_frames) return commented(each.bytes, path, run);
   }
   return fail("has no capture in it", path);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -10,6 +11,9 @@
 #include "result/run_result.hpp"
 
 namespace conform::cli {
+
+/// Where all frames of a run are in its bundle; those of its causes are in the same folder.
+inline constexpr std::string_view bundled_frames = "captures/run.pcapng";
 
 /// Of a capture file (pcapng), commented with what the run found. Error: it cannot be read.
 [[nodiscard]] Result<can::LoadedCapture> commented_frames(const std::string& path,

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/files.hpp"
+#include "base/text_bytes.hpp"
 #include "can/candump_log.hpp"
 #include "can/pcapng.hpp"
 #include "cli/run/cause_captures.hpp"
@@ -29,16 +30,13 @@ std::string absolute(const std::string& path) {
 }
 
 journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
-                                    const std::string& capture, const std::string& candump,
-                                    const std::string& captures, const std::string& bundle) {
-  journal::ReportPaths out{.capture = absolute(capture),
-                           .candump = absolute(candump),
-                           .captures = absolute(captures),
-                           .bundle = absolute(bundle)};
+                                    journal::ReportPaths places) {
+  for (auto* const path : {&places.capture, &places.candump, &places.captures, &places.bundle})
+    *path = absolute(*path);
   for (const auto& [format, path] : asked) {
-    if (!path.empty()) out.reports.emplace(format, absolute(path));
+    if (!path.empty()) places.reports.emplace(format, absolute(path));
   }
-  return out;
+  return places;
 }
 
 std::vector<std::string> RunReports::all() const {
@@ -164,7 +162,7 @@ void RunReports::put(result::RunResult& run, const std::string& path, ByteView b
 }
 
 void RunReports::put(result::RunResult& run, const std::string& path, const std::string& text) {
-  put(run, path, ByteView(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  put(run, path, bytes_of(text));
 }
 
 void RunReports::write_words(result::RunResult& run) {

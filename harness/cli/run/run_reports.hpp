@@ -17,11 +17,10 @@
 
 namespace conform::cli {
 
-/// What was asked for of the formats, by their names: "junit" and a path; an empty one is not asked for.
+/// What was asked for, as absolute paths: of the formats by their names ("junit"), where an empty path is not
+/// asked for, and of the others in `places`.
 [[nodiscard]] journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
-                                                  const std::string& capture, const std::string& candump,
-                                                  const std::string& captures = {},
-                                                  const std::string& bundle = {});
+                                                  journal::ReportPaths places);
 
 /// `path` from the root on, so that it names the same file in another process; empty stays empty.
 [[nodiscard]] std::string absolute(const std::string& path);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shell_word.hpp"
 #include "catch.hpp"
 
 using namespace conform;
@@ -15,7 +16,7 @@ namespace {
 
 /// What a shell makes of the words, each ended by a NUL.
 std::string words_by_shell(const std::string& line) {
-  const std::string command = "bash -c " + cli::shell_word("printf '%s\\0' " + line);
+  const std::string command = "bash -c " + shell_word("printf '%s\\0' " + line);
   std::string out;
   FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(cert-env33-c): that is what is tested
   REQUIRE(pipe != nullptr);
@@ -43,11 +44,4 @@ TEST_CASE("a command line comes back from a shell word for word") {
   // It can be shown: one line, nothing that a terminal obeys.
   CHECK(line.find('\n') == std::string::npos);
   CHECK(line.find('\x1B') == std::string::npos);
-}
-
-TEST_CASE("what means nothing to a shell is not quoted") {
-  CHECK(cli::shell_word("--junit=out/r-1.xml") == "--junit=out/r-1.xml");
-  CHECK(cli::shell_word("2000h..5FFFh") == "2000h..5FFFh");
-  CHECK(cli::shell_word("cia301/sdo/*") == "'cia301/sdo/*'");
-  CHECK(cli::shell_word("") == "''");
 }

@@ -7,8 +7,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
+REPORTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../reports")
 SCENARIOS = "cia301/dictionary/1003-error-history"
 
 
@@ -69,6 +71,41 @@ class Compare(unittest.TestCase):
         self.assertEqual((told["canopen_conform_comparison"], told["exit_code"], told["same"]), (1, 1, False))
         self.assertEqual(told["new_causes"][0]["requirement"], "OD-1003-06")
         self.assertTrue(json.loads(self.ended(run("compare", self.bad, self.bad, "-f", "json"), 0))["same"])
+
+    def test_the_json_is_as_its_schema_says(self):
+        third = self.result("third", "--defect", "edit:1003h:01:absent", "--seed", "3")
+        paths = []
+        for old, new in ((self.good, self.bad), (self.bad, self.good), (self.good, self.good), (self.good, third)):
+            paths.append(self.path(f"comparison-{len(paths)}.json"))
+            with open(paths[-1], "w", encoding="utf-8") as file:
+                file.write(run("compare", old, new, "-f", "json").stdout)
+        done = subprocess.run([sys.executable, os.path.join(REPORTS, "tests/check_comparison.py"),
+                               os.path.join(REPORTS, "schema/comparison.schema.json"), *paths], capture_output=True, text=True, timeout=60)
+        if done.returncode == 77:
+            self.skipTest(done.stdout)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_a_page_is_written_beside_what_is_printed(self):
+        page = self.path("page.html")
+        text = self.ended(run("compare", self.good, self.bad, "--html", page), 1)
+        self.assertIn("worse: 1 new failure", text)
+        with open(page, encoding="utf-8") as file:
+            html = file.read()
+        for part in ("Worse", "OD-1003-06", "good.json", "bad.json", "1003-nonzero-write-accepted", "Exit code 1"):
+            self.assertIn(part, html)
+        ElementTree.fromstring(html)
+
+    def test_a_page_is_not_written_over_what_is_compared_nor_where_it_cannot_be(self):
+        with open(self.good, "rb") as file:
+            before = file.read()
+        done = run("compare", self.good, self.bad, "--html", os.path.join(self.folder, ".", "good.json"))
+        self.ended(done, 2)
+        self.assertIn("over what is compared", done.stderr)
+        with open(self.good, "rb") as file:
+            self.assertEqual(file.read(), before)
+        done = run("compare", self.good, self.bad, "--html", self.path("none/page.html"))
+        self.ended(done, 3)
+        self.assertIn("none/page.html", done.stderr)
 
     def test_what_cannot_be_read_exits_2_and_says_why(self):
         broken, empty, later = self.path("broken.json"), self.path("empty.json"), self.path("later.json")

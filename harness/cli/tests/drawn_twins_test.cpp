@@ -7,12 +7,12 @@
 #include <string>
 
 #include "catch.hpp"
+#include "cli/proof/legal_variants.hpp"
 #include "cli/proof/processes.hpp"
 #include "cli/proof/selftest.hpp"
 #include "device/description.hpp"
 #include "drawn_description.hpp"
 #include "eds/read.hpp"
-#include "legal_variants.hpp"
 #include "shipped.hpp"
 
 using namespace conform;

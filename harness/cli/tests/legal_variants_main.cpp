@@ -15,7 +15,7 @@
 #include "base/files.hpp"
 #include "base/text.hpp"
 #include "can/candump_log.hpp"
-#include "legal_variants.hpp"
+#include "cli/proof/legal_variants.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "catch.hpp"
-#include "legal_variants.hpp"
+#include "cli/proof/legal_variants.hpp"
 #include "shipped.hpp"
 #include "variants/variant.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "catch.hpp"
 
 using namespace conform;
@@ -54,6 +55,16 @@ std::size_t answers_between(const std::string& step, const std::string& before, 
   const auto comparison = compare(old, now);
   return comparison.observed.size() + comparison.entries.size();
 }
+
+/// "2000h:01: 1 -> 2", with a '~' in front of what may be a value of the process.
+std::vector<std::string> entries_between(const RunResult& before, const RunResult& after) {
+  std::vector<std::string> out;
+  for (const auto& each : compare(before, after).entries)
+    out.push_back((each.is_process ? "~" : "") + to_string(each.object) + ": " + each.before + " -> " +
+                  each.after);
+  return out;
+}
+using Texts = std::vector<std::string>;
 
 }  // namespace
 
@@ -245,8 +256,53 @@ TEST_CASE("an entry that holds another value is told, but none that a device cha
   CHECK(answers_between("upload 1018h:03", "0001 0000h", "0002 0000h") == 1);
   CHECK(answers_between("upload 1018h:03 by block", "7 (1 segments in 1 sub-blocks)", "7 (2 segments)") == 0);
   CHECK(answers_between("upload 1013h:00", "00DB FD78h", "008E 7311h") == 0);
-  CHECK(answers_between("upload 6000h:01", "00h", "01h") == 0);
-  CHECK(answers_between("upload 6000h:01", "00h", "abort 0602 0000h (object does not exist)") == 1);
+}
+
+TEST_CASE("a value that may be one of the process is told, but is no difference") {
+  for (const auto* object : {"6000h:01", "2000h:01"}) {
+    const auto step = std::string("upload ") + object;
+    const auto old = run_of({answered(step, "00h")}), now = run_of({answered(step, "01h")});
+    CHECK(entries_between(old, now) == Texts{"~" + std::string(object) + ": 00h -> 01h"});
+    CHECK(compare(old, now).is_same());
+  }
+}
+
+TEST_CASE("an entry that did not stay the same within a run is not told") {
+  auto old = run_of({answered("upload 2000h:01", "00h"), answered("upload 2000h:01 by block", "02h")});
+  old.cases[1].id = "b";
+  auto now = run_of({answered("upload 2000h:01", "01h"), answered("upload 2000h:01 by block", "01h")});
+  now.cases[1].id = "b";
+  CHECK(entries_between(old, now).empty());
+}
+
+TEST_CASE("an entry that is there in one of the runs only is told, in whatever words a run says so") {
+  const auto there = run_of({answered("upload 2003h:05", "0005h")});
+  const auto asked = run_of({answered("upload 2003h:05", "abort 0609 0011h (sub-index does not exist)")});
+  auto walked = run_of(
+      {answered("upload 2003h:05",
+                "2 of 74 values: 2003h:05: abort 0609 0011h (sub-index does not exist); 2004h:01: 02h")});
+  auto left_out = run_of({judged("a", "OD-1000-01", Verdict::not_applicable, "2003h:05")});
+  left_out.cases[0].reason = "2003h:05 is absent: abort 0602 0000h (object does not exist)";
+  for (const auto& absent : {asked, walked, left_out}) {
+    CHECK(entries_between(there, absent) == Texts{"2003h:05: 0005h -> "});
+    CHECK(entries_between(absent, there) == Texts{"2003h:05:  -> 0005h"});
+    CHECK_FALSE(compare(there, absent).is_same());
+    CHECK(entries_between(absent, absent).empty());
+  }
+  // What comes and goes within a run says nothing.
+  auto both = there;
+  both.cases.push_back(left_out.cases[0]);
+  CHECK(entries_between(both, asked).empty());
+}
+
+TEST_CASE("objects belong to the area that their index says") {
+  CHECK(area_of(Index(0x1FFF)) == Area::communication);
+  CHECK(area_of(Index(0x2000)) == Area::manufacturer);
+  CHECK(area_of(Index(0x5FFF)) == Area::manufacturer);
+  CHECK(area_of(Index(0x6000)) == Area::profile);
+  CHECK(area_of(Index(0x9FFF)) == Area::profile);
+  CHECK(area_of(Index(0xA000)) == Area::other);
+  CHECK(area_of(Index(0x0005)) == Area::other);
 }
 
 TEST_CASE("times, counts and what the process says are no difference") {
@@ -260,15 +316,25 @@ TEST_CASE("times, counts and what the process says are no difference") {
                         "EMCY 8110h (overrun), error register 11h") == 1);
 }
 
-TEST_CASE("an entry that a run found otherwise before it wrote is told") {
+TEST_CASE("an entry that a run found otherwise before it wrote is told, in every area") {
   RunResult old = run_of({judged("a", "OD-1017-05", Verdict::pass)}), now = old;
-  old.changes = {{{Index(0x1017), SubIndex(0)}, {0, 0}, "a", true},
-                 {{Index(0x6200), SubIndex(1)}, {0}, "a", true}};
-  now.changes = {{{Index(0x1017), SubIndex(0)}, {0xE8, 3}, "a", true},
-                 {{Index(0x6200), SubIndex(1)}, {1}, "a", true}};
-  const auto comparison = compare(old, now);
-  REQUIRE(comparison.entries.size() == 1);
-  CHECK(comparison.entries[0].name == "1017h:00");
+  const auto held = [](RunResult& run, std::uint16_t index, std::vector<std::uint8_t> value, bool put_back) {
+    run.changes.push_back({{Index(index), SubIndex(0)}, std::move(value), "a", put_back});
+  };
+  for (auto* run : {&old, &now}) {
+    const std::uint8_t value = run == &old ? 0 : 1;
+    held(*run, 0x1017, {value, 3}, true);
+    held(*run, 0x2000, {value}, true);
+    held(*run, 0x2001, {7}, true);
+    held(*run, 0x2002, {value}, false);
+    held(*run, 0x6200, {value}, true);
+    held(*run, 0x1003, {value}, true);
+  }
+  held(old, 0x2010, {}, true);
+  held(now, 0x2010, {5}, true);
+  CHECK(entries_between(old, now) == Texts{"1017h:00: 00 03 -> 01 03", "2000h:00: 00 -> 01",
+                                           "~2002h:00: 00 -> 01", "2010h:00: (no data) -> 05",
+                                           "~6200h:00: 00 -> 01"});
 }
 
 TEST_CASE("fewer objects of a scenario are told, others of a sample are not") {

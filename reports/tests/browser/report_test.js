@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 'use strict';
 
-// The HTML report as a reader has it: in Chromium. Usage: report_test.js SAMPLES MODULES [LARGE-PAGE]
+// The pages as a reader has them: in Chromium. Usage: report_test.js SAMPLES MODULES [LARGE-PAGE [PROOF-PAGE]]
 //
-// SAMPLES holds run.html and hostile.html, MODULES is a folder in which `install` has put the npm packages, LARGE-PAGE
-// has 5000 cases. Exit code 77, with the reason: there is no Chromium, or the packages are not there.
+// SAMPLES holds run.html, comparison.html and what hostile devices make of them, MODULES is a folder in which `install`
+// has put the npm packages, LARGE-PAGE has 5000 cases, PROOF-PAGE is what selftest --html wrote. Exit code 77, with the reason: there is no Chromium, or the packages are not there.
 
 const assert = require('node:assert/strict');
 const fs = require('node:fs');
@@ -14,7 +14,7 @@ const path = require('node:path');
 const { createRequire } = require('node:module');
 const { pathToFileURL } = require('node:url');
 
-const [samples, modules, large] = process.argv.slice(2);
+const [samples, modules, large, proof] = process.argv.slice(2);
 
 function skip(reason) {
     console.log(`skipped: ${reason}`);
@@ -35,6 +35,13 @@ try {
 }
 
 const page_of = (name) => pathToFileURL(path.resolve(samples, name)).href;
+const has_proof = proof && fs.existsSync(proof);
+const proof_url = () => pathToFileURL(path.resolve(proof)).href;
+// All pages of all kinds, by what to call them.
+const all_pages = () => [
+    ...['run.html', 'hostile.html', 'aborted.html', 'comparison.html', 'comparison-hostile.html'].map((name) => [name, page_of(name)]),
+    ...(has_proof ? [['proof', proof_url()]] : []),
+];
 const tests = [];
 const test = (name, body) => tests.push({ name, body });
 
@@ -71,7 +78,8 @@ test('the filter shows what was asked for and lives in the address', async (brow
     const { page, complaints, close } = await open(browser, page_of('run.html'));
     await page.keyboard.press('/');
     await page.keyboard.type('1003-ERROR field-write');
-    await page.waitForFunction(() => location.hash.includes('q='));
+    // A slow machine types in pieces, and the first of them is looked for before the last one has come.
+    await page.waitForFunction(() => location.hash.endsWith('field-write'));
     assert.equal(await visible_cases(page), 1);
     assert.match(await page.locator('#shown').innerText(), /^1 of 7 cases/);
     const address = page.url();
@@ -165,25 +173,127 @@ test('paper shows what is folded, in light colours', async (browser) => {
     await close();
 });
 
+test('paper leaves out cases that have nothing to tell and says so, unless the reader has chosen', async (browser) => {
+    const { page, close } = await open(browser, page_of('run.html'));
+    const passed = page.locator('#cases li[data-v="pass"]:visible'), failed = page.locator('#cases li[data-v="fail"]:visible');
+    const all = [await passed.count(), await failed.count()];
+    assert.ok(all[0] > 0 && all[1] > 0, all.join());
+    assert.equal(await page.locator('.on-paper').isVisible(), false);
+    await page.emulateMedia({ media: 'print' });
+    assert.deepEqual([await passed.count(), await failed.count()], [0, all[1]]);
+    assert.match(await page.locator('.on-paper').innerText(), /^On paper \d+ cases? (is|are) left out/);
+    await page.emulateMedia({ media: 'screen' });
+    await page.locator('#filter input[value="pass"]').check();
+    await page.waitForFunction(() => location.hash.includes('v=pass'));
+    await page.emulateMedia({ media: 'print' });
+    assert.deepEqual([await passed.count(), await failed.count()], [all[0], 0]);
+    assert.equal(await page.locator('.on-paper').isVisible(), false);
+    await close();
+});
+
 test('a telephone scrolls down only', async (browser) => {
-    for (const name of ['run.html', 'hostile.html', 'aborted.html']) {
-        const { page, close } = await open(browser, page_of(name), { viewport: { width: 390, height: 800 } });
-        assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 390, name);
+    for (const [name, url] of all_pages()) {
+        const { page, close } = await open(browser, url, { viewport: { width: 360, height: 800 } });
+        assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 360, name);
         await close();
     }
 });
 
 test('axe-core finds no violation', async (browser) => {
-    for (const name of ['run.html', 'hostile.html', 'aborted.html']) {
+    for (const [name, url] of all_pages()) {
         for (const colorScheme of ['light', 'dark']) {
             // Without its policy: the checker is a script of its own.
-            const { page, close } = await open(browser, page_of(name), { colorScheme, bypassCSP: true });
+            const { page, close } = await open(browser, url, { colorScheme, bypassCSP: true });
             await page.evaluate(() => document.querySelectorAll('details').forEach((each) => { each.open = true; }));
             await page.evaluate(axe);
             const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ['violations'] }));
             assert.deepEqual(violations.map((each) => `${each.id}: ${each.nodes[0].html}`), [], `${name}, ${colorScheme}`);
             await close();
         }
+    }
+});
+
+test('a comparison shows what got worse first, and all of it without JavaScript', async (browser) => {
+    const { page, complaints, close } = await open(browser, page_of('comparison.html'), { javaScriptEnabled: false });
+    assert.equal(await page.locator('.verdict .word').innerText(), 'Worse');
+    assert.equal(await page.locator('#new-1').isVisible(), true);
+    assert.equal(await page.locator('#times svg.plot').count(), 2);
+    assert.equal(await page.locator('#filter').isVisible(), false);
+    await page.locator('#gone-1 summary').first().click();
+    assert.equal(await page.locator('#gone-1 .versus').isVisible(), true);
+    assert.deepEqual(complaints, []);
+    await close();
+});
+
+test('differences are filtered by their kind and by words, in the address', async (browser) => {
+    const { page, complaints, close } = await open(browser, page_of('comparison.html'));
+    const visible = () => page.locator('main [data-v]:visible').count();
+    const all = await visible();
+    await page.locator('#filter input[value=better]').check();
+    await page.waitForFunction(() => location.hash.includes('v=better'));
+    const better = await visible();
+    assert.ok(better > 0 && better < all, `${better} of ${all}`);
+    assert.equal(await page.locator('#new-1').isVisible(), false);
+    await page.locator('#filter button[type=reset]').click();
+    await page.waitForFunction(() => !location.hash.includes('v='));
+    assert.equal(await visible(), all);
+    await page.locator('#q').fill('2003h:05');
+    await page.waitForFunction(() => location.hash.includes('q='));
+    assert.match(await page.locator('#shown').innerText(), /1 of \d+ entries/);
+    const other = await open(browser, page.url());
+    assert.equal(await other.page.locator('#dictionary tr[data-v]:visible').count(), 1);
+    await other.close();
+    assert.deepEqual(complaints, []);
+    await close();
+});
+
+test('a link of a comparison leads to its cause, also to one that is filtered out', async (browser) => {
+    const { page, complaints, close } = await open(browser, page_of('comparison.html') + '#?v=better');
+    assert.equal(await page.locator('#new-1').isVisible(), false);
+    await page.locator('#summary .causes a').first().click();
+    assert.equal(await page.locator('#new-1').isVisible(), true);
+    assert.deepEqual(complaints, []);
+    await close();
+});
+
+test('strings of two devices are shown and not obeyed', async (browser) => {
+    const { page, complaints, close } = await open(browser, page_of('comparison-hostile.html'));
+    assert.equal(await page.locator('main b b, main script, main style, main img').count(), 0);
+    assert.deepEqual(complaints, []);
+    await close();
+});
+
+test('a proof has a row for each defect, links it to its requirements, and says what was not asked for', async (browser) => {
+    if (!has_proof) return 'skipped: no page of a selftest was given';
+    const { page, complaints, close } = await open(browser, proof_url());
+    const rows = page.locator('#defects li[data-v]');
+    const all = await rows.count();
+    assert.ok(all > 0);
+    // What is far below the window is not laid out yet, and has no inner text.
+    const text = await rows.first().textContent();
+    for (const part of ['killed', 'violates', 'killed by']) assert.ok(text.includes(part), `${part} in ${text}`);
+    await rows.first().locator('.by a').first().click();
+    assert.match(await page.evaluate(() => location.hash), /^#r\d+$/);
+    assert.match(await page.locator('#mutants').innerText(), /canopen-conform-mutants selftest --mutants/);
+    const id = await rows.first().locator('b').first().textContent();
+    await page.locator('#q').fill(id);
+    await page.waitForFunction(() => location.hash.includes('q='));
+    assert.equal(await page.locator('#defects li[data-v]:visible').count(), 1);
+    assert.match(await page.locator('#shown').innerText(), new RegExp(`1 of ${all} defects?`));
+    assert.deepEqual(complaints, []);
+    await close();
+});
+
+test('every page prints to PDF with what is folded', async (browser) => {
+    for (const [name, url] of all_pages()) {
+        const { page, complaints, close } = await open(browser, url, { colorScheme: 'dark' });
+        const pdf = await page.pdf({ format: 'A4' });
+        assert.equal(pdf.subarray(0, 5).toString(), '%PDF-', name);
+        await page.emulateMedia({ media: 'print' });
+        assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)', name);
+        assert.equal(await page.locator('nav').isVisible(), false, name);
+        assert.deepEqual(complaints, [], name);
+        await close();
     }
 });
 

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "legal_variants.hpp"
+#include "cli/proof/legal_variants.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <set>
+#include <utility>
 
+#include "base/in_parallel.hpp"
 #include "base/text.hpp"
 #include "can/simulated_bus.hpp"
+#include "cli/proof/neighbours.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/proof/variant_profile.hpp"
 #include "engine/engine.hpp"
-#include "neighbours.hpp"
 #include "node/powered_node.hpp"
 #include "variants/variant.hpp"
 
@@ -158,6 +161,27 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
     }
   }
   return complaints_of(run, may_warn);
+}
+
+Result<std::vector<VariantVerdict>> variants_alone(const LoadedSuites& suites,
+                                                   const device::Profile& reference, std::uint64_t seed,
+                                                   unsigned jobs) {
+  const auto rows = refnode::variants();
+  std::vector<std::optional<Result<std::vector<Complaint>>>> judged(rows.size());
+  in_parallel(rows.size(), jobs, [&](std::size_t i) {
+    Combination one;
+    one.variants = {std::string(rows[i].id)};
+    one.node = reference.node.value();
+    one.seed = seed;
+    judged[i].emplace(judge_combination(one, suites, reference));
+  });
+  std::vector<VariantVerdict> out;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!*judged[i]) return std::unexpected(judged[i]->error());
+    out.push_back({std::string(rows[i].id), std::string(rows[i].summary), std::string(rows[i].legal),
+                   std::move(**judged[i])});
+  }
+  return out;
 }
 
 Combination shrink(Combination combination, const std::string& what, const LoadedSuites& suites,

@@ -55,6 +55,18 @@ struct Complaint {
                                                                const std::vector<std::string>& only = {},
                                                                can::Capture* frames = nullptr);
 
+/// One legal variant by itself.
+struct VariantVerdict {
+  std::string id, summary;
+  std::string legal;                  ///< why it is: clause, or requirements that name this way
+  std::vector<Complaint> complaints;  ///< empty: nothing is held against it
+};
+/// The whole suite against each legal variant alone, in the order of the tables; `jobs` threads, 0: as many
+/// as there are cores.
+[[nodiscard]] Result<std::vector<VariantVerdict>> variants_alone(const LoadedSuites& suites,
+                                                                 const device::Profile& reference,
+                                                                 std::uint64_t seed, unsigned jobs);
+
 /// Leaves out whatever is not needed for a complaint `what`.
 [[nodiscard]] Combination shrink(Combination combination, const std::string& what, const LoadedSuites& suites,
                                  const device::Profile& reference);
