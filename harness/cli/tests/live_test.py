@@ -9,7 +9,7 @@ import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from live_device import INTERFACE, SUITES, Node, command, run
+from live_device import INTERFACE, SUITES, Node, command, program, run
 
 # One defect of each family of the mission, and the requirement that must be named.
 FAMILIES = [
@@ -70,6 +70,25 @@ class Live(unittest.TestCase):
                 done = run("--quiet", "--device", os.path.join(SUITES, "devices/reference-node.yaml"), select)
                 self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
                 self.assertIn(f"FAIL: {requirement}", done.stdout)
+
+    def test_a_failure_is_cut_out_and_replayed_where_it_happened_and_on_a_right_device(self):
+        causes = os.path.join(os.path.dirname(self.junit), "causes")
+        scenario, case = "cia301/dictionary/1003-error-history", "cia301/dictionary/1003-error-history/non-zero-write[02h]"
+        with Node("--defect", "1003-nonzero-write-accepted"):
+            done = run("--quiet", "--device", os.path.join(SUITES, "devices/reference-node.yaml"), scenario, "--capture", self.capture,
+                       "--captures", causes)
+            self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
+            self.assertEqual([name[:20] for name in os.listdir(causes)], ["cause-01-OD-1003-06-"])
+            same = self.replayed(case)
+        self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
+        with Node():
+            other = self.replayed(case)
+        self.assertEqual(other.returncode, 1, other.stdout + other.stderr)
+        self.assertIn("abort code none -> 0609 0030h", other.stdout)
+
+    def replayed(self, case):
+        return subprocess.run(program("replay", self.capture, "--case", case, "--interface", INTERFACE, "--allow", "config"),
+                              capture_output=True, text=True, timeout=60)
 
     def test_without_a_node_everything_is_an_error_within_seconds(self):
         begin = time.monotonic()
