@@ -67,7 +67,11 @@ class Live(unittest.TestCase):
     def test_a_defect_of_each_family_fails_the_right_requirement(self):
         for defect, requirement, select in FAMILIES:
             with self.subTest(defect=defect), Node("--defect", defect):
-                done = run("--quiet", "--device", os.path.join(SUITES, "devices/reference-node.yaml"), select)
+                for _ in range(3):
+                    done = run("--quiet", "--device", os.path.join(SUITES, "devices/reference-node.yaml"), select)
+                    # What a busy machine was late for is rightly left open; another run tells.
+                    if not (done.returncode == 3 and "the machine was late" in done.stdout):
+                        break
                 self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
                 self.assertIn(f"FAIL: {requirement}", done.stdout)
 
