@@ -88,8 +88,13 @@ std::optional<Error> mistake_in(const ReplayCommand& options) {
     return Error{"--defect and --variant belong to --simulate", {}, "on a real interface: canopen-refnode"};
   if (!options.allow.empty() && !steps::parse_tier(options.allow))
     return Error{"unknown risk tier '" + options.allow + "'", {}, "read-only, config, nvm or motion"};
-  if (!options.record.empty() && absolute(options.record) == absolute(options.capture))
+  if (options.record.empty()) return std::nullopt;
+  if (absolute(options.record) == absolute(options.capture))
     return Error{"the new capture would be written over the old one", options.record, {}};
+  for (const auto& input : {options.device, options.eds}) {
+    if (absolute(options.record) == absolute(input))
+      return Error{"the new capture would be written over an input", options.record, {}};
+  }
   return std::nullopt;
 }
 
@@ -228,6 +233,14 @@ int replay_command(const ReplayCommand& options) {
   if (const auto mistake = mistake_in(options)) return report_error(*mistake, exit_usage);
   auto plan = plan_of(options);
   if (!plan) return report_error(plan.error(), exit_usage);
+  if (!options.record.empty()) {
+    // Tried before the first frame, and nothing of an earlier replay is left that looks like this one's.
+    can::CaptureInfo begun;
+    begun.tool = "canopen-conform " CONFORM_VERSION;
+    begun.comment = "the replay has not ended";
+    if (auto tried = write_file_atomically(options.record, can::write_pcapng({}, begun)); !tried)
+      return report_error(tried.error(), exit_environment);
+  }
   auto outcome = options.simulate ? on_simulation(*plan, options) : on_interface(*plan, options);
   if (!outcome) return report_end(outcome.error().error, outcome.error().code);
   if (!options.record.empty()) {

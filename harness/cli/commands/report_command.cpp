@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `report`: the reports of a run anew, from what it found (result.json) or from its journal.
 #include "cli/commands/commands.hpp"
-#include "cli/run/cause_captures.hpp"
 #include "cli/run/run_reports.hpp"
 #include "cli/run/run_source.hpp"
 #include "cli/run/terminal.hpp"
@@ -16,11 +15,8 @@ int report_command(const ReportCommand& options) {
       options.reports, {.capture = options.capture, .captures = options.captures, .bundle = options.bundle});
   const bool chosen =
       !paths.reports.empty() || !paths.capture.empty() || !paths.captures.empty() || !paths.bundle.empty();
-  if (!paths.captures.empty()) {
-    if (auto emptied = empty_capture_folder(paths.captures); !emptied)
-      return report_error(emptied.error(), exit_environment);
-  }
   RunReports reports(chosen ? std::move(paths) : source->reports);
+  if (auto apart = reports.captures_apart(); !apart) return report_error(apart.error(), exit_usage);
   if (const auto bundle = absolute(options.bundle);
       chosen && !bundle.empty() && (bundle == absolute(options.source) || bundle == absolute(options.sign)))
     return report_error({"the bundle would be written over an input", options.bundle, {}}, exit_usage);

@@ -39,6 +39,12 @@ std::optional<Kind> kind_of(const can::Frame& frame, const std::string& meaning,
     if (is("boot-up")) return Kind{fmt::format("boot-up of node {}", node.value()), Kind::Content::events};
     return Kind{fmt::format("heartbeat of node {}", node.value()), Kind::Content::states, "when each comes"};
   }
+  // The pre-defined CAN-IDs of emergency messages and PDOs of other nodes.
+  constexpr std::uint32_t first_of_nodes = 0x081, last_of_nodes = 0x57F, node_bits = 0x7F;
+  if (!frame.extended && frame.id >= first_of_nodes && frame.id <= last_of_nodes &&
+      (frame.id & node_bits) != 0 && (frame.id & node_bits) != node.value() && !is("EMCY") && !is("TPDO") &&
+      !is("SYNC") && !is("TIME"))
+    return std::nullopt;
   const bool of_sdo_channel =
       !frame.extended && ((frame.id > 0x580 && frame.id <= 0x5FF) || (frame.id > 0x600 && frame.id <= 0x67F));
   if (of_sdo_channel && !is("SDO ")) return std::nullopt;

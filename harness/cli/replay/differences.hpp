@@ -28,7 +28,8 @@ struct Side {
   [[nodiscard]] const can::CapturedFrame& at(std::size_t index) const { return frames[index]; }
   [[nodiscard]] const std::string& meaning(std::size_t index) const { return meanings_[index - first]; }
   [[nodiscard]] bool is_block_segment(std::size_t index) const {
-    return meaning(index).starts_with("SDO block segment");
+    return at(index).direction == can::Direction::transmitted &&
+           meaning(index).starts_with("SDO block segment");
   }
 
  private:

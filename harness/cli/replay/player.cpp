@@ -78,7 +78,8 @@ class Player {
       state_[number].over = true;
       return {};
     }
-    if (!is_segment && answer_of(captured.frame, profile_.node)) has_left_ = false;
+    const auto kind = answer_of(captured.frame, profile_.node);
+    if (!is_segment && kind && kind->of == AnswerKind::Of::sdo) has_left_ = false;
     auto due = now_ + (captured.time - then_);
     // Stamps are of the end of a frame.
     if (bit_rate_ > 0) due -= can::bit_time(can::frame_bits(captured.frame), bit_rate_);
@@ -197,12 +198,15 @@ Result<void> may_replay(const Side& then, const device::Profile& profile, steps:
   };
   for (const auto& sent : then.dialogue.sent) {
     const auto& frame = then.at(sent.index).frame;
-    // A segment of a block download may look like anything; the request that began it is judged.
-    const bool is_segment = then.is_block_segment(sent.index);
-    const auto object = is_segment ? std::nullopt : steps::download_begun(frame, profile.node);
-    const auto need = is_segment ? steps::Need{steps::Tier::config, "send anything but uploads"}
-                      : object   ? steps::need_of_download(*object)
-                                 : steps::need_of(frame, profile.node);
+    constexpr std::uint32_t longest_base_id = 0x7FF;
+    if (!frame.extended && frame.id > longest_base_id)
+      return fail("is no frame that can be sent: a CAN-ID of 11 bits that has more", number(sent.index),
+                  "nothing was sent");
+    // Each frame for itself, whatever the capture says that it was: a segment of a block download looks like
+    // any other request to a server that has left the transfer, and this one may leave it where that one did
+    // not.
+    const auto object = steps::download_begun(frame, profile.node);
+    const auto need = object ? steps::need_of_download(*object) : steps::need_of(frame, profile.node);
     if (!need.covered_by(allowed)) return refuse(sent.index, need);
     if (!object || guard.may_write(*object)) continue;
     if (profile.is_untouchable(*object)) {

@@ -15,7 +15,8 @@
 
 namespace conform::cli {
 
-/// Whether the tier covers every frame, and the profile lets every entry be written that a frame writes.
+/// Whether the tier covers every frame, and the profile lets every entry be written that a frame writes; a
+/// segment of a block download counts as the request that it looks like as well.
 /// Error (of the user): the first frame that it does not, by its number, and what would let it.
 [[nodiscard]] Result<void> may_replay(const Side& then, const device::Profile& profile, steps::Tier allowed);
 

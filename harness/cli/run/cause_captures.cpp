@@ -59,14 +59,17 @@ Result<void> empty_capture_folder(const std::string& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return fail("cannot make the folder: " + failed.message(), folder);
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+  std::vector<fs::path> left;
+  for (fs::directory_iterator each(folder, failed); !failed && each != fs::directory_iterator();
+       each.increment(failed)) {
     std::error_code ignored;
-    if (!result::is_capture_name(entry.path().filename().string()) || entry.is_symlink(ignored) ||
-        !entry.is_regular_file(ignored) || !is_ours(entry.path()))
-      continue;
-    fs::remove(entry.path(), failed);
-    if (failed)
-      return fail("cannot remove what an earlier run left: " + failed.message(), entry.path().string());
+    if (result::is_capture_name(each->path().filename().string()) && !each->is_symlink(ignored) &&
+        each->is_regular_file(ignored) && is_ours(each->path()))
+      left.push_back(each->path());
+  }
+  for (const auto& path : left) {
+    if (!fs::remove(path, failed) && failed)
+      return fail("cannot remove what an earlier run left: " + failed.message(), path.string());
   }
   if (failed) return fail("cannot look into the folder: " + failed.message(), folder);
   return {};
@@ -93,6 +96,17 @@ Result<std::vector<CauseCapture>> cause_captures(const result::RunResult& run, c
     out.push_back({result::capture_name(cause, i + 1), can::write_pcapng(part_of(capture, *range), about)});
   }
   return out;
+}
+
+bool has_cause_captures(const std::string& folder, const result::RunResult& run) {
+  const auto causes = result::causes_of(run);
+  std::error_code ignored;
+  for (std::size_t i = 0; i < causes.size(); ++i) {
+    const auto path = fs::path(folder) / result::capture_name(causes[i], i + 1);
+    if (result::frames_of(causes[i], run) && !(fs::is_regular_file(path, ignored) && is_ours(path)))
+      return false;
+  }
+  return true;
 }
 
 Result<void> write_cause_captures(const std::string& folder, const std::vector<CauseCapture>& captures) {

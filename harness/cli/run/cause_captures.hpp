@@ -16,6 +16,9 @@ namespace conform::cli {
 /// cause that this program has written, and nothing else. Error: it is no folder, or cannot be written to.
 [[nodiscard]] Result<void> empty_capture_folder(const std::string& folder);
 
+/// Whether the folder has the captures of all causes of this run already, by their names.
+[[nodiscard]] bool has_cause_captures(const std::string& folder, const result::RunResult& run);
+
 /// A file of that folder: pcapng.
 struct CauseCapture {
   std::string name;

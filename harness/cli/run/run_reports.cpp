@@ -13,9 +13,12 @@
 #include "cli/run/run_frames.hpp"
 #include "cli/run/terminal.hpp"
 #include "reports/formats.hpp"
+#include "result/cause_captures.hpp"
 
 namespace conform::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* not_ended =
     "the run has not ended: it goes on, or it was killed before its reports could be made";
@@ -26,7 +29,7 @@ std::string absolute(const std::string& path) {
   if (path.empty()) return {};
   std::error_code ignored;
   const auto whole = std::filesystem::absolute(path, ignored);
-  return ignored ? path : whole.string();
+  return ignored ? path : whole.lexically_normal().string();
 }
 
 journal::ReportPaths absolute_paths(const std::map<std::string, std::string>& asked,
@@ -61,8 +64,20 @@ reports::Beside RunReports::beside(const std::string& path) const {
 
 std::string RunReports::first() const { return none() ? "" : all().front(); }
 
+Result<void> RunReports::captures_apart() const {
+  if (paths_.captures.empty()) return {};
+  const auto folder = fs::path(paths_.captures) / "";
+  for (const auto& each : all()) {
+    const fs::path path(each);
+    if (path.parent_path() == folder.parent_path() && result::is_capture_name(path.filename().string()))
+      return fail("has the name of a capture of a cause, in their folder", each, "another name or folder");
+  }
+  return {};
+}
+
 Result<void> RunReports::begin(const std::string& tool, const std::vector<std::string>& inputs) {
   const auto paths = all();
+  if (auto apart = captures_apart(); !apart) return apart;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (paths[k] == paths[i]) return fail("two reports would be written to one file", paths[i]);
@@ -176,7 +191,11 @@ void RunReports::write_causes(result::RunResult& run, const can::Capture& captur
                               const can::CaptureInfo& info, RunBundle::Frames& frames) {
   if (paths_.captures.empty() && !bundle_.asked()) return;
   auto made = cause_captures(run, capture, info);
-  auto written = made ? write_cause_captures(paths_.captures, *made) : std::unexpected(made.error());
+  Result<void> written;
+  if (!made) written = std::unexpected(made.error());
+  // Only now: what an earlier report has put there is worth more than nothing.
+  if (written && !paths_.captures.empty()) written = empty_capture_folder(paths_.captures);
+  if (written) written = write_cause_captures(paths_.captures, *made);
   if (!written) {
     run.unwritten.push_back(written.error().text());
     report_error(written.error(), 0);
@@ -229,6 +248,9 @@ void RunReports::write_left(result::RunResult& run) {
 void RunReports::write_others(result::RunResult& run, const std::vector<std::string>& elsewhere) {
   if (!paths_.capture.empty()) {
     auto loaded = commented_frames(paths_.capture, run);
+    // Another run's is left as it is; what it is not is told where its frames are asked for.
+    if (loaded && !why_not_of(loaded->capture, run).empty())
+      loaded = fail("is no capture of this run: " + why_not_of(loaded->capture, run), paths_.capture);
     if (loaded) {
       put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
     } else {
@@ -253,6 +275,8 @@ void RunReports::take_frames(result::RunResult& run, const std::vector<std::stri
   if (!found) {
     frames.why_not = found.error().text();
     if (paths_.captures.empty()) return;
+    has_causes_ = has_cause_captures(paths_.captures, run);
+    if (has_causes_) return;
     run.unwritten.push_back(found.error().text());
     report_error(found.error(), 0);
     return;

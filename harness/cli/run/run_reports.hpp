@@ -43,6 +43,8 @@ class RunReports {
 
   /// Replaces what an earlier run left by files that say that this one has not ended. Error: a path that
   /// cannot be written; `inputs` are files that must not be.
+  /// Error: a report or capture that would be taken for a capture of a cause, and be removed or written over.
+  [[nodiscard]] Result<void> captures_apart() const;
   [[nodiscard]] Result<void> begin(const std::string& tool, const std::vector<std::string>& inputs);
   /// The run did not even begin; the files say why.
   void not_begun(const std::string& tool, const Error& why);

@@ -94,9 +94,51 @@ class Captures(unittest.TestCase):
         done = run("report", self.path("run.json"), "-q", "--captures", folder, "--html", self.path("none.html"))
         self.ended(done, 1)
         self.assertIn("--capture FILE", done.stderr)
-        self.assertEqual(os.listdir(folder), [])
+        self.assertFalse(os.path.exists(folder))
         with open(self.path("none.html"), encoding="utf-8") as file:
             self.assertNotIn(".pcapng", file.read())
+
+    def test_a_report_without_frames_destroys_neither_captures_nor_links(self):
+        causes, html, journal = self.path("kept"), self.path("kept.html"), self.path("kept.journal")
+        run("run", "--simulate", "-q", SCENARIO, "--defect", DEFECT, "--captures", causes, "--html", html, "--journal", journal,
+            "--json", self.path("kept.json"))
+        before = sorted(os.listdir(causes))
+        self.assertTrue(before)
+        self.ended(run("report", self.path("kept.json"), "-q", "--captures", causes), 1)
+        self.assertEqual(sorted(os.listdir(causes)), before)
+        self.ended(run("report", journal, "-q"), 1)
+        self.assertEqual(sorted(os.listdir(causes)), before)
+        with open(html, encoding="utf-8") as file:
+            self.assertIn(f"kept/{before[0]}", file.read())
+
+    def test_the_capture_of_another_run_is_left_as_it_is(self):
+        other = self.path("other.pcapng")
+        run("run", "--simulate", "-q", "cia301/sdo/upload", "--capture", other)
+        with open(other, "rb") as file:
+            before = file.read()
+        done = run("report", self.path("run.json"), "-q", "--capture", other, "--captures", self.path("of-another"))
+        self.assertIn("is no capture of this run", done.stderr)
+        with open(other, "rb") as file:
+            self.assertEqual(file.read(), before)
+
+    def test_what_would_be_taken_for_a_capture_of_a_cause_is_refused(self):
+        folder = self.path("mixed")
+        done = run("run", "--simulate", SCENARIO, "--captures", folder, "--html", os.path.join(folder, ".", "cause-01-x.pcapng"))
+        self.assertIn("has the name of a capture of a cause", done.stderr)
+        self.ended(done, 3)
+        capture = os.path.join(self.causes, sorted(os.listdir(self.causes))[0])
+        self.ended(run("report", self.path("run.json"), "--capture", capture, "--captures", self.causes), 2)
+        self.assertTrue(os.path.exists(capture))
+
+    def test_a_replay_writes_over_none_of_its_inputs(self):
+        profile = self.path("device.yaml")
+        with open(profile, "w", encoding="utf-8") as file:
+            file.write("format: 1\nname: mine\nnode: 1\n")
+        capture = self.path("run.pcapng")
+        for record in (profile, os.path.join(self.folder, ".", "run.pcapng")):
+            done = run("replay", capture, "--case", self.failed_case(), "--simulate", "--device", profile, "--capture", record)
+            self.ended(done, 2)
+            self.assertIn("would be written over", done.stderr)
 
     def test_a_bundle_has_them_and_its_reports_name_them_there(self):
         bundle, inside = self.path("run.tar.zst"), self.path("inside")

@@ -45,7 +45,7 @@ TEST_CASE("each legal variant alone is never failed") {
 }
 
 TEST_CASE("combinations of legal variants are never failed") {
-  for (std::uint64_t number = 0; number < 20; ++number) check(cli::draw_combination(1, number));
+  for (std::uint64_t number = 0; number < 5; ++number) check(cli::draw_combination(1, number));
 }
 
 TEST_CASE("a device that stores by itself what its restricted CAN-IDs forbid to undo is not failed") {

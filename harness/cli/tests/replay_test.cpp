@@ -264,7 +264,10 @@ TEST_CASE(
   then.add(Direction::received, 0x581, {0x43, 0x00, 0x10, 0, 0x91, 0x01, 0x0F, 0});
   const auto& profile = shipped::reference();
   const Side side(then.capture.frames(), 0, then.capture.size(), profile.node);
-  CHECK(may_replay(side, profile, steps::Tier::config));
+  // It might leave the transfer: the tier has to cover what the segment would be then.
+  const auto refused = may_replay(side, profile, steps::Tier::config);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().text().contains("frame 3"));
   auto device = refnode::PoweredNode::create({.node_id = profile.node.value()});
   REQUIRE(device.has_value());
   can::SimulatedBus bus;
@@ -429,4 +432,29 @@ TEST_CASE("the frames of a run name the case and the step they belong to") {
     }
   }
   CHECK(steps > 0);
+}
+
+TEST_CASE("no frame is let through for what the capture says that it belongs to") {
+  const auto& profile = shipped::reference();
+  const auto refused = [&profile](const Trace& then) {
+    const Side side(then.capture.frames(), 0, then.capture.size(), profile.node);
+    return !may_replay(side, profile, steps::Tier::config).has_value();
+  };
+  // "save" to 1010h:01, alone and behind what makes it look like a segment of a block download.
+  const auto store = [](Trace& trace, std::uint32_t id = 0x601) {
+    trace.add(Direction::transmitted, id, {0x23, 0x10, 0x10, 1, 0x73, 0x61, 0x76, 0x65});
+  };
+  Trace alone, received, own, sent_as_answer;
+  store(alone);
+  received.add(Direction::received, 0x581, {0xA0, 0x17, 0x10, 0, 7, 0, 0, 0});
+  store(received);
+  own.add(Direction::transmitted, 0x601, {0xC2, 0, 0x10, 0, 4, 0, 0, 0});
+  own.add(Direction::received, 0x581, {0xA0, 0, 0x10, 0, 0x7F, 0, 0, 0});
+  store(own);
+  sent_as_answer.add(Direction::transmitted, 0x601, {0xA3, 0, 0, 0, 0, 0, 0, 0});
+  sent_as_answer.add(Direction::transmitted, 0x581, {0x2F, 0x10, 0x10, 1, 0, 0, 0, 0});
+  CHECK(refused(alone));
+  CHECK(refused(received));
+  CHECK(refused(own));
+  CHECK(refused(sent_as_answer));
 }
