@@ -110,14 +110,14 @@ void draw_requirement(Card& card, const result::RunResult& run, const CaseResult
   if (!one.cct.empty()) card.row("CCT case", log_safe(join(one.cct, ", ")));
 }
 
-void draw_grades(Card& card, const Finding& finding, Verdict verdict) {
+void draw_grades(Card& card, const result::RunResult& run, const Finding& finding, Verdict verdict) {
   card.gap();
   card.row("step", log_safe(finding.step));
   if (!finding.accepts.empty() || !finding.tolerates.empty()) {
     card.rows("passes", finding.accepts, Ink::good);
     card.rows("tolerated", finding.tolerates, Ink::doubtful);
-    card.row(finding.requirement.empty() ? "otherwise" : "fails",
-             finding.requirement.empty() ? "the case cannot judge what it is about" : "everything else");
+    const auto [label, words] = otherwise_of(run, finding);
+    card.row(label, words);
   }
   card.row("came", log_safe(finding.actual), ink_of(verdict));
   if (!finding.actual_bytes.empty()) {
@@ -187,7 +187,7 @@ std::string finding_card(const result::RunResult& run, const CaseResult& one, co
   card.arrow(position.empty() ? position_text(one.position) : position);
   card.gap();
   draw_requirement(card, run, one, finding);
-  draw_grades(card, finding, verdict);
+  draw_grades(card, run, finding, verdict);
   draw_frames(card, one, finding);
   return card.take();
 }

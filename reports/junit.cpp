@@ -150,7 +150,8 @@ void write_finding(Sheet& sheet, const RunResult& run, const LocatedFinding& loc
   sheet.rows("Passes", finding.accepts);
   sheet.rows("Tolerated", finding.tolerates);
   const bool graded = !finding.requirement.empty() && !(finding.accepts.empty() && finding.tolerates.empty());
-  if (graded) sheet.row("Fails", "everything else");
+  if (const auto [label, words] = otherwise_of(run, finding); graded)
+    sheet.row(label == "fails" ? "Fails" : "Warns", words);
   sheet.row("Came", log_safe(finding.actual));
   if (!finding.actual_bytes.empty()) sheet.rows("Bytes", byte_rows(finding.actual_bytes));
   sheet.row("Why", prose(finding.reason));

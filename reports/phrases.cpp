@@ -82,6 +82,15 @@ std::string position_text(const result::SourcePosition& position) {
   return text;
 }
 
+Otherwise otherwise_of(const result::RunResult& run, const result::Finding& finding) {
+  if (finding.requirement.empty()) return {"otherwise", "the case cannot judge what it is about"};
+  const auto* info = run.requirement(finding.requirement);
+  const bool is_mild = info != nullptr && (info->level == "optional" || info->level == "recommended");
+  if (is_mild && finding.verdict == result::Verdict::warn)
+    return {"warns", "everything else, as the rule is not mandatory"};
+  return {"fails", "everything else"};
+}
+
 std::string level_text(const result::RequirementInfo* info) {
   return info == nullptr || info->level.empty() ? "no level given" : prose(info->level);
 }

@@ -41,6 +41,13 @@ struct LocatedFinding {
 [[nodiscard]] bool is_not_run(const result::CaseResult& one);
 /// "file:line:column", as much of it as is known; may be empty.
 [[nodiscard]] std::string position_text(const result::SourcePosition& position);
+/// What becomes of an answer that no grade of the step names: "fails" and "everything else". A rule that is
+/// optional or recommended only warns then, unless the run is strict.
+struct Otherwise {
+  std::string_view label, words;
+};
+[[nodiscard]] Otherwise otherwise_of(const result::RunResult& run, const result::Finding& finding);
+
 /// "conditional" or "no level given".
 [[nodiscard]] std::string level_text(const result::RequirementInfo* info);
 

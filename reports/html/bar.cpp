@@ -54,12 +54,13 @@ std::string bar(const Counts& counts) {
   return out + "</svg>";
 }
 
-std::string count_badges(const Counts& counts) {
+std::string count_badges(const Counts& counts, std::size_t not_judged) {
   std::string out;
   for (const Kind& kind : worst_first) {
     const std::size_t number = counts.*kind.count;
     if (number != 0) out += fmt::format("<li><b>{}</b> {}</li>\n", number, badge(kind.verdict));
   }
+  if (not_judged != 0) out += fmt::format("<li><b>{}</b> {}</li>\n", not_judged, badge("na", "not judged"));
   return out.empty() ? out : fmt::format("<ul class=\"counts\">\n{}</ul>\n", out);
 }
 

@@ -14,6 +14,7 @@ namespace conform::reports::html {
 /// A drawing without words: what it shows must stand in numbers beside it.
 [[nodiscard]] std::string bar(const result::Counts& counts);
 /// The counts in words, worst first, each with its badge: "3 fail  20 pass"; what is not there is left out.
-[[nodiscard]] std::string count_badges(const result::Counts& counts);
+/// `not_judged`: requirements without a verdict.
+[[nodiscard]] std::string count_badges(const result::Counts& counts, std::size_t not_judged = 0);
 
 }  // namespace conform::reports::html

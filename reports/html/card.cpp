@@ -10,6 +10,7 @@
 #include "reports/html/difference.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/html/timeline.hpp"
+#include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
 #include "result/properties.hpp"
 
@@ -50,14 +51,13 @@ std::string actual_text(const Finding& finding) {
                      text(view.substr(came.size() - end)));
 }
 
-std::string grades(const Finding& finding) {
+std::string grades(const RunResult& run, const Finding& finding) {
   std::string expected;
   if (!finding.accepts.empty()) expected += "<h5>passes</h5>\n" + values(finding.accepts);
   if (!finding.tolerates.empty()) expected += "<h5>tolerated</h5>\n" + values(finding.tolerates);
   if (!expected.empty())
-    expected += fmt::format("<p class=\"quiet\">{}</p>\n",
-                            finding.requirement.empty() ? "Otherwise the case cannot judge what it is about."
-                                                        : "Everything else fails.");
+    expected += fmt::format("<h5>{}</h5>\n<p>{}</p>\n", otherwise_of(run, finding).label,
+                            otherwise_of(run, finding).words);
   std::string came = fmt::format("<p class=\"came\">{}</p>\n", actual_text(finding));
   if (!finding.actual_bytes.empty()) {
     came += "<pre>";
@@ -128,7 +128,7 @@ std::string card(const Book& book, const LocatedFinding& located) {
   if (!finding.declared_at.empty()) out += fact("Described", text(finding.declared_at));
   if (!one.cct.empty()) out += fact("CiA's tool", "case " + text(join(one.cct, ", ")));
   out += "</dl>\n";
-  out += grades(finding);
+  out += grades(book.run(), finding);
   out += frames(book, one, finding.evidence);
   out += "<dl class=\"facts\">\n";
   if (!position.empty()) out += fact("Scenario", fmt::format("<code>{}</code>", text(position)));

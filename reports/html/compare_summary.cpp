@@ -73,7 +73,7 @@ std::string shares(std::string_view words, const RunResult& run) {
   const AreaTally total = sum(tally_by_area(run));
   return fmt::format("<h2>{}: {}</h2>\n{}{}", words,
                      counted(total.counts.total() + total.not_judged, "requirement"), bar(total.counts),
-                     count_badges(total.counts));
+                     count_badges(total.counts, total.not_judged));
 }
 
 std::string verdict_card(const Compared& page) {

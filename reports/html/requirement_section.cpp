@@ -21,8 +21,17 @@ std::string one_requirement(const Book& book, const RequirementVerdict& one) {
     out += fmt::format(" <span class=\"quiet\">{}{}{}</span>", sentence(info->clause),
                        info->clause.empty() || info->level.empty() ? "" : ", ", sentence(info->level));
   }
-  if (const auto* cause = book.cause_of(one.id); cause != nullptr)
+  if (const auto* cause = book.cause_of(one.id); cause != nullptr) {
     out += fmt::format(" {}", book.cause_link(*cause));
+  } else if (one.verdict == result::Verdict::inconclusive) {
+    // Not broken, but kept open by what is.
+    for (const auto* each : cases) {
+      const auto* other = each->verdict == result::Verdict::pass ? nullptr : book.cause_of(*each);
+      if (other == nullptr) continue;
+      out += fmt::format(" <span class=\"quiet\">open because of</span> {}", book.cause_link(*other));
+      break;
+    }
+  }
   out += "</p>\n";
   if (!cases.empty()) {
     out += folded(fmt::format("{}<span class=\"sr\"> of {}</span>", counted(cases.size(), "case"),

@@ -11,20 +11,40 @@
 #include "reports/html/sections.hpp"
 #include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
+#include "result/properties.hpp"
 
 namespace conform::reports::html {
 namespace {
 
 using result::RunResult;
 
-std::string verdict_sentence(const RunResult& run, int code) {
+/// "7 requirements; what was found has 3 causes"
+std::string violated_words(const Book& book) {
+  const auto violated = sum(tally_by_area(book.run())).counts.fail;
+  if (violated == 0) return "The device violates at least one requirement.";
+  return fmt::format(
+      "The device violates {}; what was found comes from {}, as far as can be told from outside.",
+      counted(violated, "requirement"), counted(book.causes().size(), "cause"));
+}
+
+/// What must not be taken for a verdict about a product.
+std::string simulation_words(const RunResult& run) {
+  const auto* defects = result::value_of(run, "simulation.defects");
+  if (defects == nullptr || defects->empty()) return {};
+  return fmt::format(
+      "<p><b>No product was tested:</b> this is the simulated reference node with {} switched on.</p>\n",
+      counted(split(*defects, ' ').size(), "known defect"));
+}
+
+std::string verdict_sentence(const Book& book, int code) {
+  const RunResult& run = book.run();
   switch (code) {
     case 0:
       if (const auto waived = run.waived(); !waived.empty())
         return fmt::format("What was judged conforms, but for {} accepted as known: {}.",
                            counted(waived.size(), "violated requirement"), text(join(waived, ", ")));
       return "Everything that was judged conforms.";
-    case 1: return "The device violates at least one requirement.";
+    case 1: return violated_words(book);
     case 2: return "Nothing selected applies to this device, so nothing was judged.";
     case 3:
       return run.aborted ? "The run stopped early. No requirement is known to be violated."
@@ -54,11 +74,12 @@ std::string verdict_card(const Book& book) {
   const AreaTally total = sum(tally_by_area(run));
   std::string out = fmt::format(
       "<div class=\"verdict {}\">\n<p class=\"word\"><span class=\"shape\" aria-hidden=\"true\"></span>{}</p>\n<p>{}</p>\n",
-      kind, words, verdict_sentence(run, code));
+      kind, words, verdict_sentence(book, code));
+  out += simulation_words(run);
   if (run.aborted)
     out += fmt::format("<p><b>Stopped early:</b> {}</p>\n", clipped(prose(*run.aborted), 1000));
   out += fmt::format("<h2>{}</h2>\n{}{}", counted(total.counts.total() + total.not_judged, "requirement"),
-                     bar(total.counts), count_badges(total.counts));
+                     bar(total.counts), count_badges(total.counts, total.not_judged));
   out += fmt::format("<h2>{}</h2>\n{}{}", counted(run.cases.size(), "case"), bar(run.counts()),
                      count_badges(run.counts()));
   return out + "</div>\n";

@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "catch.hpp"
 #include "fixture.hpp"
+#include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
 
 using namespace conform;
@@ -175,4 +176,18 @@ TEST_CASE("A cause says in a line which known mistakes it looks like") {
   CHECK_FALSE(contains(summary(run, {}), "\x1B"));
   run.likenesses.clear();
   CHECK_FALSE(contains(summary(run, {}), "looks like"));
+}
+
+TEST_CASE("What no grade names fails, and warns where the rule is not mandatory") {
+  RunResult run = testing::sample_run();
+  result::Finding finding = run.cases[1].judgements[0].findings[0];
+  CHECK(otherwise_of(run, finding).label == "fails");
+  for (auto& each : run.requirements) each.level = "recommended";
+  finding.verdict = result::Verdict::warn;
+  CHECK(otherwise_of(run, finding).label == "warns");
+  // In a strict run it has failed all the same.
+  finding.verdict = result::Verdict::fail;
+  CHECK(otherwise_of(run, finding).label == "fails");
+  finding.requirement.clear();
+  CHECK(otherwise_of(run, finding).label == "otherwise");
 }

@@ -16,6 +16,7 @@
 #include "reports/html/axis.hpp"
 #include "reports/html/card.hpp"
 #include "reports/html/markup.hpp"
+#include "reports/tally.hpp"
 
 using namespace conform;
 using namespace conform::reports;
@@ -138,6 +139,25 @@ TEST_CASE("A cause links to its capture where the run has written one, and to no
   // Whatever the folder is called: a path and no scheme.
   beside.captures = "/out/javascript:alert(1)//";
   for (const auto& target : links()) CHECK(target.starts_with("javascript%3Aalert%281%29/"));
+}
+
+TEST_CASE("The numbers of the first screen add up, and a simulated fault is not taken for a product's") {
+  RunResult run = testing::sample_run();
+  run.requirements.push_back({"OD-TYP-11", "CiA 301", "optional", "Data types", "nobody decided it"});
+  run.cases[0].requirements.push_back("OD-TYP-11");
+  const auto total = sum(tally_by_area(run));
+  REQUIRE(total.not_judged > 0);
+  const auto document = parsed(html_report(run));
+  const auto verdict = document.select_node("//div[contains(@class, 'verdict')]").node();
+  std::size_t shown = 0;
+  for (const auto& found : verdict.select_nodes("(ul[@class='counts'])[1]/li/b"))
+    shown += std::stoul(found.node().text().get());
+  CHECK(shown == total.counts.total() + total.not_judged);
+  CHECK(contains(text_of(verdict), "not judged"));
+  CHECK_FALSE(contains(text_of(verdict), "No product was tested"));
+  run.properties.push_back({"simulation.defects", "1000-is-u16 1003-oldest-first"});
+  CHECK(contains(text_of(parsed(html_report(run)).select_node("//div[contains(@class, 'verdict')]").node()),
+                 "No product was tested: this is the simulated reference node with 2 known defects"));
 }
 
 TEST_CASE("Strings of a device stay text on a page") {
