@@ -4,10 +4,7 @@
 
 usage: check_comparison.py SCHEMA COMPARISON...    exit code 77 when a tool is missing
 """
-import json
-import sys
-
-MISSING = 77
+from schema_check import main
 
 
 def closed(shape):
@@ -34,30 +31,5 @@ def contradictions(comparison):
             yield f"the {which} run has two names"
 
 
-def main(schema, paths):
-    try:
-        import jsonschema
-    except ImportError:
-        print("skipped: jsonschema (python3-jsonschema) is not installed")
-        return MISSING
-    with open(schema, encoding="utf-8") as file:
-        shape = json.load(file)
-    jsonschema.Draft202012Validator.check_schema(shape)
-    validator = jsonschema.Draft202012Validator(closed(shape))
-    failed = not paths
-    for path in paths:
-        with open(path, encoding="utf-8") as file:
-            comparison = json.load(file)
-        found = [f"{'/'.join(map(str, error.path))}: {error.message[:200]}" for error in validator.iter_errors(comparison)]
-        found += contradictions(comparison)
-        for line in found:
-            print(f"{path}: {line}")
-        failed = failed or bool(found)
-        print(f"{path}: {comparison['outcome']}")
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    sys.exit(main(sys.argv[1], sys.argv[2:]))
+    main(__doc__, closed, contradictions, lambda comparison: comparison["outcome"])

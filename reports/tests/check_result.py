@@ -6,9 +6,8 @@ usage: check_result.py SCHEMA RESULT...    exit code 77 when a tool is missing
 """
 import collections
 import json
-import sys
 
-MISSING = 77
+from schema_check import main
 
 
 def contradictions(result):
@@ -28,30 +27,6 @@ def contradictions(result):
                 yield f"cause {cause['requirement']} names a case that is none: {name}"
 
 
-def main(schema, results):
-    try:
-        import jsonschema
-    except ImportError:
-        print("skipped: jsonschema (python3-jsonschema) is not installed")
-        return MISSING
-    with open(schema, encoding="utf-8") as file:
-        shape = json.load(file)
-    jsonschema.Draft202012Validator.check_schema(shape)
-    validator = jsonschema.Draft202012Validator(shape)
-    failed = not results
-    for path in results:
-        with open(path, encoding="utf-8") as file:
-            result = json.load(file)
-        found = [f"{'/'.join(map(str, error.path))}: {error.message[:200]}" for error in validator.iter_errors(result)]
-        found += contradictions(result)
-        for line in found:
-            print(f"{path}: {line}")
-        failed = failed or bool(found)
-        print(f"{path}: {len(result['cases'])} cases, {len(result['requirements'])} requirements")
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    sys.exit(main(sys.argv[1], sys.argv[2:]))
+    main(__doc__, lambda shape: shape, contradictions,
+         lambda result: f"{len(result['cases'])} cases, {len(result['requirements'])} requirements")
