@@ -23,10 +23,6 @@ using reports::prose;
 
 constexpr std::size_t text_limit = 300;
 
-std::string row(std::string_view kind, const std::string& content) {
-  return fmt::format("<li data-v=\"{}\">\n{}</li>\n", kind, content);
-}
-
 /// What is not shown in the open, the rest to unfold.
 std::string lists(std::string_view kind, const std::vector<std::string>& open,
                   const std::vector<std::string>& shown, std::string_view words) {
@@ -52,7 +48,7 @@ std::string one_blame(const ProofBook& book, const Blame& blame) {
     out += folded(fmt::format("{}<span class=\"sr\"> of {}</span>", counted(blame.causes.size(), "cause"),
                               clipped(blame.defect, text_limit)),
                   fmt::format("<ul class=\"list\">\n{}</ul>\n", items));
-  return row(shown_kind::look, out);
+  return proof_row(shown_kind::look, out);
 }
 
 std::string pairs_words(const std::vector<PairBlame>& pairs) {
@@ -119,7 +115,7 @@ std::string one_mutant(const MutantFate& fate, bool survives) {
   for (const auto& each : {fate.how, fate.explained}) {
     if (!each.empty()) out += fmt::format("<p class=\"by\">{}</p>\n", clipped(prose(each), text_limit));
   }
-  return row(survives ? shown_kind::open : shown_kind::look, out);
+  return proof_row(survives ? shown_kind::open : shown_kind::look, out);
 }
 
 }  // namespace
@@ -164,7 +160,7 @@ std::string variant_section(const ProofBook& book) {
                                   clipped(prose(each.legal), text_limit));
     for (const auto& complaint : each.complaints)
       out += fmt::format("<p class=\"by\">{}</p>\n", clipped(prose(complaint.what), text_limit));
-    (clean ? shown : open).push_back(row(clean ? shown_kind::shown : shown_kind::open, out));
+    (clean ? shown : open).push_back(proof_row(clean ? shown_kind::shown : shown_kind::open, out));
   }
   const auto words = fmt::format(
       "<p>The whole suite is run against each of {} of the reference node alone: no requirement may fail or stay undecided, and "
@@ -186,7 +182,7 @@ std::string edit_section(const ProofBook& book) {
                                   clipped(edit.id, text_limit), clipped(prose(edit.summary), text_limit));
     if (!survives)
       out += fmt::format("<p class=\"by\">by {}</p>\n", clipped(join(edit.noticed_by, ", "), text_limit));
-    (survives ? open : shown).push_back(row(survives ? shown_kind::open : shown_kind::shown, out));
+    (survives ? open : shown).push_back(proof_row(survives ? shown_kind::open : shown_kind::shown, out));
   }
   const auto words = fmt::format(
       "<p>Every entry of the dictionary is made wrong in every way: absent, of another length, access or default. "

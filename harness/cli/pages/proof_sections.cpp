@@ -20,11 +20,6 @@ using reports::prose;
 
 constexpr std::size_t text_limit = 300;
 
-std::string row(std::string_view kind, const std::string& id, const std::string& content) {
-  return fmt::format("<li{} data-v=\"{}\">\n{}</li>\n", id.empty() ? "" : fmt::format(" id=\"{}\"", id), kind,
-                     content);
-}
-
 std::string group(const std::string& title, const std::string& rows) {
   return rows.empty() ? rows : fmt::format("<div class=\"group\">\n<h3>{}</h3>\n{}</div>\n", title, rows);
 }
@@ -63,7 +58,7 @@ std::string one_defect(const ProofBook& book, const DefectVerdict& defect, const
         inside);
   }
   const auto kind = !killed ? shown_kind::open : is_led_wrong ? shown_kind::look : shown_kind::shown;
-  return row(kind, id, out);
+  return proof_row(kind, out, id);
 }
 
 std::string one_rule(const ProofBook& book, const scenario::Requirement& rule, bool is_proven,
@@ -82,12 +77,17 @@ std::string one_rule(const ProofBook& book, const scenario::Requirement& rule, b
                               clipped(rule.id, text_limit)),
                   fmt::format("<ul class=\"list\">\n{}</ul>\n", items));
   }
-  return row(is_proven ? shown_kind::shown : shown_kind::open, id, out);
+  return proof_row(is_proven ? shown_kind::shown : shown_kind::open, out, id);
 }
 
 const std::string no_area = "(no area)";
 
 }  // namespace
+
+std::string proof_row(std::string_view kind, const std::string& content, const std::string& id) {
+  return fmt::format("<li{} data-v=\"{}\">\n{}</li>\n", id.empty() ? "" : fmt::format(" id=\"{}\"", id), kind,
+                     content);
+}
 
 std::string not_asked(std::string_view command) {
   return fmt::format("<p>Not asked for in this run. <code class=\"copy\">{}</code></p>\n", command);

@@ -47,6 +47,11 @@ class ProofBook {
   std::map<std::string, std::vector<const DefectVerdict*>> proofs_;
 };
 
+/// An element of a list that the filter can hide; `kind`: one of shown_kind; `id`: empty, or what links lead
+/// to.
+[[nodiscard]] std::string proof_row(std::string_view kind, const std::string& content,
+                                    const std::string& id = {});
+
 /// What stands in the place of a part that nobody asked for: the command that gives it.
 [[nodiscard]] std::string not_asked(std::string_view command);
 
