@@ -23,6 +23,11 @@ namespace fs = std::filesystem;
 constexpr const char* not_ended =
     "the run has not ended: it goes on, or it was killed before its reports could be made";
 
+void not_written(result::RunResult& run, const Error& why) {
+  run.unwritten.push_back(why.text());
+  report_error(why, 0);
+}
+
 }  // namespace
 
 std::string absolute(const std::string& path) {
@@ -170,10 +175,7 @@ void RunReports::flush() {
 
 void RunReports::put(result::RunResult& run, const std::string& path, ByteView bytes) {
   if (path.empty()) return;
-  if (auto written = write_file_atomically(path, bytes); !written) {
-    run.unwritten.push_back(written.error().text());
-    report_error(written.error(), 0);
-  }
+  if (auto written = write_file_atomically(path, bytes); !written) not_written(run, written.error());
 }
 
 void RunReports::put(result::RunResult& run, const std::string& path, const std::string& text) {
@@ -196,18 +198,14 @@ void RunReports::write_causes(result::RunResult& run, const can::Capture& captur
   // Only now: what an earlier report has put there is worth more than nothing.
   if (written && !paths_.captures.empty()) written = empty_capture_folder(paths_.captures);
   if (written) written = write_cause_captures(paths_.captures, *made);
-  if (!written) {
-    run.unwritten.push_back(written.error().text());
-    report_error(written.error(), 0);
-  }
+  if (!written) not_written(run, written.error());
   if (made) frames.causes = std::move(*made);
   has_causes_ = written && !paths_.captures.empty();
 }
 
 void RunReports::write_bundle(result::RunResult& run, RunBundle::Frames frames) {
   if (auto sealed = bundle_.seal(run, paths_, std::move(frames)); !sealed) {
-    run.unwritten.push_back(sealed.error().text());
-    report_error(sealed.error(), 0);
+    not_written(run, sealed.error());
     return;
   }
   // Now they stand in the bundle.
@@ -246,16 +244,17 @@ void RunReports::write_left(result::RunResult& run) {
 }
 
 void RunReports::write_others(result::RunResult& run, const std::vector<std::string>& elsewhere) {
+  std::optional<can::LoadedCapture> own;
   if (!paths_.capture.empty()) {
     auto loaded = commented_frames(paths_.capture, run);
-    // Another run's is left as it is; what it is not is told where its frames are asked for.
-    if (loaded && !why_not_of(loaded->capture, run).empty())
-      loaded = fail("is no capture of this run: " + why_not_of(loaded->capture, run), paths_.capture);
+    // Another run's is left as it is.
+    const auto other = loaded ? why_not_of(loaded->capture, run) : std::string();
+    if (!other.empty()) loaded = fail("is no capture of this run: " + other, paths_.capture);
     if (loaded) {
-      put(run, paths_.capture, can::write_pcapng(loaded->capture, loaded->info));
+      own = std::move(*loaded);
+      put(run, paths_.capture, can::write_pcapng(own->capture, own->info));
     } else {
-      run.unwritten.push_back(loaded.error().text());
-      report_error(loaded.error(), 0);
+      not_written(run, loaded.error());
     }
   }
   RunBundle::Frames frames;
@@ -263,22 +262,20 @@ void RunReports::write_others(result::RunResult& run, const std::vector<std::str
     std::vector<std::string> places{paths_.capture};
     if (frames_are_ours_) places.insert(places.end(), {bundle_.frames(), paths_.bundle});
     places.insert(places.end(), elsewhere.begin(), elsewhere.end());
-    take_frames(run, places, frames);
+    take_frames(run, own ? Result<can::LoadedCapture>(std::move(*own)) : find_frames(places, run), frames);
   }
   write_words(run);
   if (bundle_.asked()) write_bundle(run, std::move(frames));
 }
 
-void RunReports::take_frames(result::RunResult& run, const std::vector<std::string>& places,
+void RunReports::take_frames(result::RunResult& run, const Result<can::LoadedCapture>& found,
                              RunBundle::Frames& frames) {
-  const auto found = find_frames(places, run);
   if (!found) {
     frames.why_not = found.error().text();
     if (paths_.captures.empty()) return;
+    // Those of an earlier report are still right.
     has_causes_ = has_cause_captures(paths_.captures, run);
-    if (has_causes_) return;
-    run.unwritten.push_back(found.error().text());
-    report_error(found.error(), 0);
+    if (!has_causes_) not_written(run, found.error());
     return;
   }
   if (bundle_.asked()) {

@@ -80,8 +80,9 @@ class RunReports {
   /// The captures of causes, in their folder and in what is sealed afterwards.
   void write_causes(result::RunResult& run, const can::Capture& capture, const can::CaptureInfo& info,
                     RunBundle::Frames& frames);
-  /// The frames of a run that is over, out of the first of these places that has them.
-  void take_frames(result::RunResult& run, const std::vector<std::string>& places, RunBundle::Frames& frames);
+  /// The frames of a run that is over, where they were found.
+  void take_frames(result::RunResult& run, const Result<can::LoadedCapture>& found,
+                   RunBundle::Frames& frames);
   void write_bundle(result::RunResult& run, RunBundle::Frames frames);
   [[nodiscard]] std::vector<std::string> all() const;
 
