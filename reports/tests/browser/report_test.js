@@ -60,6 +60,11 @@ async function open(browser, url, options = {}) {
     return { page, complaints, close: () => context.close() };
 }
 
+// A page obeys its fragment in an event of its own, some time after the click that changed it.
+const comes_into_view = (page, selector) => page.waitForFunction((selector) => {
+    const box = document.querySelector(selector).getBoundingClientRect();
+    return box.height > 0 && box.top >= 0 && box.top < window.innerHeight;
+}, selector);
 const visible_cases = (page) => page.locator('#cases li[data-v]:visible').count();
 
 test('without JavaScript all is there, and nothing that would need it', async (browser) => {
@@ -107,11 +112,9 @@ test('a link leads to its case, also to one that is filtered out or folded', asy
     const { page, complaints, close } = await open(browser, page_of('run.html') + '#?v=pass');
     assert.equal(await visible_cases(page), 1);
     await page.locator('#summary .causes a').first().click();
-    assert.equal(await page.locator('#cause-1').isVisible(), true);
+    await comes_into_view(page, '#cause-1');
     await page.evaluate(() => { location.hash = '#c2'; });
-    await page.waitForFunction(() => !document.getElementById('c2').hidden);
-    const box = await page.locator('#c2').boundingBox();
-    assert.ok(box.y >= 0 && box.y < page.viewportSize().height, 'the case is in view');
+    await comes_into_view(page, '#c2');
     assert.deepEqual(complaints, []);
     await close();
 });
@@ -251,7 +254,7 @@ test('a link of a comparison leads to its cause, also to one that is filtered ou
     const { page, complaints, close } = await open(browser, page_of('comparison.html') + '#?v=better');
     assert.equal(await page.locator('#new-1').isVisible(), false);
     await page.locator('#summary .causes a').first().click();
-    assert.equal(await page.locator('#new-1').isVisible(), true);
+    await comes_into_view(page, '#new-1');
     assert.deepEqual(complaints, []);
     await close();
 });
@@ -273,7 +276,7 @@ test('a proof has a row for each defect, links it to its requirements, and says 
     const text = await rows.first().textContent();
     for (const part of ['killed', 'violates', 'killed by']) assert.ok(text.includes(part), `${part} in ${text}`);
     await rows.first().locator('.by a').first().click();
-    assert.match(await page.evaluate(() => location.hash), /^#r\d+$/);
+    await page.waitForFunction(() => /^#r\d+$/.test(location.hash));
     assert.match(await page.locator('#mutants').innerText(), /canopen-conform-mutants selftest --mutants/);
     const id = await rows.first().locator('b').first().textContent();
     await page.locator('#q').fill(id);
