@@ -33,7 +33,7 @@ std::string listed(const std::vector<std::string>& all) {
 }
 
 std::string of_cause(const result::Cause& cause, const result::Place& place) {
-  return fmt::format("{} {}: {}", place.finding->requirement, cause.about, headline(*place.finding));
+  return fmt::format("{} {}: {}", place.finding->requirement, prose(cause.about), headline(*place.finding));
 }
 
 /// Further requirements of the findings, without the one that is told first.

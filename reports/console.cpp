@@ -217,7 +217,7 @@ void write_causes(Page& page, const RunResult& run, const std::vector<Cause>& ca
   page.heading(fmt::format("{}: {}", title, counted(chosen.size() + bare.size(), "cause")));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Cause& cause = *chosen[i];
-    page.item(fmt::format("{}: {}, {}; {}", log_safe(cause.primary.finding->requirement), cause.about,
+    page.item(fmt::format("{}: {}, {}; {}", log_safe(cause.primary.finding->requirement), prose(cause.about),
                           extent(cause), headline(*cause.primary.finding)),
               fmt::format("{}. ", i + 1));
   }

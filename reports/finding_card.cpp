@@ -130,7 +130,8 @@ void draw_grades(Card& card, const result::RunResult& run, const Finding& findin
 
 void draw_frames(Card& card, const CaseResult& one, const Finding& finding) {
   if (finding.evidence.empty()) return;
-  const auto shown = evidence_window(finding.evidence, frames_before, frames_after);
+  const auto shown = evidence_window(finding, frames_before, frames_after);
+  const auto silence = silence_of(finding);
   std::size_t id_width = 4;
   std::size_t data_width = 0;
   std::size_t time_width = 9;
@@ -139,6 +140,7 @@ void draw_frames(Card& card, const CaseResult& one, const Finding& finding) {
     data_width = std::max(data_width, columns(payload_text(frame.frame)));
     time_width = std::max(time_width, columns(milliseconds(frame.time - one.begin)));
   }
+  if (silence) time_width = std::max(time_width, columns(milliseconds(silence->until - one.begin)));
   card.gap();
   card.row("frames", "ms since the case began, > to the device, < from the device");
   const auto left_out = [&](std::size_t count, std::string_view where) {
@@ -166,6 +168,10 @@ void draw_frames(Card& card, const CaseResult& one, const Finding& finding) {
     }
   }
   left_out(finding.evidence.size() - first - shown.size(), "after");
+  if (silence) {
+    card.raw(fmt::format("{}   {}", pad_left(milliseconds(silence->until - one.begin), time_width),
+                         silence_words(one, finding)));
+  }
   if (std::ranges::any_of(shown, &EvidenceFrame::decisive)) {
     card.raw(paint("=> marks the frame that decided the verdict", Ink::dim, card.style()));
   }

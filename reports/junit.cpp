@@ -117,18 +117,22 @@ class Sheet {
   std::string text_;
 };
 
-void write_frames(Sheet& sheet, const RunResult& run, std::span<const EvidenceFrame> evidence) {
+void write_frames(Sheet& sheet, const RunResult& run, const CaseResult& one, const Finding& finding) {
+  const auto evidence = evidence_window(finding, 60, 20);
   if (evidence.empty()) return;
   sheet.line();
   sheet.line("Frames (> to the device, < from the device, => decided the verdict)");
   const std::string interface = interface_name(run);
-  for (const EvidenceFrame& one : evidence) {
-    const bool sent = one.direction == can::Direction::transmitted;
-    std::string text =
-        fmt::format("{} {} {}", one.decisive ? "=>" : "  ", candump_line(one, interface), sent ? ">" : "<");
-    if (!one.meaning.empty()) text += fmt::format(" {}", log_safe(one.meaning));
+  for (const EvidenceFrame& frame : evidence) {
+    const bool sent = frame.direction == can::Direction::transmitted;
+    std::string text = fmt::format("{} {} {}", frame.decisive ? "=>" : "  ", candump_line(frame, interface),
+                                   sent ? ">" : "<");
+    if (!frame.meaning.empty()) text += fmt::format(" {}", log_safe(frame.meaning));
     sheet.line(text);
   }
+  if (const auto silence = silence_of(finding))
+    sheet.line(fmt::format("until {} ms of the case {}", milliseconds(silence->until - one.begin),
+                           silence_words(one, finding)));
 }
 
 void write_finding(Sheet& sheet, const RunResult& run, const LocatedFinding& located) {
@@ -155,7 +159,7 @@ void write_finding(Sheet& sheet, const RunResult& run, const LocatedFinding& loc
   sheet.row("Came", log_safe(finding.actual));
   if (!finding.actual_bytes.empty()) sheet.rows("Bytes", byte_rows(finding.actual_bytes));
   sheet.row("Why", prose(finding.reason));
-  write_frames(sheet, run, evidence_window(finding.evidence, 60, 20));
+  write_frames(sheet, run, *located.owner, finding);
 }
 
 /// The first line is the message again (GitLab shows no attribute), the last one the position in the
@@ -207,7 +211,7 @@ std::string evidence_log(const RunResult& run, const CaseResult& one) {
   std::map<std::size_t, const EvidenceFrame*> frames;
   const std::vector<LocatedFinding> all = findings_of(one);
   for (const LocatedFinding& located : all) {
-    for (const EvidenceFrame& frame : evidence_window(located.finding->evidence, 150, 50)) {
+    for (const EvidenceFrame& frame : evidence_window(*located.finding, 150, 50)) {
       frames.emplace(frame.capture_index, &frame);
     }
   }

@@ -2,6 +2,7 @@
 #include "reports/phrases.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,12 @@ using result::CaseResult;
 using result::EvidenceFrame;
 using result::Finding;
 using result::Verdict;
+
+namespace {
+
+constexpr std::size_t least_in_silence = 6;
+
+}  // namespace
 
 std::vector<LocatedFinding> findings_of(const CaseResult& one) {
   std::vector<LocatedFinding> all;
@@ -35,7 +42,9 @@ std::string headline(const Finding& finding) {
   std::string text = log_safe(finding.step);
   const std::string_view came = finding.actual.empty() ? std::string_view(finding.reason) : finding.actual;
   if (!came.empty()) text += (text.empty() ? "" : " -> ") + log_safe(came);
-  if (finding.accepts.empty()) return text;
+  // "require A -> does not hold: B" has said A.
+  if (finding.accepts.empty() || (finding.accepts.size() == 1 && finding.step.ends_with(finding.accepts.front())))
+    return text;
   constexpr std::size_t shown = 3;
   std::string expected;
   for (std::size_t i = 0; i < std::min(shown, finding.accepts.size()); ++i) {
@@ -135,15 +144,47 @@ std::string can_id_text(const can::Frame& frame) {
   return fmt::format("{:04X} {:04X}h", frame.id >> 16U, frame.id & 0xFFFFU);
 }
 
-std::span<const EvidenceFrame> evidence_window(std::span<const EvidenceFrame> evidence, std::size_t before,
-                                               std::size_t after) {
+std::span<const EvidenceFrame> evidence_window(const Finding& finding, std::size_t before, std::size_t after) {
+  const std::span<const EvidenceFrame> evidence = finding.evidence;
   if (evidence.empty()) return evidence;
   const auto decisive = std::ranges::find_if(evidence, &EvidenceFrame::decisive);
-  const auto at = decisive == evidence.end() ? evidence.size() - 1
-                                             : static_cast<std::size_t>(decisive - evidence.begin());
+  auto at = decisive == evidence.end() ? evidence.size() - 1
+                                       : static_cast<std::size_t>(decisive - evidence.begin());
+  if (decisive == evidence.end() && finding.listened) {
+    while (at > 0 && evidence[at].time > finding.listened->from) --at;
+    // Who waits in vain wants to see what came instead.
+    after = std::max(after, least_in_silence);
+  }
   const std::size_t first = at > before ? at - before : 0;
   const std::size_t last = std::min(evidence.size(), at + after + 1);
   return evidence.subspan(first, last - first);
+}
+
+std::optional<result::Listening> silence_of(const Finding& finding) {
+  if (!finding.listened) return std::nullopt;
+  auto silence = *finding.listened;
+  const auto decisive = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
+  if (decisive != finding.evidence.end()) {
+    // Behind the last of many frames it is silent for a period in any case.
+    const auto is_alike = [&](const EvidenceFrame& frame) {
+      return frame.frame.id == decisive->frame.id && frame.direction == decisive->direction;
+    };
+    const auto before =
+        std::find_if(std::make_reverse_iterator(decisive), finding.evidence.rend(), is_alike);
+    silence.from = std::max(silence.from, decisive->time);
+    if (before != finding.evidence.rend() &&
+        silence.until - silence.from <= (decisive->time - before->time) * 2)
+      return std::nullopt;
+  }
+  return silence.until > silence.from ? std::optional(silence) : std::nullopt;
+}
+
+std::string silence_words(const CaseResult& one, const Finding& finding) {
+  const auto silence = silence_of(finding);
+  if (!silence) return {};
+  const bool some = std::ranges::any_of(finding.evidence, &EvidenceFrame::decisive);
+  return fmt::format("{} ({} since {})", some ? "no more came of it" : "nothing came that was waited for",
+                     brief_duration(silence->until - silence->from), milliseconds(silence->from - one.begin));
 }
 
 std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,9 +63,15 @@ struct Otherwise {
 /// "603h"; identifiers of 29 bits are written as such whatever their value.
 [[nodiscard]] std::string can_id_text(const can::Frame& frame);
 
-/// The part of the evidence worth printing: frames around the decisive one (the last one if none is).
-[[nodiscard]] std::span<const result::EvidenceFrame> evidence_window(
-    std::span<const result::EvidenceFrame> evidence, std::size_t before, std::size_t after);
+/// The part of the evidence worth printing: frames around the decisive one; if none is, those before and behind
+/// the moment from which the step waited, or else the last.
+[[nodiscard]] std::span<const result::EvidenceFrame> evidence_window(const result::Finding& finding,
+                                                                     std::size_t before, std::size_t after);
+/// How long a step waited for what did not come: from the decisive frame, or else from when it began to wait.
+/// None: it did not wait, or what came says it all.
+[[nodiscard]] std::optional<result::Listening> silence_of(const result::Finding& finding);
+/// "nothing came that was waited for (700 ms since 833.466)": times in ms since the case began.
+[[nodiscard]] std::string silence_words(const result::CaseResult& one, const result::Finding& finding);
 /// Rows of `row_size` bytes with offset and characters; one plain row up to eight bytes. At most 256 bytes
 /// are shown.
 [[nodiscard]] std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size = 16);

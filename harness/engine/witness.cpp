@@ -17,10 +17,12 @@ namespace {
 using result::Verdict;
 using steps::Actual;
 using steps::Grade;
+using steps::Outcome;
 using steps::Step;
 
 constexpr std::size_t evidence_before = 6;
 constexpr std::size_t evidence_after = 2;
+constexpr std::size_t evidence_in_silence = 6;
 
 /// The entry a step is about, or the first of those it looks at.
 std::optional<Multiplexer> object_of(const Step& step, RunSession& session) {
@@ -86,7 +88,6 @@ std::string foreign_answer(std::size_t decisive, const RunSession& session) {
 /// How what came differs, as a kind: what many parts of a device have in common when one thing is wrong with
 /// it.
 std::string deviation_of(const Step& step, const Actual& actual, RunSession& session) {
-  using Outcome = steps::Outcome;
   const auto refusal = std::ranges::find_if(step.expectation.pass, [](const Outcome& outcome) {
     return outcome.kind == Outcome::Kind::abort_code || outcome.kind == Outcome::Kind::abort_any ||
            outcome.kind == Outcome::Kind::abort_defined;
@@ -160,8 +161,15 @@ result::Finding Witness::finding(const Step& step, const std::string& requiremen
   out.step = step.action != nullptr ? step.action->words(session_)
                                     : "over " + (step.walk ? step.walk->name : step.verb);
   if (step.branches.empty()) {
-    out.accepts = step.expectation.pass.empty() ? std::vector<std::string>{"success"}
-                                                : step.expectation.pass_words(session_, type);
+    const auto success = step.action != nullptr ? step.action->success_words() : std::string("success");
+    const auto& accepted = step.expectation.pass;
+    if (accepted.size() <= 1 && std::ranges::all_of(accepted, [](const Outcome& outcome) {
+          return outcome.kind == Outcome::Kind::ok;
+        })) {
+      out.accepts = {success};
+    } else {
+      out.accepts = step.expectation.pass_words(session_, type);
+    }
     out.tolerates = step.expectation.warn_words(session_, type);
   } else {
     for (const auto& branch : step.branches) {
@@ -181,22 +189,41 @@ result::Finding Witness::finding(const Step& step, const std::string& requiremen
   if (const auto object = object_of(step, session_)) out.object = object->index;
   if (!out.object && actual.decisive) out.object = object_in_answer(session_, *actual.decisive);
   out.deviation = deviation_of(step, actual, session_);
-  out.evidence = evidence(result_->first_frame, step_begin_, actual.decisive);
+  out.listened = listened(actual);
+  out.evidence = evidence(result_->first_frame, step_begin_, actual.decisive, out.listened);
   out.frames_seen = session_.capture().size();
   out.rests_on_time = timed_;
   return out;
 }
 
-std::vector<result::EvidenceFrame> Witness::evidence(std::size_t first_frame, std::size_t begin,
-                                                     std::optional<std::size_t> decisive) const {
+std::optional<result::Listening> Witness::listened(const Actual& actual) const {
+  if (actual.listened) return result::Listening{actual.listened->from, actual.listened->until};
+  if (actual.kind != Actual::Kind::silence || actual.decisive) return std::nullopt;
+  auto from = step_began_at_;
+  const auto& frames = session_.capture().frames();
+  for (auto i = step_begin_; i < frames.size(); ++i) {
+    if (frames[i].direction == can::Direction::transmitted) from = frames[i].time;
+  }
+  return result::Listening{from, session_.now()};
+}
+
+std::vector<result::EvidenceFrame> Witness::evidence(
+    std::size_t first_frame, std::size_t begin, std::optional<std::size_t> decisive,
+    const std::optional<result::Listening>& listened) const {
   std::vector<result::EvidenceFrame> out;
   const auto& frames = session_.capture().frames();
   if (frames.empty()) return out;
-  const auto centre = decisive.value_or(frames.size() - 1);
+  auto centre = decisive.value_or(frames.size() - 1);
+  auto behind = evidence_after;
+  if (!decisive && listened) {
+    // What was to be answered, and what came instead.
+    while (centre > first_frame && frames[centre].time > listened->from) --centre;
+    behind = evidence_in_silence;
+  }
   auto first = std::max(first_frame, centre > evidence_before ? centre - evidence_before : 0);
   if (begin >= first && begin <= centre && centre - begin < evidence_before)
     first = std::max(first_frame, begin > 2 ? begin - 2 : 0);
-  const auto last = std::min(frames.size() - 1, centre + evidence_after);
+  const auto last = std::min(frames.size() - 1, centre + behind);
   // The decoder must see the case from its beginning to name segments.
   canopen::Decoder decoder(session_.node());
   decoder.set_emcy_can_id(session_.emcy_can_id());

@@ -29,16 +29,21 @@ class Witness {
     about_ = about;
     timed_ = false;
   }
-  void begin_step() { step_begin_ = session_.capture().size(); }
+  void begin_step() {
+    step_begin_ = session_.capture().size();
+    step_began_at_ = session_.now();
+  }
   /// From here on what the case finds has rested on time or on silence.
   void note_time() { timed_ = true; }
 
   [[nodiscard]] result::Finding finding(const steps::Step& step, const std::string& requirement,
                                         const steps::Grade& grade, const steps::Actual& actual);
-  /// The frames around the decisive one, or around the end of the trace, with their meaning. `first_frame`:
-  /// of the case, `begin`: of the step.
-  [[nodiscard]] std::vector<result::EvidenceFrame> evidence(std::size_t first_frame, std::size_t begin,
-                                                            std::optional<std::size_t> decisive) const;
+  /// The frames around the decisive one; without one those before and behind the moment from which something
+  /// was waited for, or else the last of the trace. With their meaning. `first_frame`: of the case, `begin`:
+  /// of the step.
+  [[nodiscard]] std::vector<result::EvidenceFrame> evidence(
+      std::size_t first_frame, std::size_t begin, std::optional<std::size_t> decisive,
+      const std::optional<result::Listening>& listened = {}) const;
   /// Where the description tells of what a step is about, or that it does not; empty without a description.
   [[nodiscard]] std::string declared_at(const steps::Step& step, const steps::Actual& actual) const;
   /// What came breaks rules below the one that is judged: those have failed, and this one cannot be judged.
@@ -47,11 +52,15 @@ class Witness {
                                                       const scenario::Catalogue& catalogue);
 
  private:
+  /// When the step waited, where it tells, or how long nothing followed what it sent.
+  [[nodiscard]] std::optional<result::Listening> listened(const steps::Actual& actual) const;
+
   RunSession& session_;
   LiveMonitors& attribution_;
   const result::CaseResult* result_ = nullptr;
   std::optional<Multiplexer> about_;
   std::size_t step_begin_ = 0;
+  BusTime step_began_at_{};
   bool timed_ = false;
 };
 

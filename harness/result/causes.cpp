@@ -50,6 +50,11 @@ std::size_t decided_at(const Finding& finding) {
   return frame == nullptr ? finding.frames_seen : frame->capture_index + 1;
 }
 
+/// Frames or a silence show it; what a condition says of values takes longer to see.
+bool shows_itself(const Finding& finding) {
+  return finding.listened.has_value() || decisive_frame(finding) != nullptr;
+}
+
 class Grouping {
  public:
   explicit Grouping(const RunResult& run) : run_(run) {
@@ -86,7 +91,7 @@ class Grouping {
     for (const auto& [key, places] : members) {
       Cause cause;
       const auto primary = primary_of(key, places);
-      cause.about = key_of(places_[primary]);
+      cause.about = title_of(places_[primary]);
       put_first(primary, places, cause);
       complete(cause);
       out.push_back(std::move(cause));
@@ -128,6 +133,14 @@ class Grouping {
     if (service_of_requirement(finding.requirement) == nullptr && !own_rule_broken_.contains(place.part()))
       return "rules " + family_of(finding.requirement);
     return place.part();
+  }
+
+  /// What a reader calls it: what many parts have in common, or else what the broken rule is about.
+  [[nodiscard]] std::string title_of(const Place& place) const {
+    const auto& finding = *place.finding;
+    const auto* info = run_.requirement(finding.requirement);
+    const bool is_common = is_counted(place) && is_shared(finding.deviation);
+    return is_common || info == nullptr || info->area.empty() ? key_of(place) : info->area;
   }
 
   /// What many parts share and an SDO service shows as well is that service's.
@@ -298,7 +311,7 @@ class Grouping {
       const auto& finding = *place.finding;
       const auto deep = depth(place);
       return std::tuple(place.formless, explanations_->steps(i), deep == beside,
-                        place.verdict != Verdict::fail, deep, decided_at(finding));
+                        place.verdict != Verdict::fail, deep, !shows_itself(finding), decided_at(finding));
     };
     return *std::ranges::min_element(members, {}, weight);
   }

@@ -57,15 +57,19 @@ void members(Same<SourcePosition> auto& it, auto&& see) {
   auto& [file, line, column] = it;
   see("file", file), see("line", line), see("column", column);
 }
+void members(Same<Listening> auto& it, auto&& see) {
+  auto& [from, until] = it;
+  see("from", from), see("until", until);
+}
 void members(Same<Finding> auto& it, auto&& see) {
   auto& [verdict, requirement, position, step, accepts, tolerates, actual, actual_bytes, reason, evidence,
-         declared_at, during, object, deviation, broken_rules, frames_seen, rests_on_time] = it;
+         declared_at, during, object, deviation, broken_rules, frames_seen, rests_on_time, listened] = it;
   see("verdict", verdict), see("requirement", requirement), see("position", position), see("step", step),
       see("accepts", accepts), see("tolerates", tolerates), see("actual", actual),
       see("actual_bytes", actual_bytes), see("reason", reason), see("evidence", evidence),
       see("declared_at", declared_at), see("during", during), see("object", object),
       see("deviation", deviation), see("broken_rules", broken_rules), see("frames_seen", frames_seen),
-      see("rests_on_time", rests_on_time);
+      see("rests_on_time", rests_on_time), see("listened", listened);
 }
 void members(Same<DecidingStep> auto& it, auto&& see) {
   auto& [position, step, actual, frame] = it;

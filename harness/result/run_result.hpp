@@ -34,6 +34,12 @@ struct SourcePosition {
   int column = 0;    ///< 1-based
 };
 
+/// The time in which a step listened: what it waited for did not come between the decisive frame, or else the
+/// beginning, and the end.
+struct Listening {
+  BusTime from, until;
+};
+
 /// One expectation that did not simply pass, with all that is needed to understand it.
 struct Finding {
   Verdict verdict = Verdict::fail;
@@ -60,6 +66,8 @@ struct Finding {
   /// The step, or one before it in the case, waits, counts time or hears a silence: in doubt when the host
   /// was late.
   bool rests_on_time = false;
+  /// Of a step that waits, and of a request that was not answered.
+  std::optional<Listening> listened{};
 };
 
 /// The step that decided a judgement: the one a reader looks at to agree or disagree.

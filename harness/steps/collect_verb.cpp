@@ -106,6 +106,7 @@ class Collect final : public Action {
     }
     if (sent && stimuli.empty()) return fail_scenario("nothing was sent that could have been answered");
     auto out = measure(session, *window, hits, stimuli, until);
+    out.listened = {window->anchor, until};
     if (!hits.empty()) measure_contents(out, session, hits, overflow);
     return out;
   }

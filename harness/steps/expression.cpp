@@ -181,7 +181,7 @@ Result<Value> evaluate_node(const NodePtr& node, Scope& scope) {
     case Kind::current: return scope.current();
     case Kind::name: {
       const auto* value = scope.find(node->name);
-      if (value == nullptr) return fail("$" + node->name + " has no value here");
+      if (value == nullptr) return fail("$" + node->name + " has no value, as no step has brought one");
       // A late-bound instance: for_each may list `current`, which is read when it is used.
       if (value->word == "current") return scope.current();
       return *value;
@@ -302,7 +302,7 @@ Result<Multiplexer> ObjectReference::resolve(Scope& scope) const {
     mux.index = Index(*index_);
   } else {
     const auto* value = scope.find(index_name_);
-    if (value == nullptr) return fail("$" + index_name_ + " has no value here");
+    if (value == nullptr) return fail("$" + index_name_ + " has no value, as no step has brought one");
     if (value->object) {
       mux = *value->object;
     } else if (value->number && *value->number <= 0xFFFF) {

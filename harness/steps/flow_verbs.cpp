@@ -23,12 +23,14 @@ class Require final : public Action {
   std::vector<ObjectReference> concerns() const override { return condition_.objects(); }
   bool rests_on_time() const override { return false; }
   std::string words(Session&) const override { return "require " + condition_.text(); }
+  std::string success_words() const override { return condition_.text(); }
   Result<Actual> run(Session& session) const override {
     auto holds = condition_.evaluate(session);
     if (!holds) return std::unexpected(holds.error());
     Actual out;
     out.kind = *holds ? Actual::Kind::matched : Actual::Kind::mismatched;
-    out.detail = (*holds ? "holds: " : "does not hold: ") + condition_.text();
+    // Which values it had tells more than which names; where it holds nobody waits for another look.
+    out.detail = *holds ? "holds: " + condition_.text() : "does not hold: " + condition_.why(session, false).text;
     return out;
   }
 

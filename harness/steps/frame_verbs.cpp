@@ -162,6 +162,7 @@ class AwaitFrame final : public Action {
   std::string words(Session& session) const override {
     return "a frame of " + source_.words(session) + " within " + within_.text();
   }
+  std::string success_words() const override { return "a frame"; }
   Result<Actual> run(Session& session) const override {
     const auto window = window_of(session, after_);
     if (!window) return std::unexpected(window.error());
@@ -175,6 +176,7 @@ class AwaitFrame final : public Action {
     auto found = session.find_frame(window->first, *match, window->anchor + most);
     if (!found) return std::unexpected(found.error());
     Actual out;
+    out.listened = {window->anchor, window->anchor + most};
     if (!*found) {
       out.kind = Actual::Kind::silence;
       out.detail = "no frame of " + source_.words(session) + " within " + to_string(most);
@@ -183,6 +185,7 @@ class AwaitFrame final : public Action {
     const auto captured = session.capture().frames()[**found];
     session.consume(**found);
     out.decisive = *found;
+    out.listened->until = captured.time;
     out.data.assign(captured.frame.bytes().begin(), captured.frame.bytes().end());
     out.has_data = true;
     if (within_.least.count() > 0 && captured.time < window->anchor + within_.least) {
@@ -227,6 +230,7 @@ class Silence final : public Action {
     for (const auto& source : sources_) parts.push_back(source.words(session));
     return "silence of " + join(parts, ", ") + " " + end_.words();
   }
+  std::string success_words() const override { return "silence"; }
   Result<Actual> run(Session& session) const override {
     const auto window = settled_window_of(session, after_);
     if (!window) return std::unexpected(window.error());
@@ -250,10 +254,12 @@ class Silence final : public Action {
         *until);
     if (!found) return std::unexpected(found.error());
     Actual out;
+    out.listened = {begin, *until};
     if (*found) {
       const auto& captured = session.capture().frames()[**found];
       out.kind = Actual::Kind::mismatched;
       out.decisive = *found;
+      out.listened->until = captured.time;
       out.detail = frame_words(captured) + " after " + relative(captured.time, *window);
       session.consume(**found);
     } else {

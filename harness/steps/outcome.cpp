@@ -2,6 +2,8 @@
 #include "steps/outcome.hpp"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
@@ -95,6 +97,28 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
   }
   if (!wanted->number) return fail("'" + demand.value.text() + "' is not a number");
   return !actual.data.empty() && actual.data.size() <= 8 && equals(*wanted->number, actual.data, mask);
+}
+
+/// "longest 700.185 ms instead of at most 150 ms": of several measurements those that miss what was expected.
+/// Empty where nothing was measured.
+std::string missed_words(const std::vector<Outcome>& expected, const Actual& actual) {
+  if (expected.size() != 1) return {};
+  constexpr std::array<std::string_view, 6> times{"period", "shortest", "longest", "first", "latency", "drift"};
+  std::vector<std::string> parts;
+  for (const auto& demand : expected.front().demands) {
+    const auto found = actual.measured.find(demand.measure);
+    if (demand.kind != Demand::Kind::measured || found == actual.measured.end()) continue;
+    const auto value = found->second;
+    if (value >= demand.least && value <= demand.most) continue;
+    const auto bounds = demand.text.substr(std::min(demand.text.size(), demand.measure.size() + 1));
+    const bool is_time = std::ranges::find(times, demand.measure) != times.end();
+    parts.push_back(demand.measure + " " +
+                    (is_time ? to_string(std::chrono::round<std::chrono::microseconds>(
+                                   Duration(static_cast<Duration::rep>(value))))
+                             : std::to_string(value)) +
+                    " instead of " + bounds);
+  }
+  return join(parts, ", ");
 }
 
 std::string value_words(const Expression& expression, Scope& scope, std::optional<canopen::DataType> type) {
@@ -246,11 +270,12 @@ Result<Grade> grade(const Expectation& expectation, const Actual& actual, std::s
   hit = in(expectation.fail);
   if (!hit) return std::unexpected(hit.error());
   if (*hit) return Grade{Verdict::fail, "an outcome that is ruled out"};
+  const auto missed = missed_words(expectation.pass, actual);
   if (!is_binding(level) && !strict) {
-    return Grade{Verdict::warn,
-                 "not an expected outcome of a rule whose level is '" + std::string(level) + "'"};
+    return Grade{Verdict::warn, "not an expected outcome of a rule whose level is '" + std::string(level) +
+                                    "'" + (missed.empty() ? "" : ": " + missed)};
   }
-  return Grade{Verdict::fail, "not an outcome that the rule accepts"};
+  return Grade{Verdict::fail, missed.empty() ? "not an outcome that the rule accepts" : missed};
 }
 
 }  // namespace conform::steps

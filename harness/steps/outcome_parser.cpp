@@ -11,6 +11,14 @@
 namespace conform::steps {
 namespace {
 
+/// "4.." as "at least 4", "..150 ms" as "at most 150 ms"; a range with both ends as it is written.
+std::string range_words(std::string_view text) {
+  text = trim(text);
+  if (text.ends_with("..")) return "at least " + std::string(trim(text.substr(0, text.size() - 2)));
+  if (text.starts_with("..")) return "at most " + std::string(trim(text.substr(2)));
+  return std::string(text);
+}
+
 std::optional<AbortCode> read_code(std::string_view text) {
   const auto number = parse_number(text);
   if (!number || *number > 0xFFFF'FFFFU) return std::nullopt;
@@ -162,7 +170,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
         Demand demand;
         demand.kind = Demand::Kind::range;
         demand.range = *parsed;
-        add(demand, "value " + *text);
+        add(demand, "value " + range_words(*text));
       }
     }
   }
@@ -179,7 +187,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
         Demand demand;
         demand.kind = Demand::Kind::size;
         demand.range = *parsed;
-        add(demand, *text == "1" ? "1 byte" : *text + " bytes");
+        add(demand, *text == "1" ? "1 byte" : range_words(*text) + " bytes");
       }
     }
   }
@@ -207,7 +215,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
       demand.measure = name;
       demand.least = bounds->first;
       demand.most = bounds->second;
-      add(demand, std::string(name) + " " + measure.text().value_or(""));
+      add(demand, std::string(name) + " " + range_words(measure.text().value_or("")));
     }
   }
   if (const auto state = fields.optional("state")) {

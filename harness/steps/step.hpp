@@ -28,6 +28,8 @@ class Action {
   virtual ~Action() = default;
   /// "download 1003h:00 = 02h": with the values of this instance.
   [[nodiscard]] virtual std::string words(Session& session) const = 0;
+  /// What it is when it succeeds, where a scenario asks for no more.
+  [[nodiscard]] virtual std::string success_words() const { return "success"; }
   /// Error: the environment failed, or a name has no value (an error of the scenario).
   [[nodiscard]] virtual Result<Actual> run(Session& session) const = 0;
   /// For alternatives in `either`: whether what comes next on the bus is how this action begins. Consumes

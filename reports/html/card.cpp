@@ -129,7 +129,7 @@ std::string card(const Book& book, const LocatedFinding& located) {
   if (!one.cct.empty()) out += fact("CiA's tool", "case " + text(join(one.cct, ", ")));
   out += "</dl>\n";
   out += grades(book.run(), finding);
-  out += frames(book, one, finding.evidence);
+  out += frames(book, one, finding);
   out += "<dl class=\"facts\">\n";
   if (!position.empty()) out += fact("Scenario", fmt::format("<code>{}</code>", text(position)));
   out +=

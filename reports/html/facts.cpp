@@ -28,6 +28,7 @@ constexpr std::array labels{
     Label{"dut.software_version", "Software version (100Ah)"},
     Label{"dut.description", "Device description"},
     Label{"dut.description_digest", "SHA-256 of the description"},
+    Label{"input.claims", "Features claimed"},
     Label{"input.profile", "Device profile, SHA-256"},
     Label{"input.waivers", "Waivers, SHA-256"},
     Label{"input.recording", "Recorded trace, SHA-256"},

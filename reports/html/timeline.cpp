@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@ namespace {
 using can::Direction;
 using result::CaseResult;
 using result::EvidenceFrame;
+using result::Finding;
 
 // As on the terminal: what came before explains more than what came after.
 constexpr std::size_t frames_before = 14;
@@ -33,6 +35,11 @@ constexpr double device_lane = 78;
 constexpr double axis_line = 98;
 constexpr double height = 122;
 constexpr double room_of_label = 13;
+constexpr double room_of_silence = 90;
+/// A silence that is longer than so many times the frames before it is not drawn to scale, but behind this
+/// place.
+constexpr int longest_tail = 4;
+constexpr double split = left + (right - left) * 0.62;
 
 double ms(Duration duration) { return static_cast<double>(duration.count()) / 1e6; }
 
@@ -51,10 +58,14 @@ std::string mark(double x, const EvidenceFrame& frame) {
 
 class Drawing {
  public:
-  Drawing(const CaseResult& one, std::span<const EvidenceFrame> shown)
+  Drawing(const CaseResult& one, const Finding& finding, std::span<const EvidenceFrame> shown)
       : one_(one),
         shown_(shown),
-        scale_(ms(shown.front().time - one.begin), ms(shown.back().time - one.begin), left + 8, right - 8) {}
+        silence_(silence_of(finding)),
+        end_(silence_ ? std::max(silence_->until, shown.back().time) : shown.back().time),
+        is_broken_(end_ - shown.back().time > (shown.back().time - shown.front().time) * longest_tail),
+        scale_(ms(shown.front().time - one.begin), ms((is_broken_ ? shown.back().time : end_) - one.begin),
+               left + 8, is_broken_ ? split : right - 8) {}
 
   [[nodiscard]] std::string draw(const std::string& title_id) const {
     std::string out = fmt::format(
@@ -62,18 +73,38 @@ class Drawing {
         "<svg class=\"lanes\" viewBox=\"0 0 {} {}\" role=\"img\" aria-labelledby=\"{}\"><title id=\"{}\">{} in {} ms, "
         "drawn to scale; the table below says the same</title>\n",
         width, height, title_id, title_id, counted(shown_.size(), "frame"),
-        milliseconds(shown_.back().time - shown_.front().time));
+        milliseconds(end_ - shown_.front().time));
     out += fmt::format("<text x=\"4\" y=\"{}\">host</text><text x=\"4\" y=\"{}\">device</text>",
                        host_lane + 4, device_lane + 4);
     out += fmt::format("<path class=\"lane\" d=\"M{0} {1}H{2}M{0} {3}H{2}\"/>\n", left, host_lane, right,
                        device_lane);
-    out += exchanges() + marks() + axis();
+    out += silence() + exchanges() + marks() + axis();
     return out + "</svg></div>\n";
   }
 
  private:
   [[nodiscard]] double x_of(const EvidenceFrame& frame) const {
     return scale_.at(ms(frame.time - one_.begin));
+  }
+
+  /// The time in which nothing came; its end is off the scale where the frames would be one stroke otherwise.
+  [[nodiscard]] std::string silence() const {
+    if (!silence_) return {};
+    const double from = std::clamp(scale_.at(ms(silence_->from - one_.begin)), left + 8, right - 8);
+    const double until = is_broken_ ? right - 8 : scale_.at(ms(silence_->until - one_.begin));
+    if (until - from < 1) return {};
+    std::string out = fmt::format("<rect class=\"silence\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
+                                  coordinate(from), device_lane - 9, coordinate(until - from), 18);
+    const double label_from = is_broken_ ? std::max(from, split + 12) : from;
+    if (until - label_from >= room_of_silence)
+      out += fmt::format("<text class=\"t\" x=\"{}\" y=\"{}\">nothing for {}</text>",
+                         coordinate((label_from + until) / 2), device_lane - 13,
+                         brief_duration(silence_->until - silence_->from));
+    if (is_broken_)
+      out += fmt::format("<path class=\"break\" d=\"M{0} {1}l-4 8l8 4l-4 8\"/><text class=\"t\" x=\"{2}\" y=\"{3}\">{4:.3f}</text>",
+                         split + 14, axis_line - 10, coordinate(until - 14), axis_line + 17,
+                         ms(end_ - one_.begin));
+    return out + "\n";
   }
 
   /// From each frame of the host to what the device said next.
@@ -122,6 +153,9 @@ class Drawing {
 
   const CaseResult& one_;
   std::span<const EvidenceFrame> shown_;
+  std::optional<result::Listening> silence_;
+  BusTime end_;     ///< of the last frame, or of the silence behind it
+  bool is_broken_;  ///< the scale ends with the last frame
   Axis scale_;
 };
 
@@ -154,19 +188,23 @@ std::string row(const CaseResult& one, std::size_t number, const EvidenceFrame& 
 
 }  // namespace
 
-std::string frames(const Book& book, const CaseResult& one, std::span<const EvidenceFrame> evidence) {
+std::string frames(const Book& book, const CaseResult& one, const Finding& finding) {
+  const std::span<const EvidenceFrame> evidence = finding.evidence;
   if (evidence.empty()) return {};
-  const auto shown = evidence_window(evidence, frames_before, frames_after);
+  const auto shown = evidence_window(finding, frames_before, frames_after);
   const auto before = static_cast<std::size_t>(shown.data() - evidence.data());
   const std::size_t after = evidence.size() - before - shown.size();
-  std::string out = Drawing(one, shown).draw(book.fresh_id());
+  std::string out = Drawing(one, finding, shown).draw(book.fresh_id());
   out +=
       "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Frames\"><table class=\"frames\"><thead><tr>"
       "<th scope=\"col\">#</th><th scope=\"col\" class=\"num\">ms</th><th scope=\"col\" class=\"num\">gap</th>"
       "<th scope=\"col\">from</th><th scope=\"col\">CAN-ID</th><th scope=\"col\">bytes</th>"
-      "<th scope=\"col\">meaning</th><th scope=\"col\" class=\"num\">frame</th></tr></thead><tbody>\n";
+      "<th scope=\"col\">meaning</th><th scope=\"col\" class=\"num\" title=\"number of the frame in the capture of the whole run\">in capture</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < shown.size(); ++i)
     out += row(one, i + 1, shown[i], i == 0 ? Duration{} : shown[i].time - shown[i - 1].time);
+  if (const auto silence = silence_of(finding))
+    out += fmt::format("<tr class=\"silence\"><td>until</td><td class=\"num\">{}</td><td colspan=\"6\">{}</td></tr>\n",
+                       milliseconds(silence->until - one.begin), text(silence_words(one, finding)));
   out += "</tbody></table></div>\n";
   if (before + after > 0)
     out += fmt::format("<p class=\"quiet\">{} before and {} after these are in the capture of the run.</p>\n",

@@ -3,7 +3,6 @@
 // the same frames with their bytes and what they mean.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "reports/html/book.hpp"
@@ -11,8 +10,9 @@
 
 namespace conform::reports::html {
 
-/// Markup; empty where there are no frames. Times are told since the case began.
+/// The frames of a finding and the time in which none came that was waited for, as markup; empty where there
+/// are no frames. Times are told since the case began.
 [[nodiscard]] std::string frames(const Book& book, const result::CaseResult& one,
-                                 std::span<const result::EvidenceFrame> evidence);
+                                 const result::Finding& finding);
 
 }  // namespace conform::reports::html

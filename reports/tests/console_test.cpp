@@ -102,7 +102,7 @@ TEST_CASE("A violated recommendation is a warning although its finding failed") 
   run.cases[1].verdict = Verdict::warn;
   const std::string text = summary(run, {});
   CHECK(contains(text, "Warnings: 1 cause"));
-  CHECK(contains(text, "1. OD-1003-06: emergency, 2 cases; download 1003h:00"));
+  CHECK(contains(text, "1. OD-1003-06: Pre-defined error field (1003h), 2 cases;"));
   CHECK(contains(text, "warn: OD-1003-06"));
   CHECK(contains(
       text,

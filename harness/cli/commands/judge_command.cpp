@@ -69,6 +69,7 @@ int judge_command(const JudgeCommand& options) {
   auto taken = take_inputs(known->files, *root, files.has_bundle());
   if (!taken) return refuse(taken.error());
   if (known->description) facts.push_back({"dut.description", known->description->name});
+  if (!known->claims.empty()) facts.push_back({"input.claims", known->claims});
   facts.insert(facts.end(), taken->told.begin(), taken->told.end());
   if (files.has_bundle()) {
     if (auto kept = files.keep(tool, std::move(taken->inputs)); !kept)

@@ -2,6 +2,7 @@
 #include "cli/run/known_device.hpp"
 
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -33,6 +34,21 @@ std::vector<std::string> notes_of(const device::Description& description) {
   return out;
 }
 
+/// What the description claims goes above: the claims of both have added up.
+std::string claims_of(const device::Profile& profile, const std::string& profile_file,
+                      const std::set<std::string, std::less<>>& described, const std::string& description_file) {
+  std::vector<std::string> by_profile, by_description;
+  for (const auto& claim : profile.claims)
+    (described.contains(claim) ? by_description : by_profile).push_back(claim);
+  std::vector<std::string> out;
+  const auto add = [&out](const std::string& file, const std::vector<std::string>& claims) {
+    if (!claims.empty()) out.push_back(fs::path(file).filename().string() + ": " + join(claims, ", "));
+  };
+  add(profile_file, by_profile);
+  add(description_file, by_description);
+  return join(out, "; ");
+}
+
 Result<void> add_waivers(KnownDevice& known, const std::string& path) {
   auto document = device::load_waiver_file(path);
   if (!document) return std::unexpected(document.error());
@@ -59,6 +75,7 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
   KnownDevice out;
   bool node_known = false;
   std::string path = words.eds;
+  std::set<std::string, std::less<>> described;
   if (words.profile.empty()) {
     out.profile = device::default_profile(NodeId(1));
   } else {
@@ -88,8 +105,10 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
       out.profile.name = printable(file->device_info.product_name.text);
     out.description = std::make_shared<const eds::EdsFile>(std::move(*file));
     out.profile.description = out.description;
+    described = description->claims;
     device::add_description(out.profile, std::move(*description));
   }
+  out.claims = claims_of(out.profile, words.profile, described, path);
   if (auto done = device::complete_writes(out.profile); !done) {
     auto error = done.error();
     error.where = words.profile + ":" + error.where;

@@ -29,6 +29,8 @@ struct KnownDevice {
   std::shared_ptr<const eds::EdsFile> description;  ///< empty: none is given
   std::vector<std::string> notes;                   ///< for the report: what of the description is not used
   std::vector<UsedFile> files{};                    ///< all that were read
+  /// For the report: the features that count as claimed, and by which file: "pump.yaml: SYNC consumer".
+  std::string claims{};
 };
 
 /// Reads the files. The node-ID is that of the option, the profile or the DCF; `fallback` where none says so.

@@ -111,7 +111,7 @@ TEST_CASE("Names, the current value and entries are looked up when the expressio
   CHECK(worth("$name", session) == "41 41 41 41 41 41 41 41 41");
   CHECK(worth("$name + 1", session) ==
         "error: '41 41 41 41 41 41 41 41 41' is not a number of up to 64 bits");
-  CHECK(worth("$other", session) == "error: $other has no value here");
+  CHECK(worth("$other", session) == "error: $other has no value, as no step has brought one");
   CHECK(worth("value of 1001h:00", session) == "error: 1001h:00 cannot be read");
   CHECK(worth("low limit of 1003h:00", session) == "error: nothing is known of 1003h:00");
   session.defaults[error_count] = {9};
@@ -146,7 +146,7 @@ TEST_CASE("Objects are written out or named, with sub-indices in hexadecimal or 
   CHECK(object("1018h:($n + 1)", session) == "1018h:03");
   CHECK(object("1018h:$big", session) == "error: sub-index 256 is above FFh");
   CHECK(object("$big", session) == "0100h:00");
-  CHECK(object("$other", session) == "error: $other has no value here");
+  CHECK(object("$other", session) == "error: $other has no value, as no step has brought one");
   CHECK(object("1003", session) ==
         "refused: '1003' is not an object (write 1003h:00, $object or 1003h:$count)");
   CHECK(object("1003h:100", session) ==
