@@ -112,6 +112,7 @@ void draw_requirement(Card& card, const result::RunResult& run, const CaseResult
 
 void draw_grades(Card& card, const result::RunResult& run, const Finding& finding, Verdict verdict) {
   card.gap();
+  card.row("before", log_safe(join(finding.prepared, "; ")));
   card.row("step", log_safe(finding.step));
   if (!finding.accepts.empty() || !finding.tolerates.empty()) {
     card.rows("passes", finding.accepts, Ink::good);

@@ -150,6 +150,7 @@ void write_finding(Sheet& sheet, const RunResult& run, const LocatedFinding& loc
   }
   sheet.row("During", log_safe(finding.during));
   sheet.row("Described", log_safe(finding.declared_at));
+  sheet.row("Before", log_safe(join(finding.prepared, "; ")));
   sheet.row("Step", log_safe(finding.step));
   sheet.rows("Passes", finding.accepts);
   sheet.rows("Tolerated", finding.tolerates);

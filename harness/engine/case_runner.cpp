@@ -171,6 +171,7 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   if (step.walk) return run_walk(step);
   witness_.begin_step();
   auto actual = act(step, can::CasePart::step);
+  witness_.note_done(step);
   if (!actual) return cannot_go_on(step, actual.error());
   if (step.action->rests_on_time() || is_late(*actual, session_)) witness_.note_time();
   if (!step.label.empty()) session_.label(step, *actual);
@@ -229,10 +230,12 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
   }
   const bool outermost = book_.value().empty();
   std::size_t tried = 0;
+  const auto done = witness_.done();
   const auto outer = outermost ? std::string() : book_.value() + ", ";
   for (const auto& value : values) {
     book_.set_value(outer + (value.number ? hex(*value.number, digits_of(*value.number)) : value.text()));
     session_.set(walk.name, value);
+    witness_.forget(done);
     const auto before = book_.passes();
     const auto offences_before = book_.offences();
     auto flow = run_steps(walk.steps);

@@ -193,6 +193,18 @@ result::Finding Witness::finding(const Step& step, const std::string& requiremen
   out.evidence = evidence(result_->first_frame, step_begin_, actual.decisive, out.listened);
   out.frames_seen = session_.capture().size();
   out.rests_on_time = timed_;
+  out.prepared = prepared(step);
+  return out;
+}
+
+std::vector<std::string> Witness::prepared(const Step& deciding) const {
+  constexpr std::size_t most = 8;
+  std::vector<const Step*> told;
+  for (auto at = done_.rbegin(); at != done_.rend() && told.size() < most; ++at) {
+    if (*at != &deciding) told.push_back(*at);
+  }
+  std::vector<std::string> out;
+  for (auto at = told.rbegin(); at != told.rend(); ++at) out.push_back((*at)->action->words(session_));
   return out;
 }
 

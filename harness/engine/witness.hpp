@@ -3,6 +3,7 @@
 // which rule below the judged one it breaks.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -28,11 +29,19 @@ class Witness {
     result_ = &result;
     about_ = about;
     timed_ = false;
+    done_.clear();
   }
   void begin_step() {
     step_begin_ = session_.capture().size();
     step_began_at_ = session_.now();
   }
+  /// A step was carried out. `done()` and `forget()`: where the next value of a walk begins, nothing of the
+  /// last one is left to tell.
+  void note_done(const steps::Step& step) {
+    if (step.action->acts()) done_.push_back(&step);
+  }
+  [[nodiscard]] std::size_t done() const { return done_.size(); }
+  void forget(std::size_t from) { done_.resize(std::min(from, done_.size())); }
   /// From here on what the case finds has rested on time or on silence.
   void note_time() { timed_ = true; }
 
@@ -54,6 +63,8 @@ class Witness {
  private:
   /// When the step waited, where it tells, or how long nothing followed what it sent.
   [[nodiscard]] std::optional<result::Listening> listened(const steps::Actual& actual) const;
+  /// The last steps before `deciding` that sent something, in words.
+  [[nodiscard]] std::vector<std::string> prepared(const steps::Step& deciding) const;
 
   RunSession& session_;
   LiveMonitors& attribution_;
@@ -62,6 +73,7 @@ class Witness {
   std::size_t step_begin_ = 0;
   BusTime step_began_at_{};
   bool timed_ = false;
+  std::vector<const steps::Step*> done_;
 };
 
 }  // namespace conform::engine

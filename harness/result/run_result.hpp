@@ -68,6 +68,8 @@ struct Finding {
   bool rests_on_time = false;
   /// Of a step that waits, and of a request that was not answered.
   std::optional<Listening> listened{};
+  /// What the case had done to the device until then, in words; of many steps the last.
+  std::vector<std::string> prepared{};
 };
 
 /// The step that decided a judgement: the one a reader looks at to agree or disagree.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """kill -9 at random instants of runs on a real AF_CAN socket. Usage: live_kill_test.py BIN_FOLDER SUITES; the interface is
-$CONFORM_TEST_CAN, the number of rounds $CONFORM_KILL_ROUNDS (5), the seed $CONFORM_KILL_SEED (of the day)."""
+$CONFORM_TEST_CAN, the number of kills $CONFORM_KILL_ROUNDS (5), the seed $CONFORM_KILL_SEED (of the day)."""
 import os
 import random
 import re
@@ -206,7 +206,11 @@ class Kill(unittest.TestCase):
             start = client.dump(entries)
             client.close()
             self.assertGreater(len(start), 80)
-            for number in range(ROUNDS):
+            number = killed_runs = 0
+            # A run that ended before its kill was none to kill.
+            while killed_runs < ROUNDS:
+                number += 1
+                self.assertLess(number, 2 * ROUNDS + 10, "runs end before they are killed")
                 chosen, delay = rng.sample(areas, 4), rng.uniform(0.2, 14.0)
                 words = f"round {number}, seed {SEED}: {' '.join(chosen)} killed after {delay:.3f} s"
                 with self.subTest(words):
@@ -229,6 +233,7 @@ class Kill(unittest.TestCase):
                         continue
                     if not os.path.exists(self.log):
                         continue  # the program had not even begun
+                    killed_runs += 1
                     cases, reached = self.check_reports(output, errors)
                     frames = self.check_capture(heard, killed)
                     done = self.recover() if os.path.exists(self.journal) else None
@@ -247,24 +252,28 @@ class Kill(unittest.TestCase):
                     print(f"  {words}: {reached} of {cases} verdicts, {frames} frames, "
                           f"{done.stdout.count('put back: ') if done else 0} values put back", flush=True)
             self.assertIsNone(node.process.poll())
-        print(f"  {recovered} values put back in {ROUNDS} rounds", flush=True)
+        print(f"  {recovered} values put back after {ROUNDS} kills", flush=True)
 
     def test_the_next_run_says_what_a_killed_one_left(self):
         with Node():
-            process = self.start("cia301/heartbeat*", "cia301/cob-id*")
-            for line in process.stdout:
-                with open(self.journal, encoding="utf-8") as file:
-                    text = file.read()
-                if text.count('"changing"') > text.count('"put_back"'):
+            # A case may put everything back in the moment of the kill; not every time.
+            for _ in range(10):
+                process = self.start("cia301/heartbeat*", "cia301/cob-id*")
+                for line in process.stdout:
+                    with open(self.journal, encoding="utf-8") as file:
+                        text = file.read()
+                    if text.count('"changing"') > text.count('"put_back"'):
+                        break
+                process.kill()
+                process.communicate(timeout=60)
+                self.assertEqual(process.returncode, -signal.SIGKILL)
+                left = self.recover("--interface", "nothing0", "--node", "5")
+                self.assertEqual(left.returncode, 2)
+                following = subprocess.run(command("--quiet", "--allow", "read-only", "cia301/sdo/upload*"),
+                                           capture_output=True, text=True, env=self.environment, timeout=100)
+                self.assertIn(following.returncode, (0, 1, 3), following.stderr)
+                if "was killed and left values" in following.stderr:
                     break
-            process.kill()
-            process.communicate(timeout=60)
-            left = self.recover("--interface", "nothing0", "--node", "5")
-            self.assertEqual(left.returncode, 2)
-            following = subprocess.run(command("--quiet", "--allow", "read-only", "cia301/sdo/upload*"), capture_output=True,
-                                       text=True, env=self.environment, timeout=100)
-            if "was killed and left values" not in following.stderr:
-                self.skipTest("the case had put everything back in the moment of the kill")
             self.assertIn("canopen-conform recover", following.stderr)
             self.assertIn("left changed by an earlier run", following.stdout)
             self.assertEqual(self.recover().returncode, 0)

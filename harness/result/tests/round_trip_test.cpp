@@ -42,6 +42,8 @@ Finding full_finding() {
   out.broken_rules = {"SDO-GEN-02", "SDO-GEN-03"};
   out.frames_seen = 123456789;
   out.rests_on_time = true;
+  out.listened = Listening{BusTime(Duration(5)), BusTime(Duration(70))};
+  out.prepared = {"nmt start", "download 1017h:00 = 0064h"};
   return out;
 }
 
