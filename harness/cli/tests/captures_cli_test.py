@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Captures on the command line: one per cause, and replay; simulation only. Usage: captures_cli_test.py PROGRAM"""
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -67,6 +68,25 @@ class Captures(unittest.TestCase):
                 file.write(content)
         self.ended(run("run", "--simulate", "-q", SCENARIO, "--captures", folder), 0)
         self.assertEqual(sorted(os.listdir(folder)), ["cause-01.pcapng", "cause-77-mine.pcapng", "notes.txt"])
+
+    def test_a_file_of_somebody_else_with_the_name_of_a_capture_is_never_written_over(self):
+        folder, name = self.path("foreign"), sorted(os.listdir(self.causes))[0]
+        shutil.copytree(self.causes, folder)
+        earlier = os.path.join(folder, "cause-88-earlier.pcapng")
+        shutil.move(os.path.join(folder, name), earlier)
+        for make in (lambda path: pathlib.Path(path).write_bytes(b"not of this program"), lambda path: os.symlink(earlier, path)):
+            foreign = os.path.join(folder, name)
+            make(foreign)
+            before = pathlib.Path(foreign).read_bytes()
+            done = run("report", self.path("run.json"), "-q", "--capture", self.path("run.pcapng"), "--captures", folder)
+            self.assertIn("was not written by canopen-conform", done.stdout + done.stderr)
+            self.assertIn(foreign, done.stdout + done.stderr)
+            self.ended(done, 1)  # that of the run, which failed
+            self.assertEqual(pathlib.Path(foreign).read_bytes(), before)
+            self.assertTrue(os.path.exists(earlier))
+            os.remove(foreign)
+        self.ended(run("report", self.path("run.json"), "-q", "--capture", self.path("run.pcapng"), "--captures", folder), 1)
+        self.assertEqual(sorted(os.listdir(folder)), sorted(os.listdir(self.causes)))
 
     def test_a_folder_that_cannot_be_is_an_error_before_the_first_frame(self):
         done = run("run", "--simulate", SCENARIO, "--captures", self.path("run.json"))
