@@ -271,7 +271,8 @@ int replay_command(const ReplayCommand& options) {
         "the capture does not tell who sent a frame: NMT commands, SDO and LSS requests and remote frames are sent\n");
   }
   print(replay_text(*comparison, then, now, style, options.quiet));
-  print((comparison->differs() ? "differs: " : "same: ") + replay_summary(*comparison) + "\n");
+  print(replay_summary(*comparison) + "\n");
+  if (!comparison->compares_something()) return exit_environment;
   return comparison->differs() ? 1 : 0;
 }
 

@@ -272,6 +272,12 @@ std::size_t ReplayComparison::unasked_that_differ() const {
       std::ranges::count_if(unasked, [](const Unasked& each) { return !each.differences.empty(); }));
 }
 
+bool ReplayComparison::compares_something() const {
+  return differs() ||
+         std::ranges::any_of(exchanges, [](const Exchange& each) { return !each.answers.empty(); }) ||
+         std::ranges::any_of(unasked, [](const Unasked& each) { return each.then > 0 && each.now > 0; });
+}
+
 Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node,
                                         const std::vector<std::size_t>& skipped) {
   ReplayComparison out;

@@ -65,6 +65,9 @@ struct ReplayComparison {
   [[nodiscard]] std::size_t exchanges_that_differ() const;
   [[nodiscard]] std::size_t unasked_that_differ() const;
   [[nodiscard]] bool differs() const { return exchanges_that_differ() + unasked_that_differ() > 0; }
+  /// Whether the device was heard at all: silence then and silence now are the same of any device, also of
+  /// one that is not there.
+  [[nodiscard]] bool compares_something() const;
 };
 
 /// `now` holds the replay of `then`, but for what was `skipped` (indices into Dialogue::sent, ascending).

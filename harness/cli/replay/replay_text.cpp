@@ -146,6 +146,8 @@ std::string replay_text(const ReplayComparison& comparison, const Side& then, co
 }
 
 std::string replay_summary(const ReplayComparison& comparison) {
+  if (!comparison.compares_something())
+    return "nothing was compared: the device sent nothing in these frames then, and sends nothing now";
   const auto all = comparison.exchanges.size(), differ = comparison.exchanges_that_differ();
   std::string out = differ == 0
                         ? fmt::format("{} with the same answers", reports::counted(all, "frame"))
@@ -153,7 +155,7 @@ std::string replay_summary(const ReplayComparison& comparison) {
   if (const auto unasked = comparison.unasked_that_differ(); unasked > 0)
     out += fmt::format("; {} of frames that come unasked {}", reports::counted(unasked, "kind"),
                        unasked == 1 ? "differs" : "differ");
-  return out;
+  return (differ == 0 && comparison.unasked_that_differ() == 0 ? "same: " : "differs: ") + out;
 }
 
 }  // namespace conform::cli

@@ -190,6 +190,14 @@ class Captures(unittest.TestCase):
         self.ended(run("replay", self.path("run.pcapng"), "--case", case, "--simulate", "--capture", again), 1)
         self.ended(run("replay", again, "--case", case, "--simulate"), 0)
 
+    def test_a_replay_that_compares_nothing_says_so_and_is_no_success(self):
+        log = self.path("silent.log")
+        with open(log, "w", encoding="utf-8") as file:
+            file.write("(1.000000) can0 000#0201\n(1.100000) can0 601#4000100000000000\n")
+        out = self.ended(run("replay", log, "--frames", "1-2", "--simulate", "-q"), 3)
+        self.assertIn("nothing was compared", out)
+        self.assertNotIn("same", out)
+
     def test_what_cannot_be_replayed_is_said_with_the_exit_code_of_usage(self):
         pcapng = self.path("run.pcapng")
         for says, arguments in (

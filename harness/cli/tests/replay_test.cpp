@@ -183,7 +183,21 @@ TEST_CASE("another answer, none, and one too many each differ where they are") {
   CHECK(text.find("field data 08 00 00 00 -> 12 00 00 00") != std::string::npos);
   CHECK(text.find("now   nothing") != std::string::npos);
   CHECK(text.find("1018h:01") == std::string::npos);
-  CHECK(replay_summary(out) == "3 of 4 frames answered otherwise");
+  CHECK(replay_summary(out) == "differs: 3 of 4 frames answered otherwise");
+}
+
+TEST_CASE("silence then and now is no comparison, an answer or what comes unasked is one") {
+  Trace silent, answered, heard;
+  silent.ask(1);
+  answered.ask(1).answer(1, 7);
+  heard.ask(1).heartbeat(0x7F).heartbeat(0x7F);
+  const auto nothing = compared(silent, silent);
+  CHECK_FALSE(nothing.compares_something());
+  CHECK(replay_summary(nothing).starts_with("nothing was compared"));
+  CHECK(compared(silent, answered).compares_something());
+  CHECK(compared(answered, answered).compares_something());
+  CHECK(compared(heard, heard).compares_something());
+  CHECK(replay_summary(compared(heard, heard)) == "same: 1 frame with the same answers");
 }
 
 TEST_CASE("a clock that is read legally tells another time") {
