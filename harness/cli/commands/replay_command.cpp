@@ -54,6 +54,13 @@ struct Plan {
   [[nodiscard]] Frames frames() const { return recording.capture.frames(); }
   [[nodiscard]] NodeId node() const { return device.profile.node; }
   [[nodiscard]] Side side() const { return {frames(), section.first, section.end, node()}; }
+  /// What of the section may not be in the capture.
+  [[nodiscard]] std::vector<std::string> notes() const {
+    auto out = section.missing;
+    if (recording.cut_off > 0 && section.end == frames().size())
+      out.emplace_back("the capture ends in the middle of a frame, which is not sent");
+    return out;
+  }
 };
 
 /// What came of it now.
@@ -246,6 +253,7 @@ int replay_command(const ReplayCommand& options) {
   if (!options.record.empty()) {
     outcome->info.tool = "canopen-conform " CONFORM_VERSION;
     outcome->info.comment = "replay of " + plan->section.name;
+    for (const auto& note : plan->notes()) outcome->info.comment += "; " + note;
     if (auto written =
             write_file_atomically(options.record, can::write_pcapng(outcome->capture, outcome->info));
         !written)
@@ -270,6 +278,7 @@ int replay_command(const ReplayCommand& options) {
     print(
         "the capture does not tell who sent a frame: NMT commands, SDO and LSS requests and remote frames are sent\n");
   }
+  for (const auto& note : plan->notes()) print("note: " + note + "\n");
   print(replay_text(*comparison, then, now, style, options.quiet));
   print(replay_summary(*comparison) + "\n");
   if (!comparison->compares_something()) return exit_environment;

@@ -33,7 +33,8 @@ class Player {
         profile_(profile),
         power_(power),
         bit_rate_(recorder.transport().info().bit_rate),
-        state_(side.dialogue.sent.size()) {}
+        state_(side.dialogue.sent.size()),
+        told_(side.first) {}
 
   Result<Played> run() {
     Played out;
@@ -53,6 +54,7 @@ class Player {
     const auto tail = frames_[side_.end - 1].time - then_;
     if (auto done = recorder_.wait_until(now_ + tail); !done) return std::unexpected(done.error());
     out.recorded_end = out.end = recorder_.capture().size();
+    if (out.end > out.first) note(out.end - 1, side_.end - 1);
     if (last_was_ignored() && tail < profile_.quiet_time) {
       if (auto done = recorder_.wait_until(now_ + profile_.quiet_time); !done)
         return std::unexpected(done.error());
@@ -88,17 +90,20 @@ class Player {
     }
     const auto echo = recorder_.send(captured.frame);
     if (!echo) return std::unexpected(echo.error());
-    if (!captured.comment.empty()) note(*echo, captured.comment);
+    note(*echo, index);
     now_ = recorder_.capture().frames()[*echo].time;
     then_ = captured.time;
     state_[number] = {recorder_.first_effect(*echo), false, now_};
     return {};
   }
 
-  /// The new capture tells the parts of the case as the old one did, but not what was found then.
-  void note(std::size_t index, const std::string& comment) {
-    for (const auto& mark : can::case_marks(comment))
-      recorder_.capture().comment(index, can::to_comment(mark));
+  /// The new capture tells the parts of the case as the old one did, but not what was found then. Marks of
+  /// old frames that have none in the new capture go to the next that has one.
+  void note(std::size_t index, std::size_t old) {
+    for (; told_ <= old; ++told_) {
+      for (const auto& mark : can::case_marks(frames_[told_].comment))
+        recorder_.capture().comment(index, can::to_comment(mark));
+    }
   }
 
   [[nodiscard]] Duration limit_of(AnswerKind::Of of) const {
@@ -128,6 +133,7 @@ class Player {
       then_ = answer.time;
       return {};
     }
+    note(**found, sent.answers[*turn.answer]);
     const auto& came = recorder_.capture().frames()[**found];
     state.next = **found + 1;
     state.latest = came.time;
@@ -180,6 +186,7 @@ class Player {
   std::uint32_t bit_rate_;
   std::vector<State> state_;
   std::vector<std::size_t> skipped_;
+  std::size_t told_;       ///< the marks of the frames of the old capture before it are told
   bool has_left_ = false;  ///< the server did not answer the latest request as it did then
   std::size_t switched_ = 0;
   // The same moment in both captures: gaps count from here.

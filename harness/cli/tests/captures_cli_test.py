@@ -58,6 +58,7 @@ class Captures(unittest.TestCase):
         self.assertIn(run("judge", capture, "--node", "1", "-q").returncode, (0, 1))
         out = self.ended(run("replay", capture, "--case", self.failed_case(), "--simulate"), 1)
         self.assertIn("differs", out)
+        self.assertNotIn("note: ", out)
 
     def test_captures_of_an_earlier_run_go_and_other_files_stay(self):
         folder = self.path("again")
@@ -188,7 +189,19 @@ class Captures(unittest.TestCase):
     def test_the_frames_of_a_replay_can_be_kept_and_replayed(self):
         case, again = self.failed_case(), self.path("again.pcapng")
         self.ended(run("replay", self.path("run.pcapng"), "--case", case, "--simulate", "--capture", again), 1)
-        self.ended(run("replay", again, "--case", case, "--simulate"), 0)
+        self.assertNotIn("note: ", self.ended(run("replay", again, "--case", case, "--simulate"), 0))
+
+    def test_what_a_cut_capture_does_not_hold_of_a_case_is_said_on_the_terminal_and_in_the_new_capture(self):
+        case, cut, again = self.failed_case(), self.path("cut.pcapng"), self.path("cut-again.pcapng")
+        with open(self.path("run.pcapng"), "rb") as file:
+            whole = file.read()
+        with open(cut, "wb") as file:
+            file.write(whole[:whole.index(f"case {case} end".encode())])
+        done = run("replay", cut, "--case", case, "--simulate", "-q", "--capture", again)
+        self.assertIn("note: the capture does not tell where the case ends", done.stdout)
+        self.assertIn("note: the capture ends in the middle of a frame", done.stdout)
+        with open(again, "rb") as file:
+            self.assertIn(b"does not tell where the case ends", file.read())
 
     def test_a_replay_that_compares_nothing_says_so_and_is_no_success(self):
         log = self.path("silent.log")

@@ -102,6 +102,35 @@ TEST_CASE("of a case that was tried again the last try is taken, and of one that
   CHECK(found->end == 4);
 }
 
+TEST_CASE("of a case that the capture holds in part it is told what is not there") {
+  const auto missing = [](const Trace& trace) {
+    const auto section = section_of_case(trace.capture.frames(), "a", {});
+    REQUIRE(section);
+    return section->missing;
+  };
+  Trace whole, no_end, no_begin, steps, beheaded, only_end;
+  whole.ask(0, mark("a", CasePart::begin))
+      .ask(1, mark("a", CasePart::end))
+      .ask(2, mark("b", CasePart::begin));
+  CHECK(missing(whole).empty());
+  no_end.ask(0, mark("a", CasePart::begin)).ask(1, mark("a", CasePart::step, 1));
+  REQUIRE(missing(no_end).size() == 1);
+  CHECK(missing(no_end)[0].contains("where the case ends"));
+  no_begin.ask(1, mark("a", CasePart::step, 3)).ask(2, mark("a", CasePart::end));
+  REQUIRE(missing(no_begin).size() == 1);
+  CHECK(missing(no_begin)[0].contains("before step 3"));
+  steps.ask(0, mark("a", CasePart::preparation)).ask(1, mark("a", CasePart::step, 1));
+  steps.ask(2, mark("b", CasePart::step, 1));
+  CHECK(missing(steps).size() == 2);
+  beheaded.ask(0, mark("a", CasePart::cleanup, 1)).ask(1, mark("a", CasePart::end));
+  REQUIRE(missing(beheaded).size() == 1);
+  CHECK(missing(beheaded)[0].contains("none of its steps"));
+  only_end.ask(0, mark("a", CasePart::end));
+  const auto none = section_of_case(only_end.capture.frames(), "a", {});
+  REQUIRE_FALSE(none);
+  CHECK(none.error().what.contains("only the end"));
+}
+
 TEST_CASE("a case that is not there is an error that says what one may have meant") {
   Trace trace;
   trace.ask(0);
