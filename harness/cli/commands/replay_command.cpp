@@ -21,6 +21,7 @@
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"
+#include "cli/replay/stamps.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/judge.hpp"
 #include "cli/run/run_reports.hpp"
@@ -54,11 +55,12 @@ struct Plan {
   [[nodiscard]] Frames frames() const { return recording.capture.frames(); }
   [[nodiscard]] NodeId node() const { return device.profile.node; }
   [[nodiscard]] Side side() const { return {frames(), section.first, section.end, node()}; }
-  /// What of the section may not be in the capture.
+  /// What of the section may not be in the capture, or cannot be done as it was.
   [[nodiscard]] std::vector<std::string> notes() const {
     auto out = section.missing;
     if (recording.cut_off > 0 && section.end == frames().size())
       out.emplace_back("the capture ends in the middle of a frame, which is not sent");
+    if (auto note = set_back_note(side()); !note.empty()) out.push_back(std::move(note));
     return out;
   }
 };
@@ -153,6 +155,7 @@ std::optional<Refusal> may_be_sent(Plan& plan, const ReplayCommand& options, boo
   auto& profile = plan.device.profile;
   profile.writes_described = plan.allowed == steps::Tier::motion && profile.safe_objects.empty();
   const auto then = plan.side();
+  if (auto bounded = gaps_are_bounded(then); !bounded) return Refusal{bounded.error()};
   if (auto may = may_replay(then, profile, plan.allowed); !may) return Refusal{may.error()};
   if (then.dialogue.power.empty() || has_power) return std::nullopt;
   return Refusal{{plan.section.name + " switches the power of the device",

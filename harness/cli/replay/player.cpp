@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "can/capture_marks.hpp"
 #include "can/frame_time.hpp"
+#include "cli/replay/stamps.hpp"
 #include "engine/tier_guard.hpp"
 
 namespace conform::cli {
@@ -30,6 +31,7 @@ class Player {
         side_(side),
         frames_(side.frames),
         recorded_(side.dialogue),
+        times_(side.frames, side.first, side.end),
         profile_(profile),
         power_(power),
         bit_rate_(recorder.transport().info().bit_rate),
@@ -40,7 +42,7 @@ class Player {
     Played out;
     out.first = recorder_.capture().size();
     now_ = recorder_.now();
-    then_ = frames_[side_.first].time;
+    then_ = times_.at(side_.first);
     for (const auto& turn : recorded_.turns) {
       const auto index =
           turn.answer ? recorded_.sent[turn.sent].answers[*turn.answer] : recorded_.sent[turn.sent].index;
@@ -51,7 +53,7 @@ class Player {
     if (auto switched = switch_power(side_.end); !switched) return std::unexpected(switched.error());
     // What came behind the last frame of the section was not recorded with it: an answer that is one too many
     // may stand among the frames of the next case.
-    const auto tail = frames_[side_.end - 1].time - then_;
+    const auto tail = gap_to(side_.end - 1);
     if (auto done = recorder_.wait_until(now_ + tail); !done) return std::unexpected(done.error());
     out.recorded_end = out.end = recorder_.capture().size();
     if (out.end > out.first) note(out.end - 1, side_.end - 1);
@@ -82,7 +84,7 @@ class Player {
     }
     const auto kind = answer_of(captured.frame, profile_.node);
     if (!is_segment && kind && kind->of == AnswerKind::Of::sdo) has_left_ = false;
-    auto due = now_ + (captured.time - then_);
+    auto due = now_ + gap_to(index);
     // Stamps are of the end of a frame.
     if (bit_rate_ > 0) due -= can::bit_time(can::frame_bits(captured.frame), bit_rate_);
     if (due > recorder_.now()) {
@@ -92,9 +94,15 @@ class Player {
     if (!echo) return std::unexpected(echo.error());
     note(*echo, index);
     now_ = recorder_.capture().frames()[*echo].time;
-    then_ = captured.time;
+    then_ = times_.at(index);
     state_[number] = {recorder_.first_effect(*echo), false, now_};
     return {};
+  }
+
+  /// From the moment that is known in both captures to a frame of the old one. Who asked before sends nothing
+  /// where it is too long, see gaps_are_bounded().
+  [[nodiscard]] Duration gap_to(std::size_t index) const {
+    return std::min(times_.at(index) - then_, longest_gap);
   }
 
   /// The new capture tells the parts of the case as the old one did, but not what was found then. Marks of
@@ -116,12 +124,15 @@ class Player {
 
   Result<void> await(const Turn& turn) {
     const auto& sent = recorded_.sent[turn.sent];
-    const auto& answer = frames_[sent.answers[*turn.answer]];
-    const auto& before = frames_[*turn.answer == 0 ? sent.index : sent.answers[*turn.answer - 1]];
+    const auto answer_index = sent.answers[*turn.answer];
+    const auto& answer = frames_[answer_index];
+    const auto answered_at = times_.at(answer_index);
+    const auto took =
+        answered_at - times_.at(*turn.answer == 0 ? sent.index : sent.answers[*turn.answer - 1]);
     auto& state = state_[turn.sent];
     if (state.over) return {};
     const auto kind = answer_of(frames_[sent.index].frame, profile_.node);
-    const auto limit = std::max(limit_of(kind->of), 2 * (answer.time - before.time));
+    const auto limit = std::max(limit_of(kind->of), 2 * std::min(took, longest_gap));
     const auto matches = [&kind](const can::CapturedFrame& captured) {
       return captured.direction == Direction::received && is_answer(captured.frame, *kind);
     };
@@ -130,10 +141,10 @@ class Player {
     if (!*found) {
       state.over = has_left_ = true;
       now_ = recorder_.now();
-      then_ = answer.time;
+      then_ = answered_at;
       return {};
     }
-    note(**found, sent.answers[*turn.answer]);
+    note(**found, answer_index);
     const auto& came = recorder_.capture().frames()[**found];
     state.next = **found + 1;
     state.latest = came.time;
@@ -143,9 +154,9 @@ class Player {
     if (kind->of == AnswerKind::Of::sdo && is_other) has_left_ = true;
     state.over = kind->of == AnswerKind::Of::sdo && is_abort(came.frame) && !is_abort(answer.frame);
     // A frame of ours may have gone out in between.
-    if (answer.time >= then_) {
+    if (answered_at >= then_) {
       now_ = std::max(now_, came.time);
-      then_ = answer.time;
+      then_ = answered_at;
     }
     return {};
   }
@@ -166,7 +177,7 @@ class Player {
           recorder_.find(recorder_.capture().size(), booted, recorder_.now() + profile_.boot_time);
       if (!found) return std::unexpected(found.error());
       now_ = recorder_.now();
-      then_ = std::max(then_, frames_[at].time);
+      then_ = std::max(then_, times_.at(at));
     }
     return {};
   }
@@ -181,6 +192,7 @@ class Player {
   const Side& side_;
   std::span<const can::CapturedFrame> frames_;
   const Dialogue& recorded_;
+  SteadyTimes times_;
   const device::Profile& profile_;
   const std::function<Result<void>()>& power_;
   std::uint32_t bit_rate_;

@@ -203,6 +203,18 @@ class Captures(unittest.TestCase):
         with open(again, "rb") as file:
             self.assertIn(b"does not tell where the case ends", file.read())
 
+    def test_stamps_that_are_hours_apart_are_refused_and_a_clock_that_was_set_back_is_told(self):
+        log = self.path("stamps.log")
+        for second, code in (("9223372035.000000", 2), ("5000.000000", 2), ("1.500000", 0), ("0.000001", 0)):
+            with open(log, "w", encoding="utf-8") as file:
+                file.write(f"(1.000000) can0 601#4000100000000000\n(1.000500) can0 581#4300100091010F00\n({second}) can0 601#4000100000000000\n"
+                           f"({second}) can0 581#4300100091010F00\n")
+            done = run("replay", log, "--frames", "1-4", "--simulate")
+            self.assertEqual(done.returncode, code, (second, done.stdout, done.stderr))
+            if code == 2:
+                self.assertRegex(done.stderr, r"frame 3 \(at .* comes more than 3600 s behind frame 2 \(at 0.000500 s\)")
+            self.assertEqual("the stamps run back at frame 3, by " in done.stdout, second == "0.000001", done.stdout)
+
     def test_a_replay_that_compares_nothing_says_so_and_is_no_success(self):
         log = self.path("silent.log")
         with open(log, "w", encoding="utf-8") as file:

@@ -10,6 +10,7 @@
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"
+#include "cli/replay/stamps.hpp"
 #include "node/powered_node.hpp"
 #include "shipped.hpp"
 
@@ -338,6 +339,56 @@ TEST_CASE("a replay of which frames are missing is an error and no difference") 
   then.ask(1).answer(1, 7).ask(2).answer(2, 8);
   now.ask(1).answer(1, 7);
   CHECK_FALSE(compare_replay(then.side(), now.side(), node));
+}
+
+namespace {
+
+Result<void> bounded(const Trace& trace) { return gaps_are_bounded(trace.side()); }
+
+}  // namespace
+
+TEST_CASE("a gap that no case has is refused with both frames, whatever lies in it") {
+  Trace usual, years, in_steps;
+  usual.ask(1).answer(1, 7).add(Direction::transmitted, 0x605, {0x40, 0, 0x10, 0, 0, 0, 0, 0}, {}, 1h);
+  CHECK(bounded(usual));
+  years.ask(1).answer(1, 7);
+  years.add(Direction::transmitted, 0x605, {0x40, 0, 0x10, 0, 0, 0, 0, 0}, {}, 24h * 365 * 290);
+  const auto refused = bounded(years);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().what.contains("frame 3 (at 9145440000.002000 s)"));
+  CHECK(refused.error().what.contains("frame 2 (at 0.002000 s)"));
+  in_steps.ask(1).heartbeat(5, 40min).heartbeat(5, 40min);
+  REQUIRE_FALSE(bounded(in_steps));
+  CHECK(bounded(in_steps).error().what.contains("frame 3 "));
+  CHECK(bounded(in_steps).error().what.contains("frame 1 "));
+}
+
+TEST_CASE("stamps at the ends of what can be counted neither overflow nor make a replay wait") {
+  Trace trace;
+  const auto at = [&trace](BusTime time) {
+    trace.capture.add({.frame = can::data_frame(CanId(0x605), {0x40, 0, 0x10, 0, 0, 0, 0, 0}),
+                       .time = time,
+                       .direction = Direction::transmitted,
+                       .comment = {}});
+  };
+  at(BusTime::max());
+  at(BusTime::min());
+  at(BusTime::max());
+  CHECK_FALSE(bounded(trace));
+  CHECK_FALSE(set_back_note(trace.side()).empty());
+  Trace back;
+  back.ask(1).answer(1, 7);
+  back.add(Direction::transmitted, 0x605, {0x40, 0, 0x10, 0, 0, 0, 0, 0}, {}, -24h * 365 * 200);
+  back.ask(2);
+  CHECK(bounded(back));
+  const auto side = back.side();
+  CHECK(set_back_note(side).starts_with("the stamps run back at frame 3, by "));
+  const SteadyTimes times(side.frames, side.first, side.end);
+  CHECK(times.at(2) == times.at(1));
+  CHECK(times.at(3) - times.at(2) == 1ms);
+  Trace jitter;
+  jitter.ask(1).answer(1, 7).add(Direction::transmitted, 0x605, {0x40, 0, 0x10, 0, 0, 0, 0, 0}, {}, -20us);
+  CHECK(set_back_note(jitter.side()).empty());
 }
 
 TEST_CASE("nothing is sent that the tier or the profile forbids") {
