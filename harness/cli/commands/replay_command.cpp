@@ -18,6 +18,7 @@
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/replay/differences.hpp"
+#include "cli/replay/lss_state.hpp"
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"
@@ -157,6 +158,7 @@ std::optional<Refusal> may_be_sent(Plan& plan, const ReplayCommand& options, boo
   const auto then = plan.side();
   if (auto bounded = gaps_are_bounded(then); !bounded) return Refusal{bounded.error()};
   if (auto may = may_replay(then, profile, plan.allowed); !may) return Refusal{may.error()};
+  if (auto known = lss_state_is_known(then, plan.node()); !known) return Refusal{known.error()};
   if (then.dialogue.power.empty() || has_power) return std::nullopt;
   return Refusal{{plan.section.name + " switches the power of the device",
                   {},

@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/replay/differences.hpp"
+#include "cli/replay/lss_state.hpp"
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"
@@ -526,6 +527,68 @@ TEST_CASE("the frames of a run name the case and the step they belong to") {
     }
   }
   CHECK(steps > 0);
+}
+
+TEST_CASE("a slave is not configured by LSS before a frame has said which one") {
+  Trace trace;
+  const auto lss = [&trace](std::initializer_list<std::uint8_t> bytes) {
+    trace.add(Direction::transmitted, 0x7E5, bytes);
+  };
+  const auto known = [&trace](std::size_t first) {
+    return lss_state_is_known({trace.capture.frames(), first - 1, trace.capture.size(), node}, node);
+  };
+  lss({0x04, 0, 0, 0, 0, 0, 0, 0});                                                      // 1: all to waiting
+  for (std::uint8_t part = 0x40; part < 0x44; ++part) lss({part, 1, 0, 0, 0, 0, 0, 0});  // 2 to 5: select one
+  lss({0x5E, 0, 0, 0, 0, 0, 0, 0});                                                      // 6: its node-ID
+  lss({0x11, 9, 0, 0, 0, 0, 0, 0});                                                      // 7: another one
+  lss({0x17, 0, 0, 0, 0, 0, 0, 0});                                                      // 8: stored
+  CHECK(known(1));
+  CHECK(known(2));
+  for (std::size_t first = 3; first <= 8; ++first) {
+    INFO(first);
+    const auto refused = known(first);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().hint.starts_with("begin with frame 2"));
+    CHECK(refused.error().where == "frame " + std::to_string(std::max<std::size_t>(first, 6)));
+  }
+  Trace alone;
+  alone.add(Direction::transmitted, 0x7E5, {0x11, 9, 0, 0, 0, 0, 0, 0});
+  const auto refused = lss_state_is_known(alone.side(), node);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().hint.contains("nor does any other frame"));
+  for (const auto& [id, bytes] :
+       {std::pair(0x000U, Bytes{0x82, 5}), std::pair(0x7E5U, Bytes{4, 1, 0, 0, 0, 0, 0, 0}),
+        std::pair(0x7E5U, Bytes{0x51, 0, 0, 0, 0, 0x80, 0, 0})}) {
+    Trace told;
+    told.capture.add(
+        can::CapturedFrame{.frame = can::data_frame(CanId(id), bytes), .direction = Direction::transmitted});
+    told.add(Direction::transmitted, 0x7E5, {0x11, 9, 0, 0, 0, 0, 0, 0});
+    CHECK(lss_state_is_known(told.side(), node));
+  }
+}
+
+TEST_CASE("every case of the LSS suites says itself in which state the slaves are") {
+  engine::RunOptions options;
+  options.comment_parts = true;
+  options.plan.selection.patterns = {"cia305"};
+  const auto run =
+      simulate({}, shipped::reference(), shipped::suites().suite, shipped::suites().catalogue, options, 1);
+  REQUIRE(run.has_value());
+  const auto& frames = run->capture.frames();
+  std::size_t with_lss = 0;
+  for (const auto& name : cases_in(frames)) {
+    INFO(name);
+    const auto section = section_of_case(frames, name, {});
+    REQUIRE(section);
+    const auto id = shipped::reference().node;
+    const Side side(frames, section->first, section->end, id);
+    const auto known = lss_state_is_known(side, id);
+    INFO((known ? std::string() : known.error().text()));
+    CHECK(known);
+    with_lss += std::ranges::any_of(side.dialogue.sent,
+                                    [&](const Sent& sent) { return side.at(sent.index).frame.id == 0x7E5; });
+  }
+  CHECK(with_lss > 5);
 }
 
 TEST_CASE("no frame is let through for what the capture says that it belongs to") {
