@@ -271,7 +271,8 @@ int replay_command(const ReplayCommand& options) {
                          "node-ID, bit rate, power?"},
                         exit_environment);
   }
-  const auto comparison = compare_replay(then, now, plan->node(), outcome->played.skipped);
+  const auto comparison =
+      compare_replay(then, now, plan->node(), outcome->played.skipped, outcome->played.aborts);
   if (!comparison) return report_error(comparison.error(), exit_environment);
   const reports::Style style{use_colour(options.color, 1), terminal_width(), 0};
   const auto frames = fmt::format("frames {} to {}", plan->section.first + 1, plan->section.end);
@@ -283,7 +284,9 @@ int replay_command(const ReplayCommand& options) {
     print(
         "the capture does not tell who sent a frame: NMT commands, SDO and LSS requests and remote frames are sent\n");
   }
-  for (const auto& note : plan->notes()) print("note: " + note + "\n");
+  auto notes = plan->notes();
+  notes.insert(notes.end(), outcome->played.notes.begin(), outcome->played.notes.end());
+  for (const auto& note : notes) print("note: " + note + "\n");
   print(replay_text(*comparison, then, now, style, options.quiet));
   print(replay_summary(*comparison) + "\n");
   if (!comparison->compares_something()) return exit_environment;

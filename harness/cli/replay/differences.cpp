@@ -279,10 +279,13 @@ bool ReplayComparison::compares_something() const {
 }
 
 Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node,
-                                        const std::vector<std::size_t>& skipped) {
+                                        const std::vector<std::size_t>& skipped,
+                                        const std::vector<std::size_t>& aborts) {
   ReplayComparison out;
   const auto& before = then.dialogue.sent;
-  const auto& after = now.dialogue.sent;
+  auto after = now.dialogue.sent;
+  std::erase_if(after,
+                [&aborts](const Sent& sent) { return std::ranges::binary_search(aborts, sent.index); });
   const auto wanted = before.size() - skipped.size();
   constexpr auto* busy = "the host lost frames: is the machine busy?";
   if (after.size() != wanted)

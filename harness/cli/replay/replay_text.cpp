@@ -85,7 +85,7 @@ std::string sent_words(const Side& then, const Exchange& exchange) {
 std::string exchange_text(const Exchange& exchange, const Side& then, const Side& now,
                           const reports::Style& style) {
   std::string out = fmt::format("  {}{}\n", judged(exchange.differs(), style), sent_words(then, exchange));
-  if (!exchange.now) out += fmt::format("{}not sent: the device had left the transfer\n", indent);
+  if (!exchange.now) out += fmt::format("{}not sent: the transfer was over\n", indent);
   for (const auto& answer : exchange.answers) {
     if (!answer.differs) {
       const auto why =
