@@ -162,7 +162,8 @@ struct ReplayCommand {
   bool quiet = false;                 ///< print only what differs
   std::string color = "auto";
 };
-/// 0: the same answers; 1: other ones; exit_environment: the bus failed, or nothing was heard.
+/// 0: the same answers; 1: other ones; exit_environment: the bus failed, nothing was heard, or nothing was
+/// there to be compared.
 [[nodiscard]] int replay_command(const ReplayCommand& options);
 
 struct LintCommand {

@@ -18,9 +18,11 @@
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/replay/differences.hpp"
+#include "cli/replay/lss_state.hpp"
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"
+#include "cli/replay/stamps.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/judge.hpp"
 #include "cli/run/run_reports.hpp"
@@ -54,6 +56,14 @@ struct Plan {
   [[nodiscard]] Frames frames() const { return recording.capture.frames(); }
   [[nodiscard]] NodeId node() const { return device.profile.node; }
   [[nodiscard]] Side side() const { return {frames(), section.first, section.end, node()}; }
+  /// What of the section may not be in the capture, or cannot be done as it was.
+  [[nodiscard]] std::vector<std::string> notes() const {
+    auto out = section.missing;
+    if (recording.cut_off > 0 && section.end == frames().size())
+      out.emplace_back("the capture ends in the middle of a frame, which is not sent");
+    if (auto note = set_back_note(side()); !note.empty()) out.push_back(std::move(note));
+    return out;
+  }
 };
 
 /// What came of it now.
@@ -146,7 +156,9 @@ std::optional<Refusal> may_be_sent(Plan& plan, const ReplayCommand& options, boo
   auto& profile = plan.device.profile;
   profile.writes_described = plan.allowed == steps::Tier::motion && profile.safe_objects.empty();
   const auto then = plan.side();
+  if (auto bounded = gaps_are_bounded(then); !bounded) return Refusal{bounded.error()};
   if (auto may = may_replay(then, profile, plan.allowed); !may) return Refusal{may.error()};
+  if (auto known = lss_state_is_known(then, plan.node()); !known) return Refusal{known.error()};
   if (then.dialogue.power.empty() || has_power) return std::nullopt;
   return Refusal{{plan.section.name + " switches the power of the device",
                   {},
@@ -246,6 +258,7 @@ int replay_command(const ReplayCommand& options) {
   if (!options.record.empty()) {
     outcome->info.tool = "canopen-conform " CONFORM_VERSION;
     outcome->info.comment = "replay of " + plan->section.name;
+    for (const auto& note : plan->notes()) outcome->info.comment += "; " + note;
     if (auto written =
             write_file_atomically(options.record, can::write_pcapng(outcome->capture, outcome->info));
         !written)
@@ -258,7 +271,8 @@ int replay_command(const ReplayCommand& options) {
                          "node-ID, bit rate, power?"},
                         exit_environment);
   }
-  const auto comparison = compare_replay(then, now, plan->node(), outcome->played.skipped);
+  const auto comparison =
+      compare_replay(then, now, plan->node(), outcome->played.skipped, outcome->played.aborts);
   if (!comparison) return report_error(comparison.error(), exit_environment);
   const reports::Style style{use_colour(options.color, 1), terminal_width(), 0};
   const auto frames = fmt::format("frames {} to {}", plan->section.first + 1, plan->section.end);
@@ -270,8 +284,12 @@ int replay_command(const ReplayCommand& options) {
     print(
         "the capture does not tell who sent a frame: NMT commands, SDO and LSS requests and remote frames are sent\n");
   }
+  auto notes = plan->notes();
+  notes.insert(notes.end(), outcome->played.notes.begin(), outcome->played.notes.end());
+  for (const auto& note : notes) print("note: " + note + "\n");
   print(replay_text(*comparison, then, now, style, options.quiet));
-  print((comparison->differs() ? "differs: " : "same: ") + replay_summary(*comparison) + "\n");
+  print(replay_summary(*comparison) + "\n");
+  if (!comparison->compares_something()) return exit_environment;
   return comparison->differs() ? 1 : 0;
 }
 

@@ -67,7 +67,7 @@ class Listener {
   [[nodiscard]] bool overtakes(std::size_t index, std::size_t end) const {
     if (index + 1 >= end || overtaken_) return false;
     const auto& next = frames_[index + 1];
-    if (next.direction != Direction::transmitted || next.time > frames_[index].time + overtaking)
+    if (next.direction != Direction::transmitted || next.time - frames_[index].time > overtaking)
       return false;
     const auto kind = answer_of(next.frame, node_);
     if (!kind || !is_answer(frames_[index].frame, *kind)) return false;

@@ -272,11 +272,20 @@ std::size_t ReplayComparison::unasked_that_differ() const {
       std::ranges::count_if(unasked, [](const Unasked& each) { return !each.differences.empty(); }));
 }
 
+bool ReplayComparison::compares_something() const {
+  return differs() ||
+         std::ranges::any_of(exchanges, [](const Exchange& each) { return !each.answers.empty(); }) ||
+         std::ranges::any_of(unasked, [](const Unasked& each) { return each.then > 0 && each.now > 0; });
+}
+
 Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node,
-                                        const std::vector<std::size_t>& skipped) {
+                                        const std::vector<std::size_t>& skipped,
+                                        const std::vector<std::size_t>& aborts) {
   ReplayComparison out;
   const auto& before = then.dialogue.sent;
-  const auto& after = now.dialogue.sent;
+  auto after = now.dialogue.sent;
+  std::erase_if(after,
+                [&aborts](const Sent& sent) { return std::ranges::binary_search(aborts, sent.index); });
   const auto wanted = before.size() - skipped.size();
   constexpr auto* busy = "the host lost frames: is the machine busy?";
   if (after.size() != wanted)

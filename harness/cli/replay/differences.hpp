@@ -46,7 +46,7 @@ struct ComparedAnswer {
 
 struct Exchange {
   std::size_t then = 0;            ///< capture index of the frame that was sent
-  std::optional<std::size_t> now;  ///< absent: it was not sent, since the device had left the transfer
+  std::optional<std::size_t> now;  ///< absent: it was not sent, since its transfer was over
   std::vector<ComparedAnswer> answers;
   [[nodiscard]] bool differs() const;  ///< also where nothing could be sent
 };
@@ -65,14 +65,19 @@ struct ReplayComparison {
   [[nodiscard]] std::size_t exchanges_that_differ() const;
   [[nodiscard]] std::size_t unasked_that_differ() const;
   [[nodiscard]] bool differs() const { return exchanges_that_differ() + unasked_that_differ() > 0; }
+  /// Whether the device was heard at all: silence then and silence now are the same of any device, also of
+  /// one that is not there.
+  [[nodiscard]] bool compares_something() const;
 };
 
-/// `now` holds the replay of `then`, but for what was `skipped` (indices into Dialogue::sent, ascending).
-/// Answers are compared by their bytes; of what comes unasked the number, how often it comes and, where its
-/// content is no measured value, what it says. When exactly it comes is not compared, nor with which toggle
-/// bit guarding goes on from what was before. Error: the replay is not whole, the host lost frames that it
-/// sent itself.
+/// `now` holds the replay of `then`, but for what was `skipped` (indices into Dialogue::sent, ascending), and
+/// with `aborts` (capture indices, ascending) that nobody sent then; what comes behind one on its channel is
+/// compared with nothing. Answers are compared by their bytes; of what comes unasked the number, how often it
+/// comes and, where its content is no measured value, what it says. When exactly it comes is not compared,
+/// nor with which toggle bit guarding goes on from what was before. Error: the replay is not whole, the host
+/// lost frames that it sent itself.
 [[nodiscard]] Result<ReplayComparison> compare_replay(const Side& then, const Side& now, NodeId node,
-                                                      const std::vector<std::size_t>& skipped = {});
+                                                      const std::vector<std::size_t>& skipped = {},
+                                                      const std::vector<std::size_t>& aborts = {});
 
 }  // namespace conform::cli

@@ -85,7 +85,7 @@ std::string sent_words(const Side& then, const Exchange& exchange) {
 std::string exchange_text(const Exchange& exchange, const Side& then, const Side& now,
                           const reports::Style& style) {
   std::string out = fmt::format("  {}{}\n", judged(exchange.differs(), style), sent_words(then, exchange));
-  if (!exchange.now) out += fmt::format("{}not sent: the device had left the transfer\n", indent);
+  if (!exchange.now) out += fmt::format("{}not sent: the transfer was over\n", indent);
   for (const auto& answer : exchange.answers) {
     if (!answer.differs) {
       const auto why =
@@ -146,6 +146,8 @@ std::string replay_text(const ReplayComparison& comparison, const Side& then, co
 }
 
 std::string replay_summary(const ReplayComparison& comparison) {
+  if (!comparison.compares_something())
+    return "nothing was compared: the device sent nothing in these frames then, and sends nothing now";
   const auto all = comparison.exchanges.size(), differ = comparison.exchanges_that_differ();
   std::string out = differ == 0
                         ? fmt::format("{} with the same answers", reports::counted(all, "frame"))
@@ -153,7 +155,7 @@ std::string replay_summary(const ReplayComparison& comparison) {
   if (const auto unasked = comparison.unasked_that_differ(); unasked > 0)
     out += fmt::format("; {} of frames that come unasked {}", reports::counted(unasked, "kind"),
                        unasked == 1 ? "differs" : "differ");
-  return out;
+  return (differ == 0 && comparison.unasked_that_differ() == 0 ? "same: " : "differs: ") + out;
 }
 
 }  // namespace conform::cli

@@ -14,7 +14,8 @@ namespace conform::cli {
 [[nodiscard]] std::string replay_text(const ReplayComparison& comparison, const Side& then, const Side& now,
                                       const reports::Style& style, bool quiet);
 
-/// "21 of 23 exchanges are the same, 2 differ; 1 kind of frames that come unasked differs".
+/// "same: 23 frames with the same answers", "differs: 2 of 23 frames answered otherwise; 1 kind of frames
+/// that come unasked differs", or that nothing was compared.
 [[nodiscard]] std::string replay_summary(const ReplayComparison& comparison);
 
 }  // namespace conform::cli

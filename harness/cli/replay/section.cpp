@@ -34,6 +34,35 @@ std::vector<Place> places_in(std::span<const can::CapturedFrame> frames) {
   return out;
 }
 
+/// What of a case is not among its marks. A run that was killed leaves no mark of beginnings and ends.
+std::vector<std::string> missing_in(std::span<const Place> of_case) {
+  const auto has = [&](CasePart part) {
+    return std::ranges::find(of_case, part, [](const Place& place) { return place.mark.part; }) !=
+           of_case.end();
+  };
+  const bool begins = has(CasePart::begin), ends = has(CasePart::end);
+  std::vector<std::string> out;
+  if (!begins) {
+    std::string text = "the capture does not tell where the case begins: ";
+    const auto step =
+        std::ranges::find(of_case, CasePart::step, [](const Place& place) { return place.mark.part; });
+    if (step == of_case.end()) {
+      text += "none of its steps is there";
+    } else if (step->mark.number > 1) {
+      text += "steps before step " + std::to_string(step->mark.number) + " are not there, or sent nothing";
+    } else {
+      text += "what was sent before step 1 to find out whether it applies may not be there";
+    }
+    out.push_back(std::move(text));
+  }
+  if (!ends) {
+    out.emplace_back(
+        "the capture does not tell where the case ends: it was cut off, or the run was stopped or killed, and what is not "
+        "there is not sent");
+  }
+  return out;
+}
+
 std::unexpected<Error> unknown_case(std::span<const can::CapturedFrame> frames, std::string_view name,
                                     const std::string& where) {
   if (name.starts_with("monitor/")) {
@@ -45,6 +74,10 @@ std::unexpected<Error> unknown_case(std::span<const can::CapturedFrame> frames, 
     return fail(
         "the capture does not tell which frames belong to which case", where,
         "pcapng of 'run --capture' or 'run --captures' tells it; of other files: --frames FIRST-LAST");
+  }
+  if (std::ranges::find(known, name) != known.end()) {
+    return fail("the capture holds only the end of the case '" + std::string(name) + "'", where,
+                "the capture of the whole run, or --frames FIRST-LAST");
   }
   const std::vector<std::string_view> candidates(known.begin(), known.end());
   const auto near = did_you_mean(name, candidates);
@@ -95,7 +128,7 @@ Result<Section> section_of_case(std::span<const can::CapturedFrame> frames, std:
          places[last].mark.part != CasePart::begin)
     ++last;
   return Section{places[first].frame, last < places.size() ? places[last].frame : frames.size(),
-                 "case " + std::string(name)};
+                 "case " + std::string(name), missing_in(std::span(places).subspan(first, last - first))};
 }
 
 Result<Section> section_of_numbers(std::span<const can::CapturedFrame> frames, std::string_view range,

@@ -34,6 +34,15 @@ bool is_ours(const fs::path& path) {
   return can::pcapng_application(bytes_of(head)).starts_with("canopen-conform ");
 }
 
+/// Nothing is there, or what this program has written.
+Result<void> is_free(const fs::path& path) {
+  std::error_code ignored;
+  const auto status = fs::symlink_status(path, ignored);
+  if (!fs::exists(status) || (fs::is_regular_file(status) && is_ours(path))) return {};
+  return fail("has the name of a capture of a cause and was not written by canopen-conform", path.string(),
+              "move it away, or name another folder; no capture of a cause was written or removed");
+}
+
 result::FrameRange with_neighbours(result::FrameRange range, const result::CaseResult& one,
                                    const can::Capture& capture) {
   const auto& frames = capture.frames();
@@ -111,6 +120,10 @@ bool has_cause_captures(const std::string& folder, const result::RunResult& run)
 
 Result<void> write_cause_captures(const std::string& folder, const std::vector<CauseCapture>& captures) {
   if (folder.empty()) return {};
+  for (const auto& each : captures) {
+    if (auto free = is_free(fs::path(folder) / each.name); !free) return free;
+  }
+  if (auto emptied = empty_capture_folder(folder); !emptied) return emptied;
   for (const auto& each : captures) {
     if (auto written = write_file_atomically((fs::path(folder) / each.name).string(), each.bytes); !written)
       return written;

@@ -32,7 +32,9 @@ struct CauseCapture {
                                                                const can::Capture& capture,
                                                                const can::CaptureInfo& info);
 
-/// Writes them into the folder; an empty one is none. Error: the first file that could not be written.
+/// Writes them into the folder, in the place of those of an earlier run (see empty_capture_folder); no name
+/// of a folder: nothing is done. Error: a file that somebody else has put there has the name of one of them,
+/// and nothing was written or removed; or the first file that could not be written.
 [[nodiscard]] Result<void> write_cause_captures(const std::string& folder,
                                                 const std::vector<CauseCapture>& captures);
 

@@ -196,7 +196,6 @@ void RunReports::write_causes(result::RunResult& run, const can::Capture& captur
   Result<void> written;
   if (!made) written = std::unexpected(made.error());
   // Only now: what an earlier report has put there is worth more than nothing.
-  if (written && !paths_.captures.empty()) written = empty_capture_folder(paths_.captures);
   if (written) written = write_cause_captures(paths_.captures, *made);
   if (!written) not_written(run, written.error());
   if (made) frames.causes = std::move(*made);

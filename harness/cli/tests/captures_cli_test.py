@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Captures on the command line: one per cause, and replay; simulation only. Usage: captures_cli_test.py PROGRAM"""
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -57,6 +58,7 @@ class Captures(unittest.TestCase):
         self.assertIn(run("judge", capture, "--node", "1", "-q").returncode, (0, 1))
         out = self.ended(run("replay", capture, "--case", self.failed_case(), "--simulate"), 1)
         self.assertIn("differs", out)
+        self.assertNotIn("note: ", out)
 
     def test_captures_of_an_earlier_run_go_and_other_files_stay(self):
         folder = self.path("again")
@@ -67,6 +69,25 @@ class Captures(unittest.TestCase):
                 file.write(content)
         self.ended(run("run", "--simulate", "-q", SCENARIO, "--captures", folder), 0)
         self.assertEqual(sorted(os.listdir(folder)), ["cause-01.pcapng", "cause-77-mine.pcapng", "notes.txt"])
+
+    def test_a_file_of_somebody_else_with_the_name_of_a_capture_is_never_written_over(self):
+        folder, name = self.path("foreign"), sorted(os.listdir(self.causes))[0]
+        shutil.copytree(self.causes, folder)
+        earlier = os.path.join(folder, "cause-88-earlier.pcapng")
+        shutil.move(os.path.join(folder, name), earlier)
+        for make in (lambda path: pathlib.Path(path).write_bytes(b"not of this program"), lambda path: os.symlink(earlier, path)):
+            foreign = os.path.join(folder, name)
+            make(foreign)
+            before = pathlib.Path(foreign).read_bytes()
+            done = run("report", self.path("run.json"), "-q", "--capture", self.path("run.pcapng"), "--captures", folder)
+            self.assertIn("was not written by canopen-conform", done.stdout + done.stderr)
+            self.assertIn(foreign, done.stdout + done.stderr)
+            self.ended(done, 1)  # that of the run, which failed
+            self.assertEqual(pathlib.Path(foreign).read_bytes(), before)
+            self.assertTrue(os.path.exists(earlier))
+            os.remove(foreign)
+        self.ended(run("report", self.path("run.json"), "-q", "--capture", self.path("run.pcapng"), "--captures", folder), 1)
+        self.assertEqual(sorted(os.listdir(folder)), sorted(os.listdir(self.causes)))
 
     def test_a_folder_that_cannot_be_is_an_error_before_the_first_frame(self):
         done = run("run", "--simulate", SCENARIO, "--captures", self.path("run.json"))
@@ -168,7 +189,39 @@ class Captures(unittest.TestCase):
     def test_the_frames_of_a_replay_can_be_kept_and_replayed(self):
         case, again = self.failed_case(), self.path("again.pcapng")
         self.ended(run("replay", self.path("run.pcapng"), "--case", case, "--simulate", "--capture", again), 1)
-        self.ended(run("replay", again, "--case", case, "--simulate"), 0)
+        self.assertNotIn("note: ", self.ended(run("replay", again, "--case", case, "--simulate"), 0))
+
+    def test_what_a_cut_capture_does_not_hold_of_a_case_is_said_on_the_terminal_and_in_the_new_capture(self):
+        case, cut, again = self.failed_case(), self.path("cut.pcapng"), self.path("cut-again.pcapng")
+        with open(self.path("run.pcapng"), "rb") as file:
+            whole = file.read()
+        with open(cut, "wb") as file:
+            file.write(whole[:whole.index(f"case {case} end".encode())])
+        done = run("replay", cut, "--case", case, "--simulate", "-q", "--capture", again)
+        self.assertIn("note: the capture does not tell where the case ends", done.stdout)
+        self.assertIn("note: the capture ends in the middle of a frame", done.stdout)
+        with open(again, "rb") as file:
+            self.assertIn(b"does not tell where the case ends", file.read())
+
+    def test_stamps_that_are_hours_apart_are_refused_and_a_clock_that_was_set_back_is_told(self):
+        log = self.path("stamps.log")
+        for second, code in (("9223372035.000000", 2), ("5000.000000", 2), ("1.500000", 0), ("0.000001", 0)):
+            with open(log, "w", encoding="utf-8") as file:
+                file.write(f"(1.000000) can0 601#4000100000000000\n(1.000500) can0 581#4300100091010F00\n({second}) can0 601#4000100000000000\n"
+                           f"({second}) can0 581#4300100091010F00\n")
+            done = run("replay", log, "--frames", "1-4", "--simulate")
+            self.assertEqual(done.returncode, code, (second, done.stdout, done.stderr))
+            if code == 2:
+                self.assertRegex(done.stderr, r"frame 3 \(at .* comes more than 3600 s behind frame 2 \(at 0.000500 s\)")
+            self.assertEqual("the stamps run back at frame 3, by " in done.stdout, second == "0.000001", done.stdout)
+
+    def test_a_replay_that_compares_nothing_says_so_and_is_no_success(self):
+        log = self.path("silent.log")
+        with open(log, "w", encoding="utf-8") as file:
+            file.write("(1.000000) can0 000#0201\n(1.100000) can0 601#4000100000000000\n")
+        out = self.ended(run("replay", log, "--frames", "1-2", "--simulate", "-q"), 3)
+        self.assertIn("nothing was compared", out)
+        self.assertNotIn("same", out)
 
     def test_what_cannot_be_replayed_is_said_with_the_exit_code_of_usage(self):
         pcapng = self.path("run.pcapng")
