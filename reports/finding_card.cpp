@@ -170,8 +170,11 @@ void draw_frames(Card& card, const CaseResult& one, const Finding& finding) {
   }
   left_out(finding.evidence.size() - first - shown.size(), "after");
   if (silence) {
-    card.raw(fmt::format("{}   {}", pad_left(milliseconds(silence->until - one.begin), time_width),
-                         silence_words(one, finding)));
+    std::string front = pad_left(milliseconds(silence->until - one.begin), time_width) + "   ";
+    for (const std::string& line : wrap(silence_words(one, finding), card.width() - time_width - 7)) {
+      card.raw(front + line);
+      front.assign(time_width + 3, ' ');
+    }
   }
   if (std::ranges::any_of(shown, &EvidenceFrame::decisive)) {
     card.raw(paint("=> marks the frame that decided the verdict", Ink::dim, card.style()));

@@ -2,7 +2,6 @@
 #include "reports/phrases.hpp"
 
 #include <algorithm>
-#include <iterator>
 
 #include <fmt/format.h>
 
@@ -20,6 +19,13 @@ using result::Verdict;
 namespace {
 
 constexpr std::size_t least_in_silence = 6;
+
+/// Where a request decided, because nobody answered it, there is none.
+const EvidenceFrame* answer_that_decided(const Finding& finding) {
+  const auto found = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
+  const bool is = found != finding.evidence.end() && found->direction == can::Direction::received;
+  return is ? &*found : nullptr;
+}
 
 }  // namespace
 
@@ -43,7 +49,8 @@ std::string headline(const Finding& finding) {
   const std::string_view came = finding.actual.empty() ? std::string_view(finding.reason) : finding.actual;
   if (!came.empty()) text += (text.empty() ? "" : " -> ") + log_safe(came);
   // "require A -> does not hold: B" has said A.
-  if (finding.accepts.empty() || (finding.accepts.size() == 1 && finding.step.ends_with(finding.accepts.front())))
+  if (finding.accepts.empty() ||
+      (finding.accepts.size() == 1 && finding.step.ends_with(finding.accepts.front())))
     return text;
   constexpr std::size_t shown = 3;
   std::string expected;
@@ -144,17 +151,18 @@ std::string can_id_text(const can::Frame& frame) {
   return fmt::format("{:04X} {:04X}h", frame.id >> 16U, frame.id & 0xFFFFU);
 }
 
-std::span<const EvidenceFrame> evidence_window(const Finding& finding, std::size_t before, std::size_t after) {
+std::span<const EvidenceFrame> evidence_window(const Finding& finding, std::size_t before,
+                                               std::size_t after) {
   const std::span<const EvidenceFrame> evidence = finding.evidence;
   if (evidence.empty()) return evidence;
   const auto decisive = std::ranges::find_if(evidence, &EvidenceFrame::decisive);
   auto at = decisive == evidence.end() ? evidence.size() - 1
                                        : static_cast<std::size_t>(decisive - evidence.begin());
-  if (decisive == evidence.end() && finding.listened) {
+  if (finding.listened && decisive == evidence.end()) {
     while (at > 0 && evidence[at].time > finding.listened->from) --at;
-    // Who waits in vain wants to see what came instead.
-    after = std::max(after, least_in_silence);
   }
+  // Who waits in vain wants to see what came instead.
+  if (finding.listened && answer_that_decided(finding) == nullptr) after = std::max(after, least_in_silence);
   const std::size_t first = at > before ? at - before : 0;
   const std::size_t last = std::min(evidence.size(), at + after + 1);
   return evidence.subspan(first, last - first);
@@ -163,17 +171,15 @@ std::span<const EvidenceFrame> evidence_window(const Finding& finding, std::size
 std::optional<result::Listening> silence_of(const Finding& finding) {
   if (!finding.listened) return std::nullopt;
   auto silence = *finding.listened;
-  const auto decisive = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
-  if (decisive != finding.evidence.end()) {
+  if (const auto* const decisive = answer_that_decided(finding); decisive != nullptr) {
     // Behind the last of many frames it is silent for a period in any case.
-    const auto is_alike = [&](const EvidenceFrame& frame) {
-      return frame.frame.id == decisive->frame.id && frame.direction == decisive->direction;
-    };
-    const auto before =
-        std::find_if(std::make_reverse_iterator(decisive), finding.evidence.rend(), is_alike);
+    const EvidenceFrame* before = nullptr;
+    for (const EvidenceFrame& frame : finding.evidence) {
+      if (&frame == decisive) break;
+      if (frame.frame.id == decisive->frame.id && frame.direction == decisive->direction) before = &frame;
+    }
     silence.from = std::max(silence.from, decisive->time);
-    if (before != finding.evidence.rend() &&
-        silence.until - silence.from <= (decisive->time - before->time) * 2)
+    if (before != nullptr && silence.until - silence.from <= (decisive->time - before->time) * 2)
       return std::nullopt;
   }
   return silence.until > silence.from ? std::optional(silence) : std::nullopt;
@@ -182,9 +188,10 @@ std::optional<result::Listening> silence_of(const Finding& finding) {
 std::string silence_words(const CaseResult& one, const Finding& finding) {
   const auto silence = silence_of(finding);
   if (!silence) return {};
-  const bool some = std::ranges::any_of(finding.evidence, &EvidenceFrame::decisive);
-  return fmt::format("{} ({} since {})", some ? "no more came of it" : "nothing came that was waited for",
-                     brief_duration(silence->until - silence->from), milliseconds(silence->from - one.begin));
+  return fmt::format(
+      "{} ({} since {})",
+      answer_that_decided(finding) != nullptr ? "no more came of it" : "nothing came that was waited for",
+      brief_duration(silence->until - silence->from), milliseconds(silence->from - one.begin));
 }
 
 std::vector<std::string> byte_rows(ByteView bytes, std::size_t row_size) {

@@ -63,8 +63,8 @@ struct Otherwise {
 /// "603h"; identifiers of 29 bits are written as such whatever their value.
 [[nodiscard]] std::string can_id_text(const can::Frame& frame);
 
-/// The part of the evidence worth printing: frames around the decisive one; if none is, those before and behind
-/// the moment from which the step waited, or else the last.
+/// The part of the evidence worth printing: frames around the decisive one; if none is, those before and
+/// behind the moment from which the step waited, or else the last.
 [[nodiscard]] std::span<const result::EvidenceFrame> evidence_window(const result::Finding& finding,
                                                                      std::size_t before, std::size_t after);
 /// How long a step waited for what did not come: from the decisive frame, or else from when it began to wait.

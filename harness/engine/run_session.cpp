@@ -288,7 +288,8 @@ bool RunSession::was_guarded() {
 
 Result<steps::Window> RunSession::window_after(std::string_view label) const {
   const auto found = labels_.find(label);
-  if (found == labels_.end()) return fail_scenario("nothing came at the step labelled '" + std::string(label) + "'");
+  if (found == labels_.end())
+    return fail_scenario("nothing came at the step labelled '" + std::string(label) + "'");
   return found->second;
 }
 

@@ -210,27 +210,31 @@ std::vector<std::string> Witness::prepared(const Step& deciding) const {
 
 std::optional<result::Listening> Witness::listened(const Actual& actual) const {
   if (actual.listened) return result::Listening{actual.listened->from, actual.listened->until};
-  if (actual.kind != Actual::Kind::silence || actual.decisive) return std::nullopt;
+  if (actual.kind != Actual::Kind::silence) return std::nullopt;
   auto from = step_began_at_;
   const auto& frames = session_.capture().frames();
+  // The request that nobody answered.
+  if (actual.decisive) return result::Listening{frames[*actual.decisive].time, session_.now()};
   for (auto i = step_begin_; i < frames.size(); ++i) {
     if (frames[i].direction == can::Direction::transmitted) from = frames[i].time;
   }
   return result::Listening{from, session_.now()};
 }
 
-std::vector<result::EvidenceFrame> Witness::evidence(
-    std::size_t first_frame, std::size_t begin, std::optional<std::size_t> decisive,
-    const std::optional<result::Listening>& listened) const {
+std::vector<result::EvidenceFrame> Witness::evidence(std::size_t first_frame, std::size_t begin,
+                                                     std::optional<std::size_t> decisive,
+                                                     const std::optional<result::Listening>& listened) const {
   std::vector<result::EvidenceFrame> out;
   const auto& frames = session_.capture().frames();
   if (frames.empty()) return out;
   auto centre = decisive.value_or(frames.size() - 1);
   auto behind = evidence_after;
-  if (!decisive && listened) {
-    // What was to be answered, and what came instead.
+  // Of a silence what was to be answered, and what came instead.
+  const bool is_silence =
+      listened && (!decisive || frames[*decisive].direction == can::Direction::transmitted);
+  if (is_silence) behind = evidence_in_silence;
+  if (is_silence && !decisive) {
     while (centre > first_frame && frames[centre].time > listened->from) --centre;
-    behind = evidence_in_silence;
   }
   auto first = std::max(first_frame, centre > evidence_before ? centre - evidence_before : 0);
   if (begin >= first && begin <= centre && centre - begin < evidence_before)

@@ -63,14 +63,14 @@ void members(Same<Listening> auto& it, auto&& see) {
 }
 void members(Same<Finding> auto& it, auto&& see) {
   auto& [verdict, requirement, position, step, accepts, tolerates, actual, actual_bytes, reason, evidence,
-         declared_at, during, object, deviation, broken_rules, frames_seen, rests_on_time, listened, prepared] = it;
+         declared_at, during, object, deviation, broken_rules, frames_seen, rests_on_time, listened,
+         prepared] = it;
   see("verdict", verdict), see("requirement", requirement), see("position", position), see("step", step),
       see("accepts", accepts), see("tolerates", tolerates), see("actual", actual),
       see("actual_bytes", actual_bytes), see("reason", reason), see("evidence", evidence),
       see("declared_at", declared_at), see("during", during), see("object", object),
       see("deviation", deviation), see("broken_rules", broken_rules), see("frames_seen", frames_seen),
-      see("rests_on_time", rests_on_time), see("listened", listened),
-      see("prepared", prepared);
+      see("rests_on_time", rests_on_time), see("listened", listened), see("prepared", prepared);
 }
 void members(Same<DecidingStep> auto& it, auto&& see) {
   auto& [position, step, actual, frame] = it;

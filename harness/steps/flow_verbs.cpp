@@ -30,7 +30,8 @@ class Require final : public Action {
     Actual out;
     out.kind = *holds ? Actual::Kind::matched : Actual::Kind::mismatched;
     // Which values it had tells more than which names; where it holds nobody waits for another look.
-    out.detail = *holds ? "holds: " + condition_.text() : "does not hold: " + condition_.why(session, false).text;
+    out.detail =
+        *holds ? "holds: " + condition_.text() : "does not hold: " + condition_.why(session, false).text;
     return out;
   }
 

@@ -103,7 +103,8 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
 /// Empty where nothing was measured.
 std::string missed_words(const std::vector<Outcome>& expected, const Actual& actual) {
   if (expected.size() != 1) return {};
-  constexpr std::array<std::string_view, 6> times{"period", "shortest", "longest", "first", "latency", "drift"};
+  constexpr std::array<std::string_view, 6> times{"period", "shortest", "longest",
+                                                  "first",  "latency",  "drift"};
   std::vector<std::string> parts;
   for (const auto& demand : expected.front().demands) {
     const auto found = actual.measured.find(demand.measure);

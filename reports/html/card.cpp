@@ -71,8 +71,7 @@ std::string grades(const RunResult& run, const Finding& finding) {
 
 std::string prepared(const Finding& finding) {
   std::string out;
-  for (const auto& step : finding.prepared)
-    out += (out.empty() ? "" : "; ") + clipped(step, 200);
+  for (const auto& step : finding.prepared) out += (out.empty() ? "" : "; ") + clipped(step, 200);
   return out;
 }
 

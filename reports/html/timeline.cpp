@@ -101,9 +101,9 @@ class Drawing {
                          coordinate((label_from + until) / 2), device_lane - 13,
                          brief_duration(silence_->until - silence_->from));
     if (is_broken_)
-      out += fmt::format("<path class=\"break\" d=\"M{0} {1}l-4 8l8 4l-4 8\"/><text class=\"t\" x=\"{2}\" y=\"{3}\">{4:.3f}</text>",
-                         split + 14, axis_line - 10, coordinate(until - 14), axis_line + 17,
-                         ms(end_ - one_.begin));
+      out += fmt::format(
+          "<path class=\"break\" d=\"M{0} {1}l-4 8l8 4l-4 8\"/><text class=\"t\" x=\"{2}\" y=\"{3}\">{4:.3f}</text>",
+          split + 14, axis_line - 10, coordinate(until - 14), axis_line + 17, ms(end_ - one_.begin));
     return out + "\n";
   }
 
@@ -203,8 +203,9 @@ std::string frames(const Book& book, const CaseResult& one, const Finding& findi
   for (std::size_t i = 0; i < shown.size(); ++i)
     out += row(one, i + 1, shown[i], i == 0 ? Duration{} : shown[i].time - shown[i - 1].time);
   if (const auto silence = silence_of(finding))
-    out += fmt::format("<tr class=\"silence\"><td>until</td><td class=\"num\">{}</td><td colspan=\"6\">{}</td></tr>\n",
-                       milliseconds(silence->until - one.begin), text(silence_words(one, finding)));
+    out += fmt::format(
+        "<tr class=\"silence\"><td>until</td><td class=\"num\">{}</td><td colspan=\"6\">{}</td></tr>\n",
+        milliseconds(silence->until - one.begin), text(silence_words(one, finding)));
   out += "</tbody></table></div>\n";
   if (before + after > 0)
     out += fmt::format("<p class=\"quiet\">{} before and {} after these are in the capture of the run.</p>\n",

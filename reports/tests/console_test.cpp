@@ -96,6 +96,35 @@ TEST_CASE("A long conversation is shown around its decisive frame") {
   CHECK(contains(card, "... 47 frames after\n"));
 }
 
+TEST_CASE("A card of a silence ends with how long nothing came, behind what was to be answered") {
+  RunResult run = testing::sample_run();
+  auto& one = run.cases[1];
+  auto& finding = one.judgements[0].findings[0];
+  for (auto& frame : finding.evidence) frame.decisive = false;
+  const auto asked = finding.evidence[1];
+  finding.evidence.insert(finding.evidence.end(), 50, finding.evidence.back());
+  finding.listened = result::Listening{asked.time, asked.time + std::chrono::milliseconds(500)};
+  const auto from = milliseconds(asked.time - one.begin);
+  const auto until = milliseconds(asked.time + std::chrono::milliseconds(500) - one.begin);
+  const std::string card = finding_card(run, one, finding, {});
+  CHECK(contains(card, until + "   nothing came that was waited for (500 ms since " + from + ")\n"));
+  CHECK(contains(card, asked.meaning));
+  CHECK(contains(card, " frames after\n"));
+  // What was decided by a frame, and waited no longer, is no silence.
+  finding.evidence.resize(2);
+  finding.evidence.back().decisive = true;
+  finding.listened->until = asked.time;
+  CHECK_FALSE(contains(finding_card(run, one, finding, {}), "waited for"));
+  // A period behind the last of several frames is none either, three of them are.
+  finding.evidence = {asked, asked};
+  finding.evidence.back().time += std::chrono::milliseconds(100);
+  finding.evidence.back().decisive = true;
+  finding.listened->until = finding.evidence.back().time + std::chrono::milliseconds(100);
+  CHECK_FALSE(contains(finding_card(run, one, finding, {}), "no more came"));
+  finding.listened->until += std::chrono::milliseconds(200);
+  CHECK(contains(finding_card(run, one, finding, {}), "no more came of it (300 ms since "));
+}
+
 TEST_CASE("A violated recommendation is a warning although its finding failed") {
   RunResult run = testing::sample_run();
   run.cases[1].judgements[0].verdict = Verdict::warn;

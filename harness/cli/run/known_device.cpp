@@ -36,7 +36,8 @@ std::vector<std::string> notes_of(const device::Description& description) {
 
 /// What the description claims goes above: the claims of both have added up.
 std::string claims_of(const device::Profile& profile, const std::string& profile_file,
-                      const std::set<std::string, std::less<>>& described, const std::string& description_file) {
+                      const std::set<std::string, std::less<>>& described,
+                      const std::string& description_file) {
   std::vector<std::string> by_profile, by_description;
   for (const auto& claim : profile.claims)
     (described.contains(claim) ? by_description : by_profile).push_back(claim);

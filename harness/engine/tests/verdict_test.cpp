@@ -272,3 +272,75 @@ TEST_CASE("a frame that comes while the step before is still asking is in time")
 )");
   CHECK(out.verdict_of("T-MUST") == Verdict::pass);
 }
+
+TEST_CASE("a frame that does not come is told with what went before it, and how long it was waited for") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1000h:00}
+      - let: {id: 1A5h}
+      - frame: {id: $id, within: 40 ms}
+        checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST") == Verdict::fail);
+  const auto& finding = out.only().judgements.front().findings.front();
+  CHECK(finding.accepts == std::vector<std::string>{"a frame"});
+  CHECK(finding.prepared == std::vector<std::string>{"upload 1000h:00"});
+  REQUIRE(finding.listened);
+  CHECK(finding.listened->until - finding.listened->from >= std::chrono::milliseconds(40));
+  REQUIRE(finding.evidence.size() >= 2);
+  CHECK(finding.evidence.front().frame.id == 0x601);
+}
+
+TEST_CASE("a request without an answer is told with the time that nothing followed it") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    return frame.data[0] == 0x40 && frame.data[1] == 0x17;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1017h:00}
+        checks: T-MUST
+)");
+  const auto& finding = out.only().judgements.front().findings.front();
+  INFO(finding.step + " -> " + finding.actual);
+  REQUIRE(finding.listened);
+  REQUIRE_FALSE(finding.evidence.empty());
+  CHECK(std::ranges::any_of(finding.evidence, [&](const auto& frame) {
+    return frame.time == finding.listened->from && frame.direction == can::Direction::transmitted;
+  }));
+}
+
+TEST_CASE("a condition that fails is told with its values, and once") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - let: {one: 5, other: 7}
+      - require: $one is $other
+        checks: T-MUST
+)");
+  const auto& finding = out.only().judgements.front().findings.front();
+  CHECK(finding.actual == "does not hold: one is 5, not 7");
+  CHECK(finding.accepts == std::vector<std::string>{"$one is $other"});
+}
+
+TEST_CASE("of several measurements the ones that miss are named") {
+  ScriptedDevice device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    steps:
+      - collect: {from: 1A5h, for: 100 ms}
+        checks: T-MUST
+        expect: {count: 2..}
+)");
+  const auto& finding = out.only().judgements.front().findings.front();
+  CHECK(finding.reason == "count 0 instead of at least 2");
+  CHECK(finding.accepts == std::vector<std::string>{"count at least 2"});
+}
