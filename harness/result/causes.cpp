@@ -50,11 +50,6 @@ std::size_t decided_at(const Finding& finding) {
   return frame == nullptr ? finding.frames_seen : frame->capture_index + 1;
 }
 
-/// Frames or a silence show it; what a condition says of values takes longer to see.
-bool shows_itself(const Finding& finding) {
-  return finding.listened.has_value() || decisive_frame(finding) != nullptr;
-}
-
 class Grouping {
  public:
   explicit Grouping(const RunResult& run) : run_(run) {
@@ -311,7 +306,7 @@ class Grouping {
       const auto& finding = *place.finding;
       const auto deep = depth(place);
       return std::tuple(place.formless, explanations_->steps(i), deep == beside,
-                        place.verdict != Verdict::fail, deep, !shows_itself(finding), decided_at(finding));
+                        place.verdict != Verdict::fail, deep, decided_at(finding));
     };
     return *std::ranges::min_element(members, {}, weight);
   }
