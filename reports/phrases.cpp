@@ -179,7 +179,7 @@ std::optional<result::Listening> silence_of(const Finding& finding) {
       if (frame.frame.id == decisive->frame.id && frame.direction == decisive->direction) before = &frame;
     }
     silence.from = std::max(silence.from, decisive->time);
-    if (before != nullptr && silence.until - silence.from <= (decisive->time - before->time) * 2)
+    if (before != nullptr && (silence.until - silence.from) / 2 <= decisive->time - before->time)
       return std::nullopt;
   }
   return silence.until > silence.from ? std::optional(silence) : std::nullopt;

@@ -87,7 +87,16 @@ std::string verdict_card(const Book& book) {
 
 std::string facts(const RunResult& run) {
   std::string out;
-  for (const auto& each : facts_of(run)) out += fact(sentence(each.label), clipped(each.value, 1000));
+  for (const auto& each : facts_of(run)) {
+    const auto value = clipped(each.value, 1000);
+    // Features by the dozen would push everything else off the first screen.
+    if (each.name == "input.claims") {
+      const auto count = static_cast<std::size_t>(std::ranges::count(each.value, ',')) + 1;
+      out += fact(sentence(each.label), folded(counted(count, "feature"), "<p>" + value + "</p>\n"));
+    } else {
+      out += fact(sentence(each.label), value);
+    }
+  }
   return out;
 }
 

@@ -63,7 +63,7 @@ class Drawing {
         shown_(shown),
         silence_(silence_of(finding)),
         end_(silence_ ? std::max(silence_->until, shown.back().time) : shown.back().time),
-        is_broken_(end_ - shown.back().time > (shown.back().time - shown.front().time) * longest_tail),
+        is_broken_((end_ - shown.back().time) / longest_tail > shown.back().time - shown.front().time),
         scale_(ms(shown.front().time - one.begin), ms((is_broken_ ? shown.back().time : end_) - one.begin),
                left + 8, is_broken_ ? split : right - 8) {}
 
