@@ -48,9 +48,11 @@ std::string headline(const Finding& finding) {
   std::string text = log_safe(finding.step);
   const std::string_view came = finding.actual.empty() ? std::string_view(finding.reason) : finding.actual;
   if (!came.empty()) text += (text.empty() ? "" : " -> ") + log_safe(came);
-  // "require A -> does not hold: B" has said A.
-  if (finding.accepts.empty() ||
-      (finding.accepts.size() == 1 && finding.step.ends_with(finding.accepts.front())))
+  // "require A -> does not hold: B" has said A, "a frame of C within 1 s -> no frame of C" a frame.
+  const auto is_said = [&finding](std::string_view accepted) {
+    return finding.step.starts_with(accepted) || finding.step.ends_with(accepted);
+  };
+  if (finding.accepts.empty() || (finding.accepts.size() == 1 && is_said(finding.accepts.front())))
     return text;
   constexpr std::size_t shown = 3;
   std::string expected;
