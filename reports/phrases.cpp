@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "reports/text_tools.hpp"
+#include "result/explanations.hpp"
 #include "result/properties.hpp"
 
 namespace conform::reports {
@@ -22,9 +23,8 @@ constexpr std::size_t least_in_silence = 6;
 
 /// Where a request decided, because nobody answered it, there is none.
 const EvidenceFrame* answer_that_decided(const Finding& finding) {
-  const auto found = std::ranges::find_if(finding.evidence, &EvidenceFrame::decisive);
-  const bool is = found != finding.evidence.end() && found->direction == can::Direction::received;
-  return is ? &*found : nullptr;
+  const auto* const decided = result::decisive_frame(finding);
+  return decided != nullptr && decided->direction == can::Direction::received ? decided : nullptr;
 }
 
 }  // namespace

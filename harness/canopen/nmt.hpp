@@ -21,6 +21,10 @@ enum class NmtCommand : std::uint8_t {
   reset_communication = 0x82,
 };
 
+[[nodiscard]] constexpr bool is_reset(NmtCommand command) {
+  return command == NmtCommand::reset_node || command == NmtCommand::reset_communication;
+}
+
 /// "start", "stop", "pre-operational", "reset node", "reset communication": the words of scenarios.
 [[nodiscard]] std::string_view to_string(NmtCommand command);
 [[nodiscard]] std::optional<NmtCommand> parse_nmt_command(std::string_view word);

@@ -199,7 +199,7 @@ void RunSession::note_command(std::size_t index) {
       frame.is_data(CanId(0)) && frame.size() == 2 && (frame.data[1] == 0 || frame.data[1] == node().value());
   const auto command = to_device ? canopen::nmt_command_at(frame.data[0]) : std::nullopt;
   if (!command) return;
-  if (*command == NmtCommand::reset_node || *command == NmtCommand::reset_communication) {
+  if (canopen::is_reset(*command)) {
     reset_ = index;
     ordered_.reset();
     stopped_ = false;

@@ -209,7 +209,7 @@ std::vector<std::string> Witness::prepared(const Step& deciding) const {
 }
 
 std::optional<result::Listening> Witness::listened(const Actual& actual) const {
-  if (actual.listened) return result::Listening{actual.listened->from, actual.listened->until};
+  if (actual.listened) return actual.listened;
   if (actual.kind != Actual::Kind::silence) return std::nullopt;
   auto from = step_began_at_;
   const auto& frames = session_.capture().frames();

@@ -20,7 +20,7 @@ void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index)
   const auto command = canopen::nmt_command_at(frame.data[0]);
   commanded_.reset();
   if (!command) return;
-  if (*command == NmtCommand::reset_node || *command == NmtCommand::reset_communication) {
+  if (canopen::is_reset(*command)) {
     // What came long ago is settled: only resets close together may share a boot-up message.
     resets_ = time > reset_at_ + facts_.boot_time ? 1 : resets_ + 1;
     booting_ = true;

@@ -13,6 +13,7 @@
 #include "base/time.hpp"
 #include "can/frame.hpp"
 #include "can/transport.hpp"
+#include "result/listening.hpp"
 #include "result/verdict.hpp"
 
 namespace conform::result {
@@ -32,12 +33,6 @@ struct SourcePosition {
   std::string file;  ///< as the user named it, relative to the suite's root
   int line = 0;      ///< 1-based
   int column = 0;    ///< 1-based
-};
-
-/// The time in which a step listened: what it waited for did not come between the decisive frame, or else the
-/// beginning, and the end.
-struct Listening {
-  BusTime from, until;
 };
 
 /// One expectation that did not simply pass, with all that is needed to understand it.

@@ -56,8 +56,7 @@ class Nmt final : public Action {
   bool rests_on_time() const override { return false; }
   std::string words(Session&) const override { return "NMT " + std::string(canopen::to_string(command_)); }
   Channels rests_on() const override {
-    const bool resets = command_ == NmtCommand::reset_node || command_ == NmtCommand::reset_communication;
-    return {resets ? channel::boot_up : channel::nmt_commands};
+    return {canopen::is_reset(command_) ? channel::boot_up : channel::nmt_commands};
   }
   Need need() const override {
     // The node-ID makes no difference: the command goes to the device under test.

@@ -11,8 +11,8 @@
 
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
-#include "base/time.hpp"
 #include "canopen/data_type.hpp"
+#include "result/listening.hpp"
 #include "result/verdict.hpp"
 #include "steps/expression.hpp"
 #include "yaml/fields.hpp"
@@ -21,10 +21,6 @@ namespace conform::steps {
 
 /// What a step saw.
 struct Actual {
-  /// From one moment to the other.
-  struct Stretch {
-    BusTime from, until;
-  };
   enum class Kind : std::uint8_t {
     confirmed,   ///< an SDO transfer that went through; `data` holds what was uploaded
     aborted,     ///< an SDO abort with `code`
@@ -44,7 +40,7 @@ struct Actual {
   std::map<std::string, std::uint64_t, std::less<>> measured;  ///< count; periods in ns; state
   std::optional<std::size_t> decisive;                         ///< capture index
   /// When it waited for frames; behind the decisive one none came that it waited for.
-  std::optional<Stretch> listened;
+  std::optional<result::Listening> listened;
 
   /// "abort 0609 0030h (invalid value)", "confirmed", "0000 0191h (4 bytes)", "no answer within 1 s".
   [[nodiscard]] std::string words() const;

@@ -69,12 +69,6 @@ std::string grades(const RunResult& run, const Finding& finding) {
                      expected.empty() ? "<p class=\"quiet\">see the rule</p>\n" : expected, came);
 }
 
-std::string prepared(const Finding& finding) {
-  std::string out;
-  for (const auto& step : finding.prepared) out += (out.empty() ? "" : "; ") + clipped(step, 200);
-  return out;
-}
-
 std::string rule(const Book& book, const Finding& finding) {
   if (finding.requirement.empty()) return "none: this step only prepares the case";
   const auto* info = book.run().requirement(finding.requirement);
@@ -129,7 +123,7 @@ std::string card(const Book& book, const LocatedFinding& located) {
   out += fact("Rule", rule(book, finding));
   out += fact("Case", fmt::format("{}<br/>{}", book.case_link(one), sentence(one.title)));
   if (!finding.during.empty()) out += fact("During", book.case_link(finding.during));
-  if (!finding.prepared.empty()) out += fact("Before", prepared(finding));
+  out += fact("Before", clipped(join(finding.prepared, "; "), value_limit));
   out += fact("Step", clipped(finding.step, value_limit));
   out += fact("Why", sentence(finding.reason));
   if (!finding.declared_at.empty()) out += fact("Described", text(finding.declared_at));

@@ -91,8 +91,7 @@ std::string facts(const RunResult& run) {
     const auto value = clipped(each.value, 1000);
     // Features by the dozen would push everything else off the first screen.
     if (each.name == "input.claims") {
-      const auto count = static_cast<std::size_t>(std::ranges::count(each.value, ',')) + 1;
-      out += fact(sentence(each.label), folded(counted(count, "feature"), "<p>" + value + "</p>\n"));
+      out += fact(sentence(each.label), folded("which, and by which file", "<p>" + value + "</p>\n"));
     } else {
       out += fact(sentence(each.label), value);
     }

@@ -68,8 +68,8 @@ int judge_command(const JudgeCommand& options) {
   known->files.push_back({role::recording, options.capture});
   auto taken = take_inputs(known->files, *root, files.has_bundle());
   if (!taken) return refuse(taken.error());
-  if (known->description) facts.push_back({"dut.description", known->description->name});
-  if (!known->claims.empty()) facts.push_back({"input.claims", known->claims});
+  const auto said = known->properties();
+  facts.insert(facts.end(), said.begin(), said.end());
   facts.insert(facts.end(), taken->told.begin(), taken->told.end());
   if (files.has_bundle()) {
     if (auto kept = files.keep(tool, std::move(taken->inputs)); !kept)

@@ -57,11 +57,11 @@ struct Plan {
   [[nodiscard]] NodeId node() const { return device.profile.node; }
   [[nodiscard]] Side side() const { return {frames(), section.first, section.end, node()}; }
   /// What of the section may not be in the capture, or cannot be done as it was.
-  [[nodiscard]] std::vector<std::string> notes() const {
+  [[nodiscard]] std::vector<std::string> notes(const Side& then) const {
     auto out = section.missing;
     if (recording.cut_off > 0 && section.end == frames().size())
       out.emplace_back("the capture ends in the middle of a frame, which is not sent");
-    if (auto note = set_back_note(side()); !note.empty()) out.push_back(std::move(note));
+    if (auto note = set_back_note(then); !note.empty()) out.push_back(std::move(note));
     return out;
   }
 };
@@ -255,16 +255,17 @@ int replay_command(const ReplayCommand& options) {
   }
   auto outcome = options.simulate ? on_simulation(*plan, options) : on_interface(*plan, options);
   if (!outcome) return report_end(outcome.error().error, outcome.error().code);
+  const Side then = plan->side();
+  auto notes = plan->notes(then);
   if (!options.record.empty()) {
     outcome->info.tool = "canopen-conform " CONFORM_VERSION;
     outcome->info.comment = "replay of " + plan->section.name;
-    for (const auto& note : plan->notes()) outcome->info.comment += "; " + note;
+    for (const auto& note : notes) outcome->info.comment += "; " + note;
     if (auto written =
             write_file_atomically(options.record, can::write_pcapng(outcome->capture, outcome->info));
         !written)
       return report_error(written.error(), exit_environment);
   }
-  const Side then = plan->side();
   const Side now = side_of(*outcome, plan->node());
   if (heard_something(then) && !heard_something(now)) {
     return report_error({fmt::format("nothing was heard of node {}", plan->node().value()), options.interface,
@@ -284,7 +285,6 @@ int replay_command(const ReplayCommand& options) {
     print(
         "the capture does not tell who sent a frame: NMT commands, SDO and LSS requests and remote frames are sent\n");
   }
-  auto notes = plan->notes();
   notes.insert(notes.end(), outcome->played.notes.begin(), outcome->played.notes.end());
   for (const auto& note : notes) print("note: " + note + "\n");
   print(replay_text(*comparison, then, now, style, options.quiet));

@@ -259,8 +259,7 @@ int run(const RunCommand& options, RunReports& reports) {
     if (auto kept = reports.keep(Facts::tool, std::move(taken->inputs)); !kept)
       return refuse(kept.error(), exit_usage);
   }
-  if (known->description) facts.add("dut.description", known->description->name);
-  if (!known->claims.empty()) facts.add("input.claims", known->claims);
+  facts.add(known->properties());
   facts.add("run.command", options.command);
   facts.add("run.seed", std::to_string(options.seed));
   if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));

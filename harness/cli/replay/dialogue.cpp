@@ -94,7 +94,7 @@ std::optional<AnswerKind> answer_of(const can::Frame& sent, NodeId node) {
   const bool commands = sent.id == canopen::nmt_can_id.value() && sent.size() == 2 &&
                         (sent.data[1] == 0 || sent.data[1] == node.value());
   const auto command = commands ? canopen::nmt_command_at(sent.data[0]) : std::nullopt;
-  if (command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication)
+  if (command && canopen::is_reset(*command))
     return AnswerKind{AnswerKind::Of::reset, error_control + node.value()};
   return std::nullopt;
 }

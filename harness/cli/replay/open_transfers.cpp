@@ -22,7 +22,7 @@ bool resets(const can::Frame& frame, std::uint8_t& node) {
   if (frame.error || frame.extended || frame.remote || frame.id != 0 || frame.size() != 2) return false;
   const auto command = canopen::nmt_command_at(frame.data[0]);
   node = frame.data[1];
-  return command == canopen::NmtCommand::reset_node || command == canopen::NmtCommand::reset_communication;
+  return command && canopen::is_reset(*command);
 }
 
 unsigned specifier_of(const can::Frame& frame) { return frame.data[0] >> 5U; }

@@ -155,7 +155,7 @@ std::string replay_summary(const ReplayComparison& comparison) {
   if (const auto unasked = comparison.unasked_that_differ(); unasked > 0)
     out += fmt::format("; {} of frames that come unasked {}", reports::counted(unasked, "kind"),
                        unasked == 1 ? "differs" : "differ");
-  return (differ == 0 && comparison.unasked_that_differ() == 0 ? "same: " : "differs: ") + out;
+  return (comparison.differs() ? "differs: " : "same: ") + out;
 }
 
 }  // namespace conform::cli

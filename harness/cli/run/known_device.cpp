@@ -125,4 +125,11 @@ Result<KnownDevice> known_device(const DeviceWords& words, std::optional<NodeId>
   return out;
 }
 
+std::vector<result::Property> KnownDevice::properties() const {
+  std::vector<result::Property> out;
+  if (description) out.push_back({"dut.description", description->name});
+  if (!claims.empty()) out.push_back({"input.claims", claims});
+  return out;
+}
+
 }  // namespace conform::cli

@@ -29,8 +29,10 @@ struct KnownDevice {
   std::shared_ptr<const eds::EdsFile> description;  ///< empty: none is given
   std::vector<std::string> notes;                   ///< for the report: what of the description is not used
   std::vector<UsedFile> files{};                    ///< all that were read
-  /// For the report: the features that count as claimed, and by which file: "pump.yaml: SYNC consumer".
-  std::string claims{};
+  std::string claims{};  ///< the features that count as claimed, and by which file: "pump.yaml: tpdo, rpdo"
+
+  /// For the report: what was said about the device.
+  [[nodiscard]] std::vector<result::Property> properties() const;
 };
 
 /// Reads the files. The node-ID is that of the option, the profile or the DCF; `fallback` where none says so.
