@@ -86,11 +86,12 @@ std::optional<Duration> Profile::duration(std::string_view wanted) const {
 }
 
 std::span<const DurationField> duration_fields() {
-  static constexpr std::array<DurationField, 8> fields{{
+  static constexpr std::array<DurationField, 9> fields{{
       {"boot_time", "T_BOOT", &Profile::boot_time},
       {"sdo_timeout", "T_SDO", &Profile::sdo_timeout},
       {"store_timeout", "T_NVM", &Profile::store_timeout},
       {"nmt_time", "T_NMT", &Profile::nmt_time},
+      {"process_time", "T_PROC", &Profile::process_time},
       {"quiet_time", "T_QUIET", &Profile::quiet_time},
       {"server_timeout", "T_SRVTO", &Profile::server_timeout},
       {"block_timeout", "T_BLK", &Profile::block_timeout},

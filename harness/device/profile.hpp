@@ -97,6 +97,7 @@ struct Profile {
   Duration sdo_timeout = std::chrono::milliseconds{1000};  ///< T_SDO
   Duration store_timeout = std::chrono::seconds{10};       ///< T_NVM
   Duration nmt_time = std::chrono::milliseconds{100};      ///< T_NMT
+  Duration process_time = std::chrono::milliseconds{100};  ///< T_PROC
   Duration quiet_time = std::chrono::milliseconds{300};    ///< T_QUIET
   Duration server_timeout = std::chrono::seconds{30};      ///< T_SRVTO
   Duration block_timeout = std::chrono::seconds{3};        ///< T_BLK
@@ -134,8 +135,8 @@ struct Profile {
   [[nodiscard]] std::string place_of(Multiplexer mux) const;
   /// What `device_info` says, by the key of the file: "rpdos", "tpdos", "lss" (0 or 1).
   [[nodiscard]] std::optional<std::uint64_t> told(std::string_view key) const;
-  /// T_BOOT, T_SDO, T_NVM, T_NMT, T_QUIET, T_SRVTO, T_BLK, T_LSS by name, as conversations write them; also
-  /// the keys of the file ("boot_time").
+  /// T_BOOT, T_SDO, T_NVM, T_NMT, T_PROC, T_QUIET, T_SRVTO, T_BLK, T_LSS by name, as conversations write
+  /// them; also the keys of the file ("boot_time").
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;
 };
 

@@ -161,7 +161,10 @@ void RunSession::watch_emcy(Multiplexer object, const Bytes& value) {
     emcy_can_id_ = canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(value))));
   } else if (object == emcy_inhibit_entry && value.size() == 2) {
     emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(value));
-    longest_emcy_inhibit_ = std::max(longest_emcy_inhibit_, emcy_inhibit_);
+    // Behind a reset what was held before runs no more.
+    longest_emcy_inhibit_ =
+        emcy_inhibit_is_known_ ? std::max(longest_emcy_inhibit_, emcy_inhibit_) : emcy_inhibit_;
+    emcy_inhibit_is_known_ = true;
   }
 }
 
@@ -341,6 +344,7 @@ void RunSession::device_was_reset() {
   looked_for_guarding_ = recorder_.capture().size();
   ++resets_;
   emcy_can_id_ = home_emcy_can_id_;
+  emcy_inhibit_is_known_ = false;
   before_write_.clear();
 }
 

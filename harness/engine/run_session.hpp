@@ -134,9 +134,11 @@ class RunSession final : public steps::Session {
   /// Whether default parameters were restored (1011h, CiA 301, 7.5.2.14) since the last call.
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
-  /// CAN-ID of EMCY as found after power-on.
-  /// The longest inhibit time (1015h) that the device was seen to hold since the case began.
+  /// The longest inhibit time (1015h) that the device was seen to hold since the case began; from the first
+  /// look behind a reset on, since the reset. Whether there was such a look.
   [[nodiscard]] Duration longest_emcy_inhibit() const { return longest_emcy_inhibit_; }
+  [[nodiscard]] bool emcy_inhibit_is_known() const { return emcy_inhibit_is_known_; }
+  /// CAN-ID of EMCY as found after power-on.
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
   /// `why`: what the device answered, where it is not there.
   void note_present(Multiplexer object, bool present, std::string why = {});
@@ -223,6 +225,7 @@ class RunSession final : public steps::Session {
   CanId emcy_can_id_;
   CanId home_emcy_can_id_;  ///< after a reset
   Duration emcy_inhibit_{}, longest_emcy_inhibit_{};
+  bool emcy_inhibit_is_known_ = true;  ///< read or written since the last reset
 };
 
 }  // namespace conform::engine

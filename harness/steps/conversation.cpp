@@ -98,24 +98,14 @@ class LineParser {
   bool parse_time(Line& line) {
     skip_blanks();
     const auto begin = at_;
-    auto rest = trim(text_.substr(at_));
+    const auto rest = trim(text_.substr(at_));
     at_ = text_.size();
-    TimeReference time;
-    if (rest.starts_with("T_")) {
-      if (!device::Profile{}.duration(rest)) {
-        problem("unknown time '" + std::string(rest) + "'", "T_SDO, T_QUIET, T_NMT, T_BOOT, ...", begin,
-                rest.size());
-        return false;
-      }
-      time.profile_name = rest;
-    } else if (const auto fixed = parse_duration(rest)) {
-      time.fixed = *fixed;
-    } else {
-      problem("'" + std::string(rest) + "' is not a duration", "100 ms, 1 s, T_QUIET", begin,
-              std::max<std::size_t>(rest.size(), 1));
+    const auto time = TimeReference::parse(rest);
+    if (!time) {
+      problem(time.error().what, time.error().hint, begin, std::max<std::size_t>(rest.size(), 1));
       return false;
     }
-    line.time = time;
+    line.time = *time;
     return true;
   }
 

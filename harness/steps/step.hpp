@@ -150,9 +150,12 @@ void report_unknown_names(const std::vector<std::string>& used, const yaml::Fiel
                                                              const NameCheck& names);
 [[nodiscard]] std::optional<Condition> parse_condition_at(const yaml::Field& field, const NameCheck& names);
 /// "100 ms" or "$profile.store_timeout"
+/// `200 ms`, `T_NMT`, `2 T_NMT` or `$profile.boot_time`
 struct TimeReference {
   Duration fixed{};
-  std::string profile_name;
+  std::string profile_name;  ///< as Profile::duration() takes it; empty: `fixed`
+  std::int64_t times = 1;    ///< what the profile says, so many times
+  [[nodiscard]] static Result<TimeReference> parse(std::string_view text);
   [[nodiscard]] Duration resolve(const device::Profile& profile) const;
   [[nodiscard]] std::string text() const;
 };

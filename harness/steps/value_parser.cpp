@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions, objects, conditions and times where they stand in a file: read, or explained at their place.
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
 #include "base/text.hpp"
 #include "steps/step.hpp"
@@ -20,6 +22,17 @@ std::optional<Parsed> parse_at(const yaml::Field& field, const NameCheck& names)
   }
   report_unknown_names(parsed->names(), field, names);
   return *parsed;
+}
+
+/// "2 T_NMT" is {2, "T_NMT"}, and "T_NMT" {1, "T_NMT"}.
+std::pair<std::int64_t, std::string_view> split_multiple(std::string_view text) {
+  std::int64_t times = 1;
+  const auto space = text.find(' ');
+  if (space == std::string_view::npos) return {1, text};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + space, times);
+  constexpr std::int64_t most = 99;
+  if (error != std::errc{} || end != text.data() + space || times < 1 || times > most) return {1, text};
+  return {times, trim(text.substr(space))};
 }
 
 }  // namespace
@@ -48,35 +61,46 @@ std::optional<Condition> parse_condition_at(const yaml::Field& field, const Name
 }
 
 Duration TimeReference::resolve(const device::Profile& profile) const {
-  return profile_name.empty() ? fixed : profile.duration(profile_name).value_or(fixed);
+  return profile_name.empty() ? fixed : times * profile.duration(profile_name).value_or(fixed);
 }
 
 std::string TimeReference::text() const {
-  return profile_name.empty() ? to_string(fixed) : "$profile." + profile_name;
+  if (profile_name.empty()) return to_string(fixed);
+  const auto name = profile_name.starts_with("T_") ? profile_name : "$profile." + profile_name;
+  return times == 1 ? name : std::to_string(times) + " " + name;
+}
+
+Result<TimeReference> TimeReference::parse(std::string_view text) {
+  TimeReference out;
+  const auto [times, named] = split_multiple(text);
+  const auto name = named.starts_with("$profile.") ? named.substr(9)
+                    : named.starts_with("T_")      ? named
+                                                   : std::string_view();
+  if (!name.empty()) {
+    if (!device::Profile{}.duration(name)) {
+      return fail("unknown time '" + std::string(named) + "'", {},
+                  "$profile.boot_time, $profile.sdo_timeout, T_NMT, T_QUIET, ...");
+    }
+    out.profile_name = name;
+    out.times = times;
+    return out;
+  }
+  const auto time = parse_duration(text);
+  if (!time) {
+    return fail("'" + std::string(text) + "' is not a duration", {},
+                "write 100 ms, 1.5 s, $profile.boot_time, T_NMT or 2 T_NMT");
+  }
+  out.fixed = *time;
+  return out;
 }
 
 std::optional<TimeReference> parse_time_at(const yaml::Field& field) {
   const auto text = field.text();
   if (!text) return std::nullopt;
-  TimeReference out;
-  const auto name =
-      text->starts_with("$profile.") ? text->substr(9) : (text->starts_with("T_") ? *text : std::string());
-  if (!name.empty()) {
-    if (!device::Profile{}.duration(name)) {
-      field.error("unknown time '" + *text + "'",
-                  "$profile.boot_time, $profile.sdo_timeout, $profile.store_timeout, T_QUIET, ...");
-      return std::nullopt;
-    }
-    out.profile_name = name;
-    return out;
-  }
-  const auto time = parse_duration(*text);
-  if (!time) {
-    field.error("'" + *text + "' is not a duration", "write 100 ms, 1.5 s or $profile.boot_time");
-    return std::nullopt;
-  }
-  out.fixed = *time;
-  return out;
+  auto time = TimeReference::parse(*text);
+  if (time) return *time;
+  field.error(time.error().what, time.error().hint);
+  return std::nullopt;
 }
 
 }  // namespace conform::steps

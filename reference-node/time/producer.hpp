@@ -20,9 +20,9 @@ struct TimeOfDay {
 };
 
 struct TimeProducerChoices {
-  Duration period = std::chrono::seconds(1);  ///< CiA 301 has no object for it
-  bool first_at_once = false;                 ///< the first message when bit 30 is set
-  bool goes_on_from_received = true;          ///< a TIME message that is consumed sets the clock
+  Duration period = std::chrono::milliseconds(200);  ///< CiA 301 has no object for it
+  bool first_at_once = false;                        ///< the first message when bit 30 is set
+  bool goes_on_from_received = true;                 ///< a TIME message that is consumed sets the clock
   /// The time of day at which a clock that is not kept begins, with every production anew.
   std::optional<std::chrono::milliseconds> begins_at{};
 };

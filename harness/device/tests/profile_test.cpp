@@ -312,11 +312,11 @@ TEST_CASE("The schema for editors knows every feature and key") {
     CHECK(contains(schema, "\"" + std::string(feature.word) + "\""));
   }
   for (const char* key :
-       {"boot_time",      "sdo_timeout",   "store_timeout", "nmt_time",         "quiet_time",
-        "server_timeout", "block_timeout", "lss_timeout",   "claims",           "not_claimed",
-        "objects",        "errors",        "safe_objects",  "untouchable",      "factory_defaults",
-        "wired",          "placeholders",  "identity",      "known_deviations", "store_fault",
-        "device_info"}) {
+       {"boot_time",        "sdo_timeout",    "store_timeout", "nmt_time",     "quiet_time",
+        "process_time",     "server_timeout", "block_timeout", "lss_timeout",  "claims",
+        "not_claimed",      "objects",        "errors",        "safe_objects", "untouchable",
+        "factory_defaults", "wired",          "placeholders",  "identity",     "known_deviations",
+        "store_fault",      "device_info"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }

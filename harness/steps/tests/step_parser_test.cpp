@@ -159,8 +159,10 @@ TEST_CASE("Verbs are found by their name only") {
   CHECK(find_verb("") == nullptr);
 }
 
-TEST_CASE("A time is fixed or the profile's") {
-  const auto source = yaml::make_source("x.yaml", "a: 1.5 s\nb: $profile.boot_time\nc: T_SDO\nd: T_NONE\n");
+TEST_CASE("A time is fixed, the profile's, or that several times") {
+  const auto source =
+      yaml::make_source("x.yaml", "a: 1.5 s\nb: $profile.boot_time\nc: T_SDO\nd: T_NONE\ne: 2 T_NMT\n"
+                                  "f: 2 T_NONE\ng: 0 T_NMT\nh: 2 x T_NMT\n");
   yaml::Diagnostics diagnostics(source);
   const auto root = yaml::load(*source, diagnostics);
   REQUIRE(root);
@@ -172,7 +174,10 @@ TEST_CASE("A time is fixed or the profile's") {
   CHECK(time("a")->resolve(profile) == std::chrono::milliseconds(1500));
   CHECK(time("b")->resolve(profile) == std::chrono::seconds(7));
   CHECK(time("c")->resolve(profile) == profile.sdo_timeout);
-  CHECK_FALSE(time("d"));
+  CHECK(time("e")->resolve(profile) == 2 * profile.nmt_time);
+  CHECK(time("e")->text() == "2 T_NMT");
+  CHECK(time("b")->text() == "$profile.boot_time");
+  for (const auto* wrong : {"d", "f", "g", "h"}) CHECK_FALSE(time(wrong));
 }
 
 }  // namespace
