@@ -19,14 +19,9 @@ Result<void> LastingErrors::look() {
   auto errors = has_errors();
   if (!errors) return std::unexpected(errors.error());
   none_at_first_ = !*errors;
-  return read_inhibit_time();
-}
-
-/// The session remembers what it is.
-Result<void> LastingErrors::read_inhibit_time() {
-  auto present = run_.session.is_present(emcy_inhibit_time, false);
-  if (!present) return std::unexpected(present.error());
-  if (!*present) return {};
+  auto inhibit = run_.session.is_present(emcy_inhibit_time, false);
+  if (!inhibit) return std::unexpected(inhibit.error());
+  if (!*inhibit) return {};
   if (auto held = run_.session.peek(emcy_inhibit_time); !held) return std::unexpected(held.error());
   return {};
 }
@@ -58,7 +53,7 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
 Result<void> LastingErrors::let_emcy_end(std::size_t from) {
   auto& session = run_.session;
   // A device may keep to the inhibit time that it held when the last message went out.
-  auto inhibit = session.longest_emcy_inhibit();
+  const auto inhibit = session.longest_emcy_inhibit();
   constexpr auto margin = std::chrono::milliseconds(10);
   constexpr int most_held_back = 16;
   for (int held = 0; inhibit > Duration::zero() && held < most_held_back; ++held) {
@@ -70,12 +65,6 @@ Result<void> LastingErrors::let_emcy_end(std::size_t from) {
         latest = captured.time;
     }
     if (!latest || *latest + inhibit + margin <= session.now()) return {};
-    if (!session.emcy_inhibit_is_known()) {
-      // A reset has ended that time, or brought a stored one.
-      if (auto looked = read_inhibit_time(); !looked) return looked;
-      inhibit = session.longest_emcy_inhibit();
-      if (session.emcy_inhibit_is_known()) continue;
-    }
     if (auto waited = session.wait_until(*latest + inhibit + margin); !waited) return waited;
   }
   return {};

@@ -23,7 +23,6 @@ class LastingErrors {
  private:
   [[nodiscard]] Result<bool> has_errors();
   [[nodiscard]] bool has_raised_errors(std::size_t from) const;
-  [[nodiscard]] Result<void> read_inhibit_time();
   [[nodiscard]] Result<void> let_emcy_end(std::size_t from);
   [[nodiscard]] Result<void> clear_what_stays(const result::CaseResult& result);
 

@@ -135,9 +135,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
   /// The longest inhibit time (1015h) that the device was seen to hold since the case began; from the first
-  /// look behind a reset on, since the reset. Whether there was such a look.
+  /// look behind a reset on, since the reset.
   [[nodiscard]] Duration longest_emcy_inhibit() const { return longest_emcy_inhibit_; }
-  [[nodiscard]] bool emcy_inhibit_is_known() const { return emcy_inhibit_is_known_; }
   /// CAN-ID of EMCY as found after power-on.
   void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
   /// `why`: what the device answered, where it is not there.

@@ -105,7 +105,7 @@ constexpr Verb table[] = {
      &Require::parse},
     {"let", "Give names to values.", "NAME: expression", "- let: {above: $count + 1}", &Let::parse},
     {"wait", "Let bus time pass. Frames that come meanwhile are not seen by later steps.",
-     "(duration): 100 ms, T_NMT", "- wait: 100 ms", &Wait::parse},
+     "(duration): 100 ms, T_NMT, 2 T_NMT", "- wait: 100 ms", &Wait::parse},
 };
 
 }  // namespace

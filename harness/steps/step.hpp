@@ -149,8 +149,7 @@ void report_unknown_names(const std::vector<std::string>& used, const yaml::Fiel
 [[nodiscard]] std::optional<ObjectReference> parse_object_at(const yaml::Field& field,
                                                              const NameCheck& names);
 [[nodiscard]] std::optional<Condition> parse_condition_at(const yaml::Field& field, const NameCheck& names);
-/// "100 ms" or "$profile.store_timeout"
-/// `200 ms`, `T_NMT`, `2 T_NMT` or `$profile.boot_time`
+/// "100 ms", "T_NMT", "2 T_NMT" or "$profile.store_timeout"
 struct TimeReference {
   Duration fixed{};
   std::string profile_name;  ///< as Profile::duration() takes it; empty: `fixed`

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions, objects, conditions and times where they stand in a file: read, or explained at their place.
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "base/text.hpp"
@@ -26,13 +25,11 @@ std::optional<Parsed> parse_at(const yaml::Field& field, const NameCheck& names)
 
 /// "2 T_NMT" is {2, "T_NMT"}, and "T_NMT" {1, "T_NMT"}.
 std::pair<std::int64_t, std::string_view> split_multiple(std::string_view text) {
-  std::int64_t times = 1;
+  constexpr std::uint64_t most = 99;
   const auto space = text.find(' ');
-  if (space == std::string_view::npos) return {1, text};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + space, times);
-  constexpr std::int64_t most = 99;
-  if (error != std::errc{} || end != text.data() + space || times < 1 || times > most) return {1, text};
-  return {times, trim(text.substr(space))};
+  const auto times = parse_number(text.substr(0, space));
+  if (space == std::string_view::npos || !times || *times < 1 || *times > most) return {1, text};
+  return {static_cast<std::int64_t>(*times), trim(text.substr(space))};
 }
 
 }  // namespace

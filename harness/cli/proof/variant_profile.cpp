@@ -70,7 +70,8 @@ device::Profile profile_of_variants(const device::Profile& reference,
   out.device_info.tpdos = between(0x1800, 0x19FF);
   // Nothing is mapped variably without PDOs.
   if (!out.claimed("rpdo") && !out.claimed("tpdo")) out.claims.erase("variable mapping");
-  // The node itself is quicker than its profile says, its variants take what is allowed without a word.
+  // How quick the node is by default is said of it alone: a variant may take what a profile grants that says
+  // nothing.
   const device::Profile unsaid;
   out.boot_time = unsaid.boot_time;
   out.nmt_time = unsaid.nmt_time;

@@ -79,6 +79,35 @@ TEST_CASE("what the inhibit time of a case holds back is over before the next ca
   CHECK(out.run.cases[1].begin - *sent >= 500ms);
 }
 
+TEST_CASE("an inhibit time that a reset has ended holds up no further case") {
+  ScriptedDevice device;
+  give_errors(device);
+  device.before = [raise = device.before](ScriptedDevice& self, const can::Frame& frame, BusTime time) {
+    // What the reset behind it does to the entry.
+    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 2) self.entries[0x101500] = {0, 0};
+    return raise(self, frame, time);
+  };
+  const auto out = play(device, R"(
+  - id: inhibits
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1015h:00, value: 60000}  # 6 s
+      - download: {object: 2000h:00, bytes: "01"}
+        checks: T-MUST
+      - download: {object: 2000h:00, bytes: "02"}
+      - reset: communication
+  - id: next
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[1].begin - out.run.cases[0].begin < 3s);
+}
+
 TEST_CASE("a request that a case sent as a frame has opened nothing when the next case begins") {
   // A server with a transfer open refuses to begin another one.
   ScriptedDevice device;
