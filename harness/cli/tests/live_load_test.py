@@ -12,9 +12,8 @@ import sys
 import tempfile
 import time
 import unittest
-import xml.etree.ElementTree as ElementTree
 
-from live_device import FOLDER, INTERFACE, SUITES, Node, command
+from live_device import FOLDER, INTERFACE, SUITES, Node, command, verdicts
 
 ROUNDS = int(os.environ.get("CONFORM_LOAD_ROUNDS", "0"))
 SECONDS = int(os.environ.get("CONFORM_LOAD_SECONDS", "6"))
@@ -50,26 +49,13 @@ class Load(unittest.TestCase):
     def arguments(self, *more):
         return command("--allow", "motion", "--device", DEVICE, "--junit", self.junit, *more)
 
-    def verdicts(self):
-        """{case: "pass", "fail", "inconclusive", ... and the text of its failure or error}"""
-        out = {}
-        for case in ElementTree.parse(self.junit).getroot().iter("testcase"):
-            name = f"{case.get('classname').replace('.', '/')}/{case.get('name')}"
-            word, text = "pass", ""
-            for child in case:
-                if child.tag in ("failure", "error", "skipped"):
-                    word = {"failure": "fail", "skipped": "n/a"}.get(child.tag, child.get("type"))
-                    text = f"{child.get('message')}\n{child.text}"
-            out[name] = (word, text)
-        return out
-
     def none_failed(self, done):
         """The cases that could not be decided, of how many."""
-        verdicts = self.verdicts()
-        bad = {name: text for name, (word, text) in verdicts.items() if word not in ("pass", "n/a", "inconclusive")}
+        found = verdicts(self.junit)
+        bad = {name: text for name, (word, text) in found.items() if word not in ("pass", "n/a", "inconclusive")}
         self.assertEqual(bad, {}, done.stdout[-3000:] + done.stderr)
-        judged = [name for name, (word, _) in verdicts.items() if word != "n/a"]
-        return [name for name in judged if verdicts[name][0] == "inconclusive"], len(judged)
+        judged = [name for name, (word, _) in found.items() if word != "n/a"]
+        return [name for name in judged if found[name][0] == "inconclusive"], len(judged)
 
     def round(self, number):
         with Node(), Hogs():
@@ -78,7 +64,7 @@ class Load(unittest.TestCase):
         print(f"\n  round {number}: {judged} cases beside {HOGS} busy loops, none failed, {len(open_)} inconclusive on "
               f"{INTERFACE}, an AF_CAN socket", flush=True)
         for name in open_:
-            print(f"    {name}: {self.verdicts()[name][1].splitlines()[0]}", flush=True)
+            print(f"    {name}: {verdicts(self.junit)[name][1].splitlines()[0]}", flush=True)
         with Node("--defect", SLOW_HEARTBEAT), Hogs():
             done = subprocess.run(self.arguments("cia301/heartbeat/producer/period"), capture_output=True, text=True)
         self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)

