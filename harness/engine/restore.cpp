@@ -137,6 +137,10 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
   std::ranges::reverse(changes);
   std::vector<Change> differing;
   for (auto& change : changes) {
+    if (change.long_now) {
+      differing.push_back(std::move(change));
+      continue;
+    }
     auto now = device.read(change.object);
     if (!now) return std::unexpected(now.error());
     if (!*now || **now != change.before) {

@@ -120,6 +120,13 @@ Result<void> RunSession::will_change(Multiplexer object) {
   return {};
 }
 
+/// `size`: bytes of what the device has confirmed.
+void RunSession::note_written(Multiplexer object, std::size_t size) {
+  constexpr std::size_t long_value = 1024;
+  const auto change = std::ranges::find(journal_, object, &Change::object);
+  if (change != journal_.end()) change->long_now = size >= long_value && size != change->before.size();
+}
+
 Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
                                               std::optional<Duration> timeout) {
   auto answers =
@@ -149,7 +156,10 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const auto& request = jobs[i].request;
     const auto& answer = (*answers)[i];
-    if (!request.upload) write_refused_ = answer.kind == steps::SdoAnswer::Kind::aborted;
+    if (!request.upload) {
+      write_refused_ = answer.kind == steps::SdoAnswer::Kind::aborted;
+      if (answer.kind == steps::SdoAnswer::Kind::confirmed) note_written(request.object, request.data.size());
+    }
     if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
     if (!request.upload && request.object.index == Index(0x1011)) restored_ = true;
   }

@@ -28,6 +28,7 @@ namespace conform::engine {
 struct Change {
   Multiplexer object;
   Bytes before;
+  bool long_now = false;  ///< holds a long value of the case: to look at it costs more than to write `before`
 };
 
 class RunSession final : public steps::Session {
@@ -173,6 +174,7 @@ class RunSession final : public steps::Session {
     bool alone = true;  ///< no other command was still to be followed when it was sent
   };
   void note_sent(std::size_t index);
+  void note_written(Multiplexer object, std::size_t size);
   /// The waits of the profile follow what was learnt about the device.
   void adapt();
   /// Forgets what a reset of the device undoes.

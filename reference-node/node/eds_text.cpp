@@ -114,8 +114,10 @@ std::string entry_text(std::uint16_t index, std::uint8_t sub, const Entry& entry
   std::string text = fmt::format("ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n",
                                  entry.name, entry.type == DataType::domain ? domain : variable,
                                  static_cast<unsigned>(entry.type), access_name(entry));
-  text += fmt::format("DefaultValue={}\n", changes ? std::string() : default_text(entry, node_id));
-  text += fmt::format("PDOMapping={}\n", entry.rx_mappable || entry.tx_mappable ? 1 : 0);
+  // What CiA 306 says of a key that is not there is left out: 1021h is as long as this text.
+  const auto value = changes ? std::string() : default_text(entry, node_id);
+  if (!value.empty()) text += fmt::format("DefaultValue={}\n", value);
+  if (entry.rx_mappable || entry.tx_mappable) text += "PDOMapping=1\n";
   if (entry.type != DataType::boolean) {
     if (entry.low) text += fmt::format("LowLimit={}\n", *entry.low);
     if (entry.high) text += fmt::format("HighLimit={}\n", *entry.high);

@@ -153,6 +153,34 @@ TEST_CASE("a download hidden in a conversation is put back as well") {
   CHECK(device.entries.at(0x101700) == std::vector<std::uint8_t>{0, 0});
 }
 
+TEST_CASE("a long value of a case is written over, and not read again before") {
+  std::size_t reads = 0;
+  ScriptedDevice device;
+  device.entries[0x200000] = {1, 2, 3};
+  // Takes segments without keeping them, and shows what it was given last by expedited transfers.
+  device.before = [&reads](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    const bool begins = frame.data[0] == 0x21, segment = frame.data[0] < 0x20;
+    if (frame.data[0] == 0x40 && frame.data[2] == 0x20) ++reads;
+    if (!begins && !segment) return false;
+    if (begins) self.entries[0x200000] = {9, 9, 9};
+    auto answer = frame;
+    answer.id = 0x581;
+    answer.data[0] = static_cast<std::uint8_t>(begins ? 0x60U : 0x20U | (frame.data[0] & 0x10U));
+    self.send(answer);
+    return true;
+  };
+  (void)play(device, R"(
+  - id: change
+    title: t
+    risk: config
+    steps:
+      - download: {object: 2000h:00, pattern: 2000 bytes}
+        checks: T-MUST
+)");
+  CHECK(device.entries.at(0x200000) == std::vector<std::uint8_t>{1, 2, 3});
+  CHECK(reads == 2);  // before the case wrote, and when it was put back
+}
+
 TEST_CASE("what an RPDO has written is put back as what a download has") {
   struct WithRpdo : ScriptedDevice {
     void on_frame(const can::Frame& frame, BusTime now) override {
