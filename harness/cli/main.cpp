@@ -64,6 +64,24 @@ void add_waivers(CLI::App& app, std::vector<std::string>& into) {
       ->type_name("FILE");
 }
 
+/// Which cases of a run are played, and how often.
+void add_choice(CLI::App& app, conform::cli::Choice& into) {
+  app.add_option("--rerun-failed", into.rerun_failed,
+                 "Only the cases that failed or were left open in this run (result.json or journal)")
+      ->type_name("RESULT|JOURNAL");
+  auto* repeat =
+      app.add_option("--repeat", into.repeat,
+                     "Each case so many times: the worst counts, and how many ended like it is told")
+          ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}).description(""))
+          ->type_name("NUMBER");
+  app.add_flag("--until-fail", into.until_fail, "A case that has failed is not repeated any more")
+      ->needs(repeat);
+  app.add_flag("--fail-fast", into.fail_fast, "The first case that fails is the last one");
+  app.add_option("--shard", into.shard,
+                 "One of several parts of the run, to be played at the same time: 2/5 is the second of five")
+      ->type_name("K/N");
+}
+
 /// An option for each format of reports.
 void add_reports(CLI::App& app, conform::cli::Reports& into) {
   for (const auto& format : conform::reports::formats()) {
@@ -171,6 +189,7 @@ int dispatch(int argc, char** argv) {
                    "The cases in a random order, drawn by this seed: no verdict may depend on it")
       ->type_name("NUMBER")
       ->excludes(cct);
+  add_choice(*run_sub, run.choice);
   run_sub->add_flag("--annotate", run.annotate, "Print the causes as annotations for GitHub Actions, too");
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")

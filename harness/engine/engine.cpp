@@ -59,6 +59,7 @@ class Run {
       run_.recorder.begin_part(std::string(can::cases_are_over));
       if (!out_.aborted) putting_back_.finish();
       run_.recorder.end_part();
+      if (!out_.aborted) out_.aborted = ended_early_;
     }
     life_.tell_restarts();
     life_.tell_tries();
@@ -176,6 +177,10 @@ class Run {
         abort_run(*fell_silent_);
         break;
       }
+      if (run_.options.fail_fast && result.verdict == Verdict::fail) {
+        ended_early_ = "at the first failure";
+        break;
+      }
     }
     if (mute_) {
       abort_run({"the device is there, but its default SDO server does not answer",
@@ -199,6 +204,19 @@ class Run {
 
   Result<void> run_case(const PlannedCase& planned, CaseResult& result) {
     const auto fresh = result;
+    Repeats repeats(run_.options.repeat);
+    do {
+      result = fresh;
+      if (auto done = run_until_trusted(planned, result); !done) return done;
+    } while (!fell_silent_ && repeats.again(result));
+    if (!fell_silent_) result = repeats.outcome();
+    run_.waivers.apply(result);
+    return {};
+  }
+
+  /// Once, and again as long as the host was late for it.
+  Result<void> run_until_trusted(const PlannedCase& planned, CaseResult& result) {
+    const auto fresh = result;
     Tries tries;
     for (;; result = fresh) {
       auto trouble = try_case(planned, result);
@@ -207,7 +225,6 @@ class Run {
     }
     result = tries.outcome();
     if (!result.tried.empty()) life_.tried_again(result);
-    run_.waivers.apply(result);
     return {};
   }
 
@@ -330,8 +347,9 @@ class Run {
   std::vector<PlannedCase> plan_;
   bool alive_ = false;
   bool vanished_ = false;
-  bool mute_ = false;                 ///< alive, but without a single SDO answer
-  std::optional<Error> fell_silent_;  ///< during the run
+  bool mute_ = false;                       ///< alive, but without a single SDO answer
+  std::optional<Error> fell_silent_;        ///< during the run
+  std::optional<std::string> ended_early_;  ///< by what the user asked for
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "device/profile.hpp"
 #include "engine/observer.hpp"
 #include "engine/plan.hpp"
+#include "engine/repeats.hpp"
 #include "result/run_result.hpp"
 #include "scenario/catalogue.hpp"
 #include "scenario/loader.hpp"
@@ -20,6 +21,8 @@ namespace conform::engine {
 
 struct RunOptions {
   PlanOptions plan;
+  bool fail_fast = false;  ///< the first case that fails is the last one
+  Repeat repeat;
   bool strict = false;            ///< recommended and optional rules fail as well
   std::chrono::sys_days today{};  ///< by which waivers expire; 1970: none does
   bool measure = false;        ///< the result tells times and the load of the bus, for reports that show them

@@ -67,10 +67,13 @@ std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device
   return out;
 }
 
-}  // namespace
+std::string name_of(const PlannedCase& planned) {
+  return planned.instance.empty() ? planned.scenario->id
+                                  : planned.scenario->id + "[" + planned.instance + "]";
+}
 
-std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
-                              const device::Dictionary& dictionary, const PlanOptions& options) {
+std::vector<PlannedCase> chosen(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                                const device::Dictionary& dictionary, const PlanOptions& options) {
   std::vector<PlannedCase> out;
   for (const auto& file : suite.files) {
     for (const auto& scenario : file.scenarios) {
@@ -92,6 +95,13 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
       }
     }
   }
+  if (options.only) {
+    std::erase_if(out, [&](const PlannedCase& planned) { return !options.only->contains(name_of(planned)); });
+  }
+  return out;
+}
+
+void put_in_order(std::vector<PlannedCase>& out, const PlanOptions& options) {
   if (!options.order.empty()) {
     const auto place = [&order = options.order](const PlannedCase& planned) {
       return std::ranges::find(order, planned.scenario->id) - order.begin();
@@ -100,12 +110,12 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
       return place(planned) == static_cast<std::ptrdiff_t>(options.order.size());
     });
     std::ranges::stable_sort(out, {}, place);
-    return out;
+    return;
   }
   if (options.shuffle) {
     std::uint64_t seed = *options.shuffle;
     for (std::size_t i = out.size(); i > 1; --i) std::swap(out[i - 1], out[next_random(seed) % i]);
-    return out;
+    return;
   }
   std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
     // What others rest on is judged before them, as early as its risk allows.
@@ -114,6 +124,17 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
         establishes.empty() ? steps::channels().size() : steps::rank_of_channel(establishes.front());
     return std::tuple(!planned.scenario->basic, planned.scenario->risk, channel);
   });
+}
+
+}  // namespace
+
+std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                              const device::Dictionary& dictionary, const PlanOptions& options) {
+  auto out = chosen(suite, catalogue, dictionary, options);
+  put_in_order(out, options);
+  std::size_t number = 0;
+  std::erase_if(out,
+                [&](const PlannedCase&) { return number++ % options.shard.of != options.shard.number - 1; });
   return out;
 }
 

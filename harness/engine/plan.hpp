@@ -2,9 +2,11 @@
 // Which cases a run consists of: scenarios, expanded over for_each, filtered by selection and risk.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,11 @@ struct PlannedCase {
   std::vector<result::Want> wants;                        ///< what would make it run
 };
 
+/// One of several parts of a run that are played at the same time, on machines of their own.
+struct Shard {
+  std::size_t number = 1, of = 1;  ///< 1 <= number <= of
+};
+
 struct PlanOptions {
   scenario::Selection selection;
   scenario::Risk allowed = scenario::Risk::motion;
@@ -35,6 +42,10 @@ struct PlanOptions {
   std::vector<std::string> order;
   /// Seed of a random order of all cases; a verdict must not depend on what ran before it.
   std::optional<std::uint64_t> shuffle;
+  /// Names of the only cases to take, with their instances; nothing: all.
+  std::optional<std::set<std::string>> only;
+  /// Every n-th case of the plan, so that neighbours, which take about the same time, are spread.
+  Shard shard;
 };
 
 /// In the order that is given, in a random one, or in that of the suite, basic scenarios first, then

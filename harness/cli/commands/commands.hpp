@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/run/choice.hpp"
+
 namespace conform::device {
 struct Profile;
 }
@@ -43,6 +45,7 @@ struct RunCommand {
   bool strict = false;
   bool all_objects = false;
   bool cct = false;  ///< the cases of CiA's tool, in its order
+  Choice choice;
   bool slow = false;
   bool dry_run = false;
   bool annotate = false;  ///< workflow commands of GitHub Actions

@@ -187,6 +187,13 @@ int run(const RunCommand& options, RunReports& reports) {
   if (options.cct) run_options.plan.order = cct_order(suites->suite, suites->catalogue);
   run_options.plan.all_objects = options.all_objects;
   run_options.plan.slow = options.slow || options.simulate;
+  if (auto chosen = choose(options.choice, run_options); !chosen) return refuse(chosen.error(), exit_usage);
+  if (run_options.plan.only && run_options.plan.only->empty()) {
+    reports.not_begun(Facts::tool, {"every case of " + options.choice.rerun_failed + " passed", {}, {}});
+    print("no case of " + options.choice.rerun_failed +
+          " failed or was left open: there is nothing to run again\n");
+    return 0;
+  }
   for (const auto& id : options.requirements) {
     if (id.find('*') == std::string::npos && suites->catalogue.find(id) == nullptr) {
       const auto near = did_you_mean(id, suites->catalogue.ids());
@@ -199,6 +206,8 @@ int run(const RunCommand& options, RunReports& reports) {
   {
     auto everything = run_options.plan;
     everything.allowed = scenario::Risk::motion;
+    everything.only.reset();
+    everything.shard = {};
     if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty() &&
         !engine::names_a_monitor(everything.selection, suites->catalogue)) {
       return refuse(
@@ -263,6 +272,7 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.add("run.command", options.command);
   facts.add("run.seed", std::to_string(options.seed));
   if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));
+  if (!options.choice.shard.empty()) facts.add("run.shard", options.choice.shard);
   facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));
   if (transport != nullptr) {
     facts.add(bus_properties(transport->info()));

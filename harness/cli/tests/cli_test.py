@@ -43,6 +43,39 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("nothing is selected", done.stderr)
 
+    def test_what_failed_is_run_again_alone_and_nothing_when_nothing_failed(self):
+        first = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "--json", self.path("r.json"),
+                    "cia301/dictionary*")
+        self.assertEqual(first.returncode, 1)
+        again = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "--junit", self.path("j.xml"),
+                    "--rerun-failed", self.path("r.json"))
+        self.assertEqual(again.returncode, 1, again.stdout + again.stderr)
+        self.assertIn("FAIL: OD-1003-06", again.stdout)
+        cases = [case for case in ElementTree.parse(self.path("j.xml")).getroot().iter("testcase")
+                 if case.get("classname") != "monitor"]
+        self.assertTrue(cases and all(case.find("failure") is not None for case in cases))
+        mended = run("run", "--simulate", "--json", self.path("good.json"), "--rerun-failed", self.path("r.json"))
+        self.assertEqual(mended.returncode, 0, mended.stdout + mended.stderr)
+        nothing = run("run", "--simulate", "--rerun-failed", self.path("good.json"))
+        self.assertEqual(nothing.returncode, 0)
+        self.assertIn("nothing to run again", nothing.stdout)
+
+    def test_a_run_is_repeated_cut_in_parts_and_ended_at_the_first_failure(self):
+        cases = []
+        for number in (1, 2):
+            done = run("run", "--simulate", "cia301/dictionary/1003*", "--shard", f"{number}/2", "--junit", self.path("j.xml"))
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            cases += [f"{case.get('classname')}/{case.get('name')}"
+                      for case in ElementTree.parse(self.path("j.xml")).getroot().iter("testcase")
+                      if case.get("classname") != "monitor"]
+        self.assertEqual(len(cases), len(set(cases)))
+        self.assertGreater(len(cases), 8)
+        twice = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "cia301/dictionary/1003*", "--repeat", "2")
+        self.assertIn("2 of 2 times fail", twice.stdout)
+        fast = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "cia301/dictionary/1003*", "--fail-fast")
+        self.assertEqual(fast.returncode, 1)
+        self.assertIn("at the first failure", fast.stdout)
+
     def test_usage_mistakes_exit_2_with_a_hint(self):
         for arguments, said in [
             (["run"], "say where the device is"),
@@ -51,6 +84,9 @@ class CommandLine(unittest.TestCase):
             (["run", "--simulate", "--defect", "1003-nonzero-write-acepted"], "1003-nonzero-write-accepted"),
             (["run", "--simulate", "--requirement", "OD-1003-6"], "did you mean"),
             (["run", "--simulate", "--allow", "nmv"], "read-only, config, nvm or motion"),
+            (["run", "--simulate", "--shard", "3/2"], "--shard 2/5"),
+            (["run", "--simulate", "--until-fail"], "--repeat"),
+            (["run", "--simulate", "--rerun-failed", "/no/such/result.json"], "/no/such/result.json"),
             (["run", "--simulate", "--device", "/no/such/file.yaml"], "/no/such/file.yaml"),
             (["run", "--simulate", "--suites", "/no/such/folder"], "/no/such/folder"),
             (["explain", "OD-1003-6"], "did you mean"),
