@@ -19,6 +19,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/replay/differences.hpp"
 #include "cli/replay/lss_state.hpp"
+#include "cli/replay/permission.hpp"
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"

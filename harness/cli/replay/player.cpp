@@ -14,10 +14,10 @@
 #include "can/frame_time.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/sdo_initiate.hpp"
+#include "cli/replay/block_answer.hpp"
 #include "cli/replay/open_transfers.hpp"
 #include "cli/replay/stamps.hpp"
 #include "engine/run_context.hpp"
-#include "engine/tier_guard.hpp"
 
 namespace conform::cli {
 namespace {
@@ -29,32 +29,6 @@ constexpr unsigned command_bits = 0x20;
 
 /// An abort is not answered; a server that does it all the same does so within this time.
 constexpr Duration rest_after_abort = std::chrono::milliseconds(20);
-
-bool is_abort(const can::Frame& frame) { return frame.size() == 8 && frame.data[0] == 0x80; }
-
-/// Whether a request that is no segment of a block begins or ends a transfer, whatever was before.
-bool begins_anew(const can::Frame& frame) {
-  const auto command = frame.data[0];
-  switch (command >> 5U) {
-    case 1:
-    case 2:
-    case 4: return true;
-    case 5: return (command & 0x03U) == 0;
-    case 6: return (command & 0x01U) == 0;
-    default: return false;
-  }
-}
-
-/// What the server of a block download says of the segments that it takes.
-enum class BlockAnswer : std::uint8_t { none, offer, acknowledge };
-BlockAnswer block_answer(const can::Frame& answer) {
-  if (answer.size() < 8) return BlockAnswer::none;
-  switch (answer.data[0] & 0xE3U) {
-    case 0xA0: return BlockAnswer::offer;
-    case 0xA2: return BlockAnswer::acknowledge;
-    default: return BlockAnswer::none;
-  }
-}
 
 class Player {
  public:
@@ -230,26 +204,6 @@ class Player {
       if (frames_[index].frame.id == id) return side_.is_block_segment(index);
     }
     return false;
-  }
-
-  /// Why segments of the old block download must not follow this answer; empty: they may, or the server has
-  /// ended it.
-  [[nodiscard]] static std::string why_out_of_step(const can::Frame& then, const can::Frame& now,
-                                                   bool segments) {
-    const auto was = block_answer(then), is = block_answer(now);
-    if (is_abort(now) || (was == BlockAnswer::none && !segments)) return {};
-    if (is != was) return "the device answers with another command than then";
-    if (is == BlockAnswer::offer && then.data[4] != now.data[4])
-      return fmt::format("the device takes {} segments per block, and took {} then", now.data[4],
-                         then.data[4]);
-    if (is != BlockAnswer::acknowledge) return {};
-    if (then.data[1] != now.data[1])
-      return fmt::format("the device acknowledges segment {}, and acknowledged {} then", now.data[1],
-                         then.data[1]);
-    if (segments && then.data[2] != now.data[2])
-      return fmt::format("the device takes {} segments in the next block, and took {} then", now.data[2],
-                         then.data[2]);
-    return {};
   }
 
   /// Aborts the transfer that a frame of ours belongs to: it is not the recorded one any more.
@@ -475,42 +429,6 @@ class Player {
 };
 
 }  // namespace
-
-Result<void> may_replay(const Side& then, const device::Profile& profile, steps::Tier allowed) {
-  const auto dictionary = device::dictionary_of(profile);
-  const engine::TierGuard guard(profile, dictionary);
-  const auto number = [](std::size_t index) { return "frame " + std::to_string(index + 1); };
-  const auto refuse = [&](std::size_t index, const steps::Need& need) -> std::unexpected<Error> {
-    return fail("the replay would " + std::string(need.what), number(index),
-                "--allow " + std::string(steps::word_of(need.tier)) + " lets it; nothing was sent");
-  };
-  for (const auto& sent : then.dialogue.sent) {
-    const auto& frame = then.at(sent.index).frame;
-    constexpr std::uint32_t longest_base_id = 0x7FF;
-    if (!frame.extended && frame.id > longest_base_id)
-      return fail("is no frame that can be sent: a CAN-ID of 11 bits that has more", number(sent.index),
-                  "nothing was sent");
-    // Each frame for itself, whatever the capture says that it was: a segment of a block download looks like
-    // any other request to a server that has left the transfer, and this one may leave it where that one did
-    // not.
-    const auto object = steps::download_begun(frame, profile.node);
-    const auto need = object ? steps::need_of_download(*object) : steps::need_of(frame, profile.node);
-    if (!need.covered_by(allowed)) return refuse(sent.index, need);
-    if (!object || guard.may_write(*object)) continue;
-    if (profile.is_untouchable(*object)) {
-      return fail(
-          "the replay would write to " + to_string(*object) + ", which is untouchable in the device profile",
-          number(sent.index), "nothing was sent");
-    }
-    return fail(
-        "the replay would write to " + to_string(*object) + ", which the device profile does not call safe",
-        number(sent.index), "--device FILE with the profile of the run that was recorded; nothing was sent");
-  }
-  const steps::Need power{steps::Tier::config, "switch the power of the device"};
-  const auto& switches = then.dialogue.power;
-  if (!switches.empty() && !power.covered_by(allowed)) return refuse(switches.front(), power);
-  return {};
-}
 
 Result<Played> play(engine::Recorder& recorder, const Side& then, const device::Profile& profile,
                     const std::function<Result<void>()>& power) {

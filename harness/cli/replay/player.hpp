@@ -12,14 +12,8 @@
 #include "cli/replay/differences.hpp"
 #include "device/profile.hpp"
 #include "engine/recorder.hpp"
-#include "steps/tier.hpp"
 
 namespace conform::cli {
-
-/// Whether the tier covers every frame, and the profile lets every entry be written that a frame writes; a
-/// segment of a block download counts as the request that it looks like as well.
-/// Error (of the user): the first frame that it does not, by its number, and what would let it.
-[[nodiscard]] Result<void> may_replay(const Side& then, const device::Profile& profile, steps::Tier allowed);
 
 struct Played {
   std::size_t first = 0;         ///< capture index of the recorder: nothing before it belongs to the replay

@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/replay/differences.hpp"
+#include "cli/replay/permission.hpp"
 #include "cli/replay/player.hpp"
 #include "cli/replay/replay_text.hpp"
 #include "cli/replay/section.hpp"
