@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What would make a verdict untrustworthy: dirty channels, blame for what was not reached.
 #include "bench.hpp"
+#include "engine/monitor_cases.hpp"
 
 using namespace conform;
 using namespace conform::engine;
@@ -264,4 +265,13 @@ TEST_CASE("a device that falls silent during discovery ends the run at once") {
   CHECK(out.run.aborted.has_value());
   CHECK(out.run.elapsed < 25s);  // T_BOOT twice, and patience
   CHECK(result::exit_code(out.run) == 3);
+}
+
+TEST_CASE(
+    "a profile that promises a quick device makes no monitor stricter, one of a slow device more patient") {
+  auto profile = writing_profile();
+  profile.nmt_time = 30ms;
+  CHECK(facts_of(profile).nmt_time == 100ms);
+  profile.nmt_time = 2s;
+  CHECK(facts_of_run(profile).nmt_time == 2s);
 }
