@@ -400,6 +400,23 @@ int dispatch(int argc, char** argv) {
   scan_sub->add_option("-o,--output", scan.output, "Write the draft to this file (default: standard output)")
       ->type_name("FILE");
 
+  DoctorCommand doctor;
+  auto* doctor_sub =
+      app.add_subcommand("doctor", "Tell why a bus is dead, or who is on it, with the line to type");
+  doctor_sub
+      ->add_option("-i,--interface", doctor.interface,
+                   "CAN interface, for example can0 (default: tell all there are)")
+      ->type_name("NAME");
+  doctor_sub->add_flag("--simulate", doctor.simulate, "The reference node on a simulated bus");
+  doctor_sub->add_flag("--ask", doctor.ask, "Ask every node-ID for 1000h, after listening (reads only)");
+  doctor_sub
+      ->add_option("--listen", doctor.listen_ms, "Milliseconds to listen, sending nothing (default 2000)")
+      ->check(CLI::Range(1, 3600000).description(""))
+      ->type_name("MS");
+  doctor_sub->add_option("--color", doctor.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+
   LssScanCommand lss_scan;
   auto* lss_scan_sub = app.add_subcommand(
       "lss-scan", "Find LSS slaves without node-ID by fastscan (CiA 305), and give them node-IDs");
@@ -554,6 +571,7 @@ int dispatch(int argc, char** argv) {
   if (eds_sub->parsed()) return eds.run();
   if (list_sub->parsed()) return list_command(list);
   if (scan_sub->parsed()) return scan_command(scan);
+  if (doctor_sub->parsed()) return doctor_command(doctor);
   if (lss_scan_sub->parsed()) return lss_scan_command(lss_scan);
   if (explain_sub->parsed()) return explain_command(explain);
   if (selftest_sub->parsed()) return selftest_command(selftest);

@@ -62,6 +62,16 @@ struct RunCommand {
 };
 [[nodiscard]] int run_command(const RunCommand& options);
 
+struct DoctorCommand {
+  std::string interface;  ///< empty: all are told
+  bool simulate = false;
+  bool ask = false;  ///< every node-ID for 1000h
+  std::uint32_t listen_ms = 2000;
+  std::string color = "auto";
+};
+/// 0: the bus can be used; 3: it cannot, and why was told.
+[[nodiscard]] int doctor_command(const DoctorCommand& options);
+
 struct ReportCommand {
   std::string source;  ///< result.json or journal
   Reports reports;     ///< all empty, and no capture and bundle: those that the run was asked for

@@ -43,6 +43,15 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("nothing is selected", done.stderr)
 
+    def test_the_doctor_tells_who_is_there_and_what_to_type(self):
+        done = run("doctor", "--simulate", "--ask", "--listen", "500")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("node 1    boot-up message; 1000h = 000F0191h", done.stdout)
+        self.assertIn("canopen-conform run --simulate", done.stdout)
+        missing = run("doctor", "-i", "can77")
+        self.assertEqual(missing.returncode, 3)
+        self.assertEqual(run("doctor", "--simulate", "-i", "can0").returncode, 2)
+
     def test_what_failed_is_run_again_alone_and_nothing_when_nothing_failed(self):
         first = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "--json", self.path("r.json"),
                     "cia301/dictionary*")

@@ -66,6 +66,15 @@ class Live(unittest.TestCase):
         self.assertGreater(os.path.getsize(self.capture), 10000)
         print(f"\n  {len(self.cases())} cases on {INTERFACE}, an AF_CAN socket", flush=True)
 
+    def test_the_doctor_finds_the_node_and_tells_of_a_bus_without_one(self):
+        with Node():
+            done = subprocess.run(program("doctor", "-i", INTERFACE, "--ask", "--listen", "300"), capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("node 5    1000h = 000F0191h", done.stdout)
+        nobody = subprocess.run(program("doctor", "-i", INTERFACE, "--ask", "--listen", "100"), capture_output=True, text=True)
+        self.assertEqual(nobody.returncode, 3, nobody.stdout + nobody.stderr)
+        self.assertIn("nobody answered", nobody.stdout)
+
     def test_with_its_profile_the_manufacturer_objects_are_judged_too(self):
         with Node():
             done = run("--device", os.path.join(SUITES, "devices/reference-node.yaml"), "cia301/dictionary*")
