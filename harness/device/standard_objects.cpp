@@ -2,165 +2,44 @@
 #include "device/standard_objects.hpp"
 
 #include "base/check.hpp"
+#include "eds/standard_table.hpp"
 
 namespace conform::device {
 namespace {
 
-using canopen::DataType;
+using eds::StandardFlag;
+using Row = eds::StandardRow;
 
-// What a row says beyond type and access.
-constexpr unsigned open = 1U;       ///< the device may make it const (or ro) instead of rw
-constexpr unsigned adds_node = 2U;  ///< default is a constant plus the node-ID
-constexpr unsigned mappable = 4U;
-constexpr unsigned may_change = 8U;
-constexpr unsigned command = 16U;
+canopen::DataType type_of(const Row& row) {
+  const auto type = canopen::data_type_at(row.type);
+  CONFORM_CHECK(type.has_value());
+  return *type;
+}
 
-constexpr std::int64_t none = -1;
+Access access_of(eds::Access access) {
+  switch (access) {
+    case eds::Access::ro: return Access::ro;
+    case eds::Access::wo: return Access::wo;
+    case eds::Access::rw: return Access::rw;
+    case eds::Access::rwr: return Access::rwr;
+    case eds::Access::rww: return Access::rww;
+    case eds::Access::constant: break;
+  }
+  return Access::constant;
+}
 
-/// A sub-index, or a run of alike ones, of an index or of a run of alike ones.
-struct Row {
-  std::uint16_t first_index, last_index;
-  std::uint8_t first_sub, last_sub;
-  std::string_view name;
-  DataType type;
-  Access access;
-  Category category;
-  ObjectCode object;
-  unsigned flags = 0;
-  std::int64_t default_value = none;
-  std::int64_t low = none;
-  std::int64_t high = none;
-};
-
-constexpr auto M = Category::mandatory;
-constexpr auto C = Category::conditional;
-constexpr auto O = Category::optional;
-constexpr auto var = ObjectCode::var;
-constexpr auto array = ObjectCode::array;
-constexpr auto record = ObjectCode::record;
-constexpr auto u8 = DataType::unsigned8;
-constexpr auto u16 = DataType::unsigned16;
-constexpr auto u32 = DataType::unsigned32;
-constexpr auto text = DataType::visible_string;
-constexpr auto octets = DataType::octet_string;
-constexpr auto ro = Access::ro;
-constexpr auto wo = Access::wo;
-constexpr auto rw = Access::rw;
-constexpr auto constant = Access::constant;
-constexpr std::string_view highest = "Highest sub-index supported";
-
-// Conditional: required with its feature, or (sub-indices) with its object. Mandatory is only what every
-// device has.
-constexpr Row rows[] = {
-    {0x1000, 0x1000, 0x00, 0x00, "Device type", u32, ro, M, var},
-    {0x1001, 0x1001, 0x00, 0x00, "Error register", u8, ro, M, var, mappable | may_change},
-    {0x1002, 0x1002, 0x00, 0x00, "Manufacturer status register", u32, ro, O, var, mappable | may_change},
-    {0x1003, 0x1003, 0x00, 0x00, "Number of errors", u8, rw, C, array, may_change | command, 0},
-    {0x1003, 0x1003, 0x01, 0x01, "Standard error field", u32, ro, C, array, may_change},
-    {0x1003, 0x1003, 0x02, 0xFE, "Standard error field", u32, ro, O, array, may_change},
-    {0x1005, 0x1005, 0x00, 0x00, "COB-ID SYNC message", u32, rw, C, var, open, 0x80},
-    {0x1006, 0x1006, 0x00, 0x00, "Communication cycle period", u32, rw, C, var, 0, 0},
-    {0x1007, 0x1007, 0x00, 0x00, "Synchronous window length", u32, rw, O, var, 0, 0},
-    {0x1008, 0x1008, 0x00, 0x00, "Manufacturer device name", text, constant, O, var},
-    {0x1009, 0x1009, 0x00, 0x00, "Manufacturer hardware version", text, constant, O, var},
-    {0x100A, 0x100A, 0x00, 0x00, "Manufacturer software version", text, constant, O, var},
-    {0x100C, 0x100C, 0x00, 0x00, "Guard time", u16, rw, C, var, open, 0},
-    {0x100D, 0x100D, 0x00, 0x00, "Life time factor", u8, rw, C, var, open, 0},
-    {0x1010, 0x1010, 0x00, 0x00, highest, u8, constant, C, array, 0, none, 1, 0x7F},
-    {0x1010, 0x1010, 0x01, 0x01, "Save all parameters", u32, rw, C, array, open | command},
-    {0x1010, 0x1010, 0x02, 0x02, "Save communication parameters", u32, rw, O, array, open | command},
-    {0x1010, 0x1010, 0x03, 0x03, "Save application parameters", u32, rw, O, array, open | command},
-    {0x1010, 0x1010, 0x04, 0x7F, "Save manufacturer defined parameters", u32, rw, O, array, open | command},
-    {0x1011, 0x1011, 0x00, 0x00, highest, u8, constant, C, array, 0, none, 1, 0x7F},
-    {0x1011, 0x1011, 0x01, 0x01, "Restore all default parameters", u32, rw, C, array, command},
-    {0x1011, 0x1011, 0x02, 0x02, "Restore communication default parameters", u32, rw, O, array, command},
-    {0x1011, 0x1011, 0x03, 0x03, "Restore application default parameters", u32, rw, O, array, command},
-    {0x1011, 0x1011, 0x04, 0x7F, "Restore manufacturer defined default parameters", u32, rw, O, array,
-     command},
-    {0x1012, 0x1012, 0x00, 0x00, "COB-ID time stamp object", u32, rw, O, var, open, 0x100},
-    {0x1013, 0x1013, 0x00, 0x00, "High resolution time stamp", u32, rw, O, var, mappable | may_change, 0},
-    {0x1014, 0x1014, 0x00, 0x00, "COB-ID emergency message", u32, rw, C, var, open | adds_node, 0x80},
-    {0x1015, 0x1015, 0x00, 0x00, "Inhibit time EMCY", u16, rw, O, var, 0, 0},
-    {0x1016, 0x1016, 0x00, 0x00, highest, u8, constant, C, array, 0, none, 1, 0x7F},
-    {0x1016, 0x1016, 0x01, 0x01, "Consumer heartbeat time", u32, rw, C, array, 0, 0},
-    {0x1016, 0x1016, 0x02, 0x7F, "Consumer heartbeat time", u32, rw, O, array, 0, 0},
-    {0x1017, 0x1017, 0x00, 0x00, "Producer heartbeat time", u16, rw, C, var, open, 0},
-    {0x1018, 0x1018, 0x00, 0x00, highest, u8, constant, M, record, 0, none, 1, 4},
-    {0x1018, 0x1018, 0x01, 0x01, "Vendor-ID", u32, ro, M, record},
-    {0x1018, 0x1018, 0x02, 0x02, "Product code", u32, ro, O, record},
-    {0x1018, 0x1018, 0x03, 0x03, "Revision number", u32, ro, O, record},
-    {0x1018, 0x1018, 0x04, 0x04, "Serial number", u32, ro, O, record},
-    {0x1019, 0x1019, 0x00, 0x00, "Synchronous counter overflow value", u8, rw, O, var, open, 0, 0, 240},
-    {0x1020, 0x1020, 0x00, 0x00, highest, u8, constant, C, array, 0, 2, 2, 2},
-    {0x1020, 0x1020, 0x01, 0x01, "Configuration date", u32, rw, C, array},
-    {0x1020, 0x1020, 0x02, 0x02, "Configuration time", u32, rw, C, array},
-    {0x1021, 0x1021, 0x00, 0x00, "Store EDS", DataType::domain, ro, O, ObjectCode::domain},
-    {0x1022, 0x1022, 0x00, 0x00, "Store format", u16, ro, C, var, 0, none, 0, 0xFF},
-    {0x1023, 0x1023, 0x00, 0x00, highest, u8, constant, C, record, 0, 3, 3, 3},
-    {0x1023, 0x1023, 0x01, 0x01, "OS command", octets, rw, C, record, command},
-    {0x1023, 0x1023, 0x02, 0x02, "OS command status", u8, ro, C, record, may_change},
-    {0x1023, 0x1023, 0x03, 0x03, "OS command reply", octets, ro, C, record, may_change},
-    {0x1024, 0x1024, 0x00, 0x00, "OS command mode", u8, wo, O, var, command},
-    {0x1025, 0x1025, 0x00, 0x00, highest, u8, constant, C, record, 0, 3, 3, 3},
-    {0x1025, 0x1025, 0x01, 0x01, "Debugger command", octets, rw, C, record, command},
-    {0x1025, 0x1025, 0x02, 0x02, "Debugger status", u8, ro, C, record, may_change},
-    {0x1025, 0x1025, 0x03, 0x03, "Debugger reply", octets, ro, C, record, may_change},
-    {0x1026, 0x1026, 0x00, 0x00, highest, u8, constant, C, array, 0, none, 2, 3},
-    {0x1026, 0x1026, 0x01, 0x01, "StdIn", u8, wo, C, array, mappable | command},
-    {0x1026, 0x1026, 0x02, 0x02, "StdOut", u8, ro, C, array, mappable | may_change},
-    {0x1026, 0x1026, 0x03, 0x03, "StdErr", u8, ro, O, array, mappable | may_change},
-    {0x1027, 0x1027, 0x00, 0x00, "Number of connected modules", u8, ro, C, array, may_change},
-    {0x1027, 0x1027, 0x01, 0x01, "Module", u16, ro, C, array, may_change},
-    {0x1027, 0x1027, 0x02, 0xFE, "Module", u16, ro, O, array, may_change},
-    {0x1028, 0x1028, 0x00, 0x00, highest, u8, constant, C, array, 0, none, 1, 0x7F},
-    {0x1028, 0x1028, 0x01, 0x01, "Emergency consumer", u32, rw, C, array, open},
-    {0x1028, 0x1028, 0x02, 0x7F, "Emergency consumer", u32, rw, O, array, open},
-    {0x1029, 0x1029, 0x00, 0x00, highest, u8, constant, C, array, 0, none, 1, 0xFE},
-    {0x1029, 0x1029, 0x01, 0x01, "Communication error", u8, rw, C, array, open, 0},
-    {0x1029, 0x1029, 0x02, 0xFE, "Profile or manufacturer specific error", u8, rw, O, array, open},
-    {0x1200, 0x1200, 0x00, 0x00, highest, u8, constant, C, record, 0, 2, 2, 2},
-    {0x1200, 0x1200, 0x01, 0x01, "COB-ID client to server", u32, ro, C, record, mappable | adds_node, 0x600},
-    {0x1200, 0x1200, 0x02, 0x02, "COB-ID server to client", u32, ro, C, record, mappable | adds_node, 0x580},
-    {0x1201, 0x127F, 0x00, 0x00, highest, u8, constant, C, record, 0, none, 2, 3},
-    {0x1201, 0x127F, 0x01, 0x01, "COB-ID client to server", u32, rw, C, record, mappable | open, 0x8000'0000},
-    {0x1201, 0x127F, 0x02, 0x02, "COB-ID server to client", u32, rw, C, record, mappable | open, 0x8000'0000},
-    {0x1201, 0x127F, 0x03, 0x03, "Node-ID of the SDO client", u8, rw, O, record, 0, none, 1, 0x7F},
-    {0x1280, 0x12FF, 0x00, 0x00, highest, u8, constant, C, record, 0, 3, 3, 3},
-    {0x1280, 0x12FF, 0x01, 0x01, "COB-ID client to server", u32, rw, C, record, mappable | open, 0x8000'0000},
-    {0x1280, 0x12FF, 0x02, 0x02, "COB-ID server to client", u32, rw, C, record, mappable | open, 0x8000'0000},
-    {0x1280, 0x12FF, 0x03, 0x03, "Node-ID of the SDO server", u8, rw, C, record, 0, none, 1, 0x7F},
-    // PDO 1..4 have the COB-IDs of the pre-defined connection set; whether they are valid is the device's
-    // choice. From the fifth on only bit 31 is prescribed, so that there is no default to compare.
-    {0x1400, 0x15FF, 0x00, 0x00, highest, u8, constant, C, record, 0, none, 2, 6},
-    {0x1400, 0x1400, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open | adds_node, 0x200},
-    {0x1401, 0x1401, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open | adds_node, 0x300},
-    {0x1402, 0x1402, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open | adds_node, 0x400},
-    {0x1403, 0x1403, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open | adds_node, 0x500},
-    {0x1404, 0x15FF, 0x01, 0x01, "COB-ID used by RPDO", u32, rw, C, record, open},
-    {0x1400, 0x15FF, 0x02, 0x02, "Transmission type", u8, rw, C, record, open},
-    {0x1400, 0x15FF, 0x03, 0x03, "Inhibit time", u16, rw, O, record, open},
-    {0x1400, 0x15FF, 0x04, 0x04, "Compatibility entry", u8, rw, O, record, open},
-    {0x1400, 0x15FF, 0x05, 0x05, "Event timer", u16, rw, O, record, open},
-    {0x1600, 0x17FF, 0x00, 0x00, "Number of mapped objects in RPDO", u8, rw, C, record, open},
-    {0x1600, 0x17FF, 0x01, 0x40, "Mapped object", u32, rw, O, record, open},
-    {0x1800, 0x19FF, 0x00, 0x00, highest, u8, constant, C, record, 0, none, 2, 6},
-    {0x1800, 0x1800, 0x01, 0x01, "COB-ID used by TPDO", u32, rw, C, record, open | adds_node, 0x180},
-    {0x1801, 0x1801, 0x01, 0x01, "COB-ID used by TPDO", u32, rw, C, record, open | adds_node, 0x280},
-    {0x1802, 0x1802, 0x01, 0x01, "COB-ID used by TPDO", u32, rw, C, record, open | adds_node, 0x380},
-    {0x1803, 0x1803, 0x01, 0x01, "COB-ID used by TPDO", u32, rw, C, record, open | adds_node, 0x480},
-    {0x1804, 0x19FF, 0x01, 0x01, "COB-ID used by TPDO", u32, rw, C, record, open},
-    {0x1800, 0x19FF, 0x02, 0x02, "Transmission type", u8, rw, C, record, open},
-    {0x1800, 0x19FF, 0x03, 0x03, "Inhibit time", u16, rw, O, record, open},
-    {0x1800, 0x19FF, 0x04, 0x04, "Compatibility entry", u8, rw, O, record, open},
-    {0x1800, 0x19FF, 0x05, 0x05, "Event timer", u16, rw, O, record, open},
-    {0x1800, 0x19FF, 0x06, 0x06, "SYNC start value", u8, rw, O, record, open, none, 0, 240},
-    {0x1A00, 0x1BFF, 0x00, 0x00, "Number of mapped objects in TPDO", u8, rw, C, record, open},
-    {0x1A00, 0x1BFF, 0x01, 0x40, "Mapped object", u32, rw, O, record, open},
-};
+Category category_of(eds::Category category) {
+  switch (category) {
+    case eds::Category::mandatory: return Category::mandatory;
+    case eds::Category::conditional: return Category::conditional;
+    case eds::Category::optional: break;
+  }
+  return Category::optional;
+}
 
 std::optional<Bytes> value_of(const Row& row, std::int64_t value) {
-  if (value == none) return std::nullopt;
-  const auto size = canopen::size_bytes(row.type);
+  if (value == Row::none) return std::nullopt;
+  const auto size = canopen::size_bytes(type_of(row));
   CONFORM_CHECK(size.has_value());
   return to_le(static_cast<std::uint64_t>(value), *size);
 }
@@ -169,18 +48,18 @@ Entry entry_of(const Row& row, Multiplexer mux) {
   Entry entry;
   entry.mux = mux;
   entry.name = row.name;
-  entry.type = row.type;
-  entry.access = row.access;
-  entry.category = row.category;
-  entry.object = row.object;
+  entry.type = type_of(row);
+  entry.access = access_of(row.access);
+  entry.category = category_of(row.category);
+  entry.object = static_cast<ObjectCode>(row.object);  // the codes are those of the standard
   entry.low = value_of(row, row.low);
   entry.high = value_of(row, row.high);
   entry.default_value = value_of(row, row.default_value);
-  entry.default_adds_node_id = (row.flags & adds_node) != 0;
-  entry.access_open = (row.flags & open) != 0;
-  entry.pdo_mappable = (row.flags & mappable) != 0;
-  entry.may_change = (row.flags & may_change) != 0;
-  entry.command = (row.flags & command) != 0;
+  entry.default_adds_node_id = row.has(StandardFlag::adds_node_id);
+  entry.access_open = row.has(StandardFlag::leaves_access);
+  entry.pdo_mappable = row.has(StandardFlag::pdo_mappable);
+  entry.may_change = row.has(StandardFlag::may_change);
+  entry.command = row.has(StandardFlag::is_command);
   return entry;
 }
 
@@ -194,14 +73,8 @@ std::uint8_t shown_until(const Row& row) {
 }  // namespace
 
 std::optional<Entry> standard_entry(Multiplexer mux) {
-  const std::uint16_t index = mux.index.value();
-  const std::uint8_t sub = mux.sub.value();
-  for (const Row& row : rows) {
-    const bool found =
-        index >= row.first_index && index <= row.last_index && sub >= row.first_sub && sub <= row.last_sub;
-    if (found) return entry_of(row, mux);
-  }
-  return std::nullopt;
+  const auto* row = eds::find_standard_row(mux);
+  return row == nullptr ? std::nullopt : std::optional(entry_of(*row, mux));
 }
 
 std::optional<canopen::DataType> type_of(const Dictionary& dictionary, Multiplexer mux) {
@@ -212,7 +85,7 @@ std::optional<canopen::DataType> type_of(const Dictionary& dictionary, Multiplex
 
 Dictionary standard_dictionary(NodeId node) {
   Dictionary dictionary;
-  for (const Row& row : rows) {
+  for (const Row& row : eds::standard_rows()) {
     const bool is_pdo = row.first_index >= 0x1400;
     for (int i = 0; i < (is_pdo ? 4 : 1); ++i) {
       const auto index = static_cast<std::uint16_t>((is_pdo ? row.first_index & 0xFE00U : row.first_index) +
