@@ -168,10 +168,11 @@ struct EdsFile {
   NumberedList dummy_usage;  ///< number: the data type; no count
   NumberedList mandatory_objects, optional_objects, manufacturer_objects;
   NumberedList comments;
-  Position dynamic_channels;    ///< of [DynamicChannels], whose contents are those of CiA 302 and CiA 405
-  std::vector<Object> objects;  ///< ascending by index, each once; only what is described (see expand.hpp)
-  NumberedList supported_modules;
-  std::vector<Module> modules;  ///< ascending by number
+  Position dynamic_channels;       ///< of [DynamicChannels], whose contents are those of CiA 302 and CiA 405
+  std::vector<Object> objects;     ///< ascending by index, each once; only what is described (see expand.hpp)
+  NumberedList supported_modules;  ///< a count alone: the modules follow as sections
+  NumberedList connected_modules;  ///< DCF: numbers of supported modules, in the order of the slots
+  std::vector<Module> modules;     ///< ascending by number
   Remarks remarks;
 
   [[nodiscard]] bool is_xml() const { return format == Format::xdd || format == Format::xdc; }

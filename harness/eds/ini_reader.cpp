@@ -19,6 +19,11 @@ Field to_field(const IniEntry& entry) {
   return {std::string(entry.value), entry.value_at, entry.key_at, true};
 }
 
+/// Of versions before 4.0 (CiA 306, [DeviceInfo]): kept so that nobody gives them another meaning.
+constexpr std::string_view reserved_device_info[] = {"ProductVersion",       "ProductRevision",
+                                                     "LMT_ManufacturerName", "LMT_ProductName",
+                                                     "ExtendedBootUpMaster", "ExtendedBootUpSlave"};
+
 /// The decimal number behind `prefix` in a key, as in Line12.
 std::optional<std::uint64_t> numbered(std::string_view key, std::string_view prefix, int base = 10) {
   if (key.size() <= prefix.size() || !same_word(key.substr(0, prefix.size()), prefix)) return std::nullopt;
@@ -66,6 +71,16 @@ class Taker {
       if (!number) continue;
       taken_[i] = true;
       into.push_back({*number, to_field(section_.entries[i])});
+    }
+  }
+
+  /// Entries that mean nothing, and have a name that the standard keeps.
+  void reserved(std::span<const std::string_view> keys) {
+    for (const auto key : keys) {
+      const auto place = place_of(key);
+      if (place == section_.entries.size()) continue;
+      taken_[place] = true;
+      remarks_.add(Deviation::reserved_entry, section_.entries[place].key_at, section_.entries[place].key);
     }
   }
 
@@ -203,6 +218,7 @@ class Reader {
       case SectionKind::device_info:
         info(taker, section, out_.device_info, device_info_fields);
         taker.numbers("BaudRate_", out_.device_info.baud_rates);
+        taker.reserved(reserved_device_info);
         break;
       case SectionKind::commissioning: commissioning(taker, section); break;
       case SectionKind::dummy_usage:
@@ -221,6 +237,7 @@ class Reader {
         break;
       case SectionKind::comments: list(taker, section, out_.comments, "Lines", "Line"); break;
       case SectionKind::supported_modules: list(taker, section, out_.supported_modules, "NrOfEntries"); break;
+      case SectionKind::connected_modules: list(taker, section, out_.connected_modules, "NrOfEntries"); break;
       case SectionKind::names:
         list(taker, section, pile_.object(name.index, section.at).lists.edit().names, "NrOfEntries");
         break;
@@ -315,7 +332,7 @@ class Reader {
       return !entry.parameter_value.empty() || !entry.upload_file.empty() || !entry.download_file.empty() ||
              !entry.denotation.empty();
     };
-    return out_.commissioning.present || !out_.file_info.last_eds.empty() ||
+    return out_.commissioning.present || out_.connected_modules.present || !out_.file_info.last_eds.empty() ||
            std::ranges::any_of(out_.objects, [&](const Object& object) {
              return object.lists->values.present || object.lists->denotations.present ||
                     configured(object.entry) ||

@@ -11,15 +11,16 @@
 #include "base/text.hpp"
 #include "eds/expand.hpp"
 #include "eds/lint_rules.hpp"
+#include "eds/value.hpp"
 
 namespace conform::eds {
 namespace {
 
 /// The order of the page.
 constexpr std::array groups = {
-    &structure_rules, &number_rules,     &value_rules,      &info_rules,    &list_rules,
-    &object_rules,    &predefined_rules, &sub_object_rules, &compact_rules, &pdo_rules,
-    &mapping_rules,   &identity_rules,   &module_rules,
+    &structure_rules,  &number_rules,     &value_rules,   &info_rules,  &list_rules,    &object_rules,
+    &predefined_rules, &sub_object_rules, &compact_rules, &pdo_rules,   &mapping_rules, &identity_rules,
+    &module_rules,     &presence_rules,   &cob_id_rules,  &entry_rules,
 };
 
 std::vector<RuleGroup> tables() {
@@ -66,7 +67,7 @@ LintReport lint(const EdsFile& file) {
   // Most files write everything out: then there is nothing to copy.
   const auto expanded = implies_entries(file) ? expand(file) : std::vector<Object>();
   const bool in_full = expanded && !expanded->empty();
-  Subject subject{file, in_full ? *expanded : file.objects, {}, {}};
+  Subject subject{file, in_full ? *expanded : file.objects, {}, {}, configured_node(file)};
   if (!expanded) {
     subject.expansion_fault = expanded.error().what;
     for (const auto& object : file.objects) {
@@ -124,6 +125,11 @@ void each_described(const Subject& subject, const std::function<void(const Spot&
 
 const Field& effective_value(const Entry& entry) {
   return entry.parameter_value.empty() ? entry.default_value : entry.parameter_value;
+}
+
+std::optional<Number> cob_id_of(const Field& field) {
+  const auto number = parse_number(field.text);
+  return number && !number->negative ? std::optional(*number) : std::nullopt;
 }
 
 }  // namespace conform::eds

@@ -42,7 +42,9 @@ constexpr Rule no_commissioning{"EDS113", Severity::warning, "A DCF has no [Devi
 constexpr Rule bad_node_id{"EDS114", Severity::error, "The node-ID is not in 1 to 127", "CiA 301, 7.2.1"};
 constexpr Rule unsupported_rate{"EDS115", Severity::error,
                                 "The configured bit rate is not supported by the device", dcf};
-constexpr Rule lmt_entry{"EDS116", Severity::note, "A reserved LMT_ entry is used", device_information};
+constexpr Rule reserved_entry{"EDS116", Severity::note,
+                              "An entry of earlier versions is used, whose name is reserved now",
+                              device_information};
 constexpr Rule fine_dummy{"EDS117", Severity::note, "A dummy that is allowed is shorter than the granularity",
                           "CiA 306, [DummyUsage]"};
 constexpr Rule dynamic_channels{"EDS118", Severity::warning,
@@ -55,7 +57,7 @@ constexpr const Rule* all[] = {
     &no_file_info,     &no_device_info, &no_dummy_usage, &no_version,         &bad_version,
     &bad_date,         &bad_time,       &other_name,     &missing_file_entry, &missing_device_entry,
     &no_baud_rate,     &odd_baud_rate,  &comment_count,  &no_commissioning,   &bad_node_id,
-    &unsupported_rate, &lmt_entry,      &fine_dummy,     &dynamic_channels,   &open_dummy};
+    &unsupported_rate, &reserved_entry, &fine_dummy,     &dynamic_channels,   &open_dummy};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -136,7 +138,9 @@ void check_device_info(const EdsFile& file, Findings& findings) {
   }
   for (const auto& row : device_info_fields) {
     const bool counts = row.key == "NrOfRXPDO" || row.key == "NrOfTXPDO";
-    const bool wanted = row.key == "VendorName" || row.key == "ProductName" || (counts && !file.is_xml());
+    const bool numbers = row.key == "VendorNumber" || row.key == "ProductNumber";
+    const bool wanted =
+        row.key == "VendorName" || row.key == "ProductName" || ((counts || numbers) && !file.is_xml());
     const auto& field = info.*row.field;
     if (wanted && field.empty())
       findings.add(missing_device_entry, place_of(field, info.at), fmt::format("{} is missing", row.key));
@@ -221,8 +225,8 @@ void check(const Subject& subject, Findings& findings) {
           fmt::format("Lines says {}, but there are {} lines", lines.value_or(0), comments.entries.size()));
   }
   for (const auto& remark : file.remarks.all()) {
-    if (remark.what == Deviation::unknown_entry && lower(remark.detail).starts_with("lmt_"))
-      findings.add(lmt_entry, remark.at, fmt::format("'{}' is reserved", remark.detail));
+    if (remark.what == Deviation::reserved_entry)
+      findings.add(reserved_entry, remark.at, fmt::format("'{}' is reserved", remark.detail));
   }
   check_commissioning(file, findings);
 }

@@ -34,9 +34,18 @@ constexpr Rule valid_but_empty{"EDS340", Severity::note, "A valid PDO maps nothi
 constexpr Rule head_mapped{"EDS341", Severity::error, "A structure is mapped as if it were a variable",
                            mapping_parameter};
 
+constexpr Rule finer{"EDS342", Severity::warning, "A mapped length is no multiple of the granularity",
+                     "CiA 306, [DeviceInfo]"};
+constexpr Rule odd_direction{"EDS343", Severity::warning,
+                             "A TPDO maps a constant, or an object meant for RPDOs",
+                             "CiA 306, object descriptions, AccessType"};
+constexpr Rule part_of_fixed{"EDS344", Severity::note,
+                             "A fixed mapping counts fewer objects than are described", mapping_parameter};
+
 constexpr const Rule* all[] = {
-    &gap,           &no_object,    &not_mappable, &wrong_length, &wrong_direction, &too_long,
-    &dummy_in_tpdo, &dummy_unused, &too_many,     &multiplexed,  &valid_but_empty, &head_mapped};
+    &gap,           &no_object,     &not_mappable, &wrong_length, &wrong_direction, &too_long,
+    &dummy_in_tpdo, &dummy_unused,  &too_many,     &multiplexed,  &valid_but_empty, &head_mapped,
+    &finer,         &odd_direction, &part_of_fixed};
 
 constexpr std::uint64_t most_mapped = 64;
 constexpr std::uint64_t cob_id_invalid = 0x8000'0000;
@@ -54,10 +63,24 @@ Mapped unpack(std::uint64_t value) {
           static_cast<unsigned>(value & 0xFFU)};
 }
 
+/// One number is wrong, however many mapping entries contradict it.
+struct Finer {
+  std::size_t count = 0;
+  Position at;
+  std::string first;
+
+  void add(Position where, std::string what) {
+    if (count++ != 0) return;
+    at = where;
+    first = std::move(what);
+  }
+};
+
 class Check {
  public:
-  Check(const Subject& subject, const Object& mapping, Findings& findings)
+  Check(const Subject& subject, const Object& mapping, Finer& finer_entries, Findings& findings)
       : subject_(subject),
+        finer_(finer_entries),
         mapping_(mapping),
         is_tpdo_(mapping.index.value() >= 0x1A00),
         findings_(findings) {}
@@ -76,13 +99,8 @@ class Check {
       empty(field);
       return;
     }
-    if (*count > most_mapped || mapping_.find(SubIndex(static_cast<std::uint8_t>(*count))) == nullptr) {
-      // Without any sub-objects there is another finding.
-      if (mapping_.subs.size() > 1)
-        add(too_many, field, SubIndex(0),
-            fmt::format("{} objects are mapped, but {} is not described", *count,
-                        section_name(mapping_.index, SubIndex(static_cast<std::uint8_t>(*count)))));
-    }
+    described(field, *count);
+    fixed(*zero, field, *count);
     std::uint64_t bits = 0;
     for (const auto& sub : mapping_.subs) {
       if (sub.sub == SubIndex(0) || sub.sub.value() > *count) continue;
@@ -95,6 +113,29 @@ class Check {
   void add(const Rule& rule, const Field& field, SubIndex sub, std::string_view message) {
     findings_.add(rule, place_of(field, mapping_.entry.at),
                   fmt::format("{}: {}", section_name(mapping_.index, sub), message));
+  }
+
+  /// Every mapping entry that is counted must be there.
+  void described(const Field& field, std::uint64_t count) {
+    // Without any sub-objects there is another finding; CompactPDO implies those that are missing.
+    if (mapping_.subs.size() < 2) return;
+    for (std::uint64_t sub = 1; sub <= std::min(count, most_mapped + 1); ++sub) {
+      const auto index = SubIndex(static_cast<std::uint8_t>(sub));
+      if (sub <= most_mapped && mapping_.find(index) != nullptr) continue;
+      add(too_many, field, SubIndex(0),
+          fmt::format("{} objects are mapped, but {} is not described", count,
+                      section_name(mapping_.index, index)));
+      return;
+    }
+  }
+
+  /// What a mapping that cannot change does not count nobody will ever use.
+  void fixed(const Entry& zero, const Field& field, std::uint64_t count) {
+    const auto allowed = access(zero);
+    if (!allowed || can_be_written(*allowed) || mapping_.subs.empty()) return;
+    const auto last = mapping_.subs.back().sub.value();
+    if (last != 0xFF && last > count)
+      add(part_of_fixed, field, SubIndex(0), fmt::format("{} of {} objects are counted", count, last));
   }
 
   void empty(const Field& field) {
@@ -118,6 +159,10 @@ class Check {
       return 0;
     }
     const auto mapped = unpack(*value);
+    const auto granularity = number_of(subject_.file.device_info.granularity).value_or(0);
+    if (granularity > 1 && granularity <= 64 && mapped.bits % granularity != 0)
+      finer_.add(field.at,
+                 fmt::format("{} maps {} bits", section_name(mapping_.index, sub.sub), mapped.bits));
     if (mapped.index.value() < 0x20)
       dummy(field, sub.sub, mapped);
     else
@@ -162,8 +207,10 @@ class Check {
           fmt::format("{} is {} with {} bits, not {}", name, info->name, info->bits, mapped.bits));
     const auto allowed = access(*entry);
     if (!allowed) return;
+    if (is_tpdo_ && (*allowed == Access::rww || *allowed == Access::constant))
+      add(odd_direction, field, sub, fmt::format("{} is {}", name, shortened(entry->access_type.text)));
     const bool fits =
-        is_tpdo_ ? can_be_read(*allowed) && *allowed != Access::rww && mappable != PdoMapping::rpdo_only
+        is_tpdo_ ? can_be_read(*allowed) && mappable != PdoMapping::rpdo_only
                  : can_be_written(*allowed) && *allowed != Access::rwr && mappable != PdoMapping::tpdo_only;
     if (!fits)
       add(wrong_direction, field, sub,
@@ -173,6 +220,7 @@ class Check {
   }
 
   const Subject& subject_;
+  Finer& finer_;
   const Object& mapping_;
   bool is_tpdo_;
   bool said_gap_ = false;  ///< once for each mapping
@@ -180,9 +228,14 @@ class Check {
 };
 
 void check(const Subject& subject, Findings& findings) {
+  Finer entries;
   for (const auto& object : subject.objects) {
-    if (is_mapping_parameter(object.index)) Check(subject, object, findings).run();
+    if (is_mapping_parameter(object.index)) Check(subject, object, entries, findings).run();
   }
+  if (entries.count > 0)
+    findings.add(finer, entries.at,
+                 fmt::format("{}, but Granularity is {}; {} entries are like this", entries.first,
+                             shortened(subject.file.device_info.granularity.text), entries.count));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "eds/lint_rules.hpp"
 #include "eds/type_table.hpp"
+#include "eds/value.hpp"
 
 namespace conform::eds {
 namespace {
@@ -29,21 +30,31 @@ constexpr Rule unmappable{"EDS209", Severity::error, "A DOMAIN can be mapped int
 constexpr Rule no_direction{"EDS210", Severity::note,
                             "An rw object can be mapped, but into which PDOs is open", descriptions};
 constexpr Rule unknown_flags{"EDS211", Severity::warning, "ObjFlags has unknown bits", descriptions};
-constexpr Rule configured_read_only{"EDS212", Severity::warning, "A configured value cannot be written",
-                                    "CiA 306, DCF"};
+constexpr Rule configured_constant{"EDS212", Severity::note, "A constant is configured with another value",
+                                   "CiA 306, DCF; CiA 301, 7.4.5"};
 constexpr Rule record_type{"EDS213", Severity::error, "A variable has the data type of a record",
                            "CiA 301, 7.4.7"};
 constexpr Rule typed_domain{"EDS214", Severity::warning, "A DOMAIN has another data type or limits",
                             "CiA 301, 7.4.3"};
 
+constexpr Rule not_for_structure{"EDS215", Severity::warning,
+                                 "An array or record has an entry that only its sub-objects have",
+                                 "CiA 306, object descriptions, table of entries"};
+constexpr Rule open_length{"EDS216", Severity::warning,
+                           "An object can be mapped, but its type has no fixed length or more than 64 bits",
+                           "CiA 301, 7.4.7"};
+constexpr Rule constant_mapped{"EDS217", Severity::note, "A constant can be mapped into PDOs", descriptions};
+
 constexpr const Rule* all[] = {
-    &no_name,      &bad_object_type,  &no_data_type,         &bad_data_type,      &no_access,
-    &bad_access,   &not_for_variable, &no_object_type,       &variable_with_subs, &unmappable,
-    &no_direction, &unknown_flags,    &configured_read_only, &record_type,        &typed_domain};
+    &no_name,           &bad_object_type,  &no_data_type,        &bad_data_type,      &no_access,
+    &bad_access,        &not_for_variable, &no_object_type,      &variable_with_subs, &unmappable,
+    &no_direction,      &unknown_flags,    &configured_constant, &record_type,        &typed_domain,
+    &not_for_structure, &open_length,      &constant_mapped};
 
 class Check {
  public:
-  Check(const Spot& spot, bool xml, Findings& findings) : spot_(spot), xml_(xml), findings_(findings) {}
+  Check(const Spot& spot, const Subject& subject, Findings& findings)
+      : spot_(spot), xml_(subject.file.is_xml()), node_(subject.node), findings_(findings) {}
 
   void run() {
     const auto& entry = spot_.entry;
@@ -57,6 +68,8 @@ class Check {
     if (spot_.sub ||
         (!is_structured(spot_.object) && (code == ObjectCode::var || code == ObjectCode::domain)) || compact)
       variable(code);
+    else if (!spot_.sub && is_structured(spot_.object) && !xml_)
+      head();
     if (number_of(entry.obj_flags).value_or(0) > 3 && *number_of(entry.obj_flags) <= 0xFFFF'FFFF)
       add(unknown_flags, entry.obj_flags,
           fmt::format("ObjFlags {} has bits besides 0 and 1", shortened(entry.obj_flags.text)));
@@ -87,6 +100,31 @@ class Check {
         add(not_for_variable, field, fmt::format("{} {} for a variable", row.key, shortened(field.text)),
             fix);
     }
+  }
+
+  /// By the table of CiA 306 a structure without CompactSubObj has no values of its own.
+  void head() {
+    struct Row {
+      std::string_view key;
+      Field Entry::* field;
+    };
+    static constexpr Row rows[] = {
+        {"DataType", &Entry::data_type},         {"AccessType", &Entry::access_type},
+        {"DefaultValue", &Entry::default_value}, {"LowLimit", &Entry::low_limit},
+        {"HighLimit", &Entry::high_limit},       {"PDOMapping", &Entry::pdo_mapping}};
+    // Without ObjectType it is a variable by mistake, which is said already.
+    if (object_code(spot_.entry) == ObjectCode::var) return;
+    for (const auto& row : rows) {
+      const auto& field = spot_.entry.*row.field;
+      if (!field.empty())
+        add(not_for_structure, field, fmt::format("{} belongs to the sub-objects", row.key));
+    }
+  }
+
+  void mapping(const Field& field, std::optional<Access> allowed, const TypeInfo* info) {
+    if (info != nullptr && info->kind != TypeKind::domain && (info->bits == 0 || info->bits > 64))
+      add(open_length, field, fmt::format("{} does not fit into a PDO", info->name));
+    if (allowed == Access::constant) add(constant_mapped, field, "a constant can be mapped");
   }
 
   void variable(std::optional<ObjectCode> code) {
@@ -124,20 +162,23 @@ class Check {
     if (mappable && allowed == Access::rw && pdo_mapping(entry) == PdoMapping::yes && !xml_)
       add(no_direction, word, "rw and mappable: into RPDOs, TPDOs or both is open",
           "rwr for TPDOs, rww for RPDOs say it");
-    if (!entry.parameter_value.empty() && allowed && !can_be_written(*allowed) &&
-        entry.parameter_value.text != entry.default_value.text && !entry.default_value.empty())
-      add(configured_read_only, entry.parameter_value,
-          fmt::format("ParameterValue is not the DefaultValue of an object that is {}",
-                      shortened(word.text)));
+    if (mappable) mapping(entry.pdo_mapping, allowed, info);
+    // What is only read may well have another value in one device than the description says for all of them.
+    if (!entry.parameter_value.empty() && allowed == Access::constant && !entry.default_value.empty() &&
+        !same_value(entry.parameter_value, entry.default_value, type, node_))
+      add(configured_constant, entry.parameter_value,
+          fmt::format("ParameterValue {} is not the DefaultValue {} of a constant",
+                      shortened(entry.parameter_value.text), shortened(entry.default_value.text)));
   }
 
   const Spot& spot_;
   bool xml_;
+  std::optional<std::uint8_t> node_;
   Findings& findings_;
 };
 
 void check(const Subject& subject, Findings& findings) {
-  each_described(subject, [&](const Spot& spot) { Check(spot, subject.file.is_xml(), findings).run(); });
+  each_described(subject, [&](const Spot& spot) { Check(spot, subject, findings).run(); });
 }
 
 }  // namespace

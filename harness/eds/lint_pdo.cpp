@@ -40,16 +40,29 @@ constexpr Rule no_cob_id{"EDS311", Severity::error, "A PDO has no COB-ID (sub-in
 constexpr Rule same_cob_id{"EDS312", Severity::warning, "Two TPDOs are sent on one CAN-ID by default",
                            "CiA 301, 7.5.2.37"};
 constexpr Rule restricted_can_id{"EDS313", Severity::error,
-                                 "A PDO or the EMCY uses a restricted CAN-ID by default",
+                                 "A PDO, SYNC, TIME or EMCY uses a restricted CAN-ID by default",
                                  "CiA 301, 7.3.3, table 40"};
+constexpr Rule needless_granularity{"EDS314", Severity::warning,
+                                    "No mapping can change, but Granularity is not 0", counts};
+constexpr Rule number_of_pdos_object{
+    "EDS315", Severity::warning, "1004h does not count the PDOs that there are", "CiA 301 version 3, 1004h"};
 
-constexpr const Rule* all[] = {&rpdo_count,       &tpdo_count,
-                               &no_mapping,       &no_communication,
-                               &count_is_const,   &entries_are_const,
-                               &granularity_zero, &mapping_without_cob_id,
-                               &compact_without,  &finer_than_granularity,
-                               &no_pdo,           &no_cob_id,
-                               &same_cob_id,      &restricted_can_id};
+constexpr const Rule* all[] = {&rpdo_count,
+                               &tpdo_count,
+                               &no_mapping,
+                               &no_communication,
+                               &count_is_const,
+                               &entries_are_const,
+                               &granularity_zero,
+                               &mapping_without_cob_id,
+                               &compact_without,
+                               &finer_than_granularity,
+                               &no_pdo,
+                               &no_cob_id,
+                               &same_cob_id,
+                               &restricted_can_id,
+                               &needless_granularity,
+                               &number_of_pdos_object};
 
 struct Direction {
   unsigned communication;  ///< first index
@@ -189,12 +202,51 @@ void check_mappable(const Subject& subject, Findings& findings) {
   }
 }
 
+/// Granularity is 0 where all mappings are fixed (CiA 306).
+void check_fixed(const Subject& subject, Findings& findings) {
+  const auto& field = subject.file.device_info.granularity;
+  if (is_modular(subject.file) || number_of(field).value_or(0) == 0) return;
+  bool some = false;
+  for (const auto& object : subject.objects) {
+    if (!is_mapping_parameter(object.index)) continue;
+    const auto* zero = object.find(SubIndex(0));
+    if (zero == nullptr || !access(*zero)) return;
+    if (std::ranges::any_of(object.subs, [](const SubObject& sub) { return writable(&sub.entry); })) return;
+    some = true;
+  }
+  if (some)
+    findings.add(needless_granularity, field.at,
+                 fmt::format("Granularity is {}, but no mapping can be written", shortened(field.text)));
+}
+
+/// 1004h of version 3: RPDOs in the upper, TPDOs in the lower word. Sub-index 00h counts all, 01h the
+/// synchronous, 02h the asynchronous ones.
+void check_number_object(const Subject& subject, Findings& findings) {
+  const auto* object = find_object(subject.objects, Index(0x1004));
+  if (object == nullptr || is_modular(subject.file)) return;
+  const auto rpdos = number_of_pdos(subject, directions[0]);
+  const auto tpdos = number_of_pdos(subject, directions[1]);
+  const auto look = [&](const Entry& entry, bool exact, std::optional<SubIndex> sub) {
+    const auto& field = effective_value(entry);
+    const auto value = number_of(field);
+    if (!value) return;
+    const auto rx = *value >> 16U, tx = *value & 0xFFFFU;
+    if (exact ? rx == rpdos && tx == tpdos : rx <= rpdos && tx <= tpdos) return;
+    findings.add(number_of_pdos_object, field.at,
+                 fmt::format("{} says {} RPDOs and {} TPDOs, but there are {} and {}",
+                             section_name(object->index, sub), rx, tx, rpdos, tpdos));
+  };
+  if (!is_structured(*object)) look(object->entry, true, {});
+  for (const auto& sub : object->subs) {
+    if (sub.sub.value() <= 2) look(sub.entry, sub.sub == SubIndex(0), sub.sub);
+  }
+}
+
 /// A COB-ID whose object is used from power-on; nullopt with bit 31 set, or where the field is no number.
 std::optional<Number> valid_cob_id(const Field& field) {
   constexpr std::uint64_t not_valid = 0x8000'0000;
-  const auto number = parse_number(field.text);
-  if (!number || number->negative || (number->magnitude & not_valid) != 0) return std::nullopt;
-  return *number;
+  const auto number = cob_id_of(field);
+  return number && (number->magnitude & not_valid) == 0 ? number : std::nullopt;
 }
 
 /// What is on the bus with one CAN-ID cannot be told apart; only one of the two PDOs can be meant.
@@ -230,15 +282,30 @@ bool is_restricted(std::uint64_t can_id) {
                              [can_id](const Ids& ids) { return can_id >= ids.first && can_id <= ids.last; });
 }
 
+/// The COB-ID of a service that can have any but a restricted one, where the device uses it from power-on.
+std::optional<Number> used_cob_id(const Spot& spot, const Field& field) {
+  if (spot.sub) {
+    const bool pdo = is_communication_parameter(spot.object.index) && *spot.sub == SubIndex(1);
+    return pdo ? valid_cob_id(field) : std::nullopt;
+  }
+  switch (spot.object.index.value()) {
+    case 0x1005: return cob_id_of(field);  // consumed always
+    case 0x1012: {
+      constexpr std::uint64_t consumed_or_produced = 0xC000'0000;
+      const auto number = cob_id_of(field);
+      return number && (number->magnitude & consumed_or_produced) != 0 ? number : std::nullopt;
+    }
+    case 0x1014: return valid_cob_id(field);
+    default: return std::nullopt;
+  }
+}
+
 /// With some node-ID the object would use it from power-on.
 void check_restricted(const Subject& subject, Findings& findings) {
   constexpr std::uint64_t extended = 0x2000'0000;
   each_described(subject, [&](const Spot& spot) {
-    const bool emcy = spot.object.index == Index(0x1014) && !spot.sub;
-    const bool pdo = is_communication_parameter(spot.object.index) && spot.sub == SubIndex(1);
-    if (!emcy && !pdo) return;
     const auto& field = effective_value(spot.entry);
-    const auto number = valid_cob_id(field);
+    const auto number = used_cob_id(spot, field);
     if (!number || (number->magnitude & extended) != 0) return;
     for (const unsigned node : {1U, 127U}) {
       const auto can_id = (number->magnitude + (number->node_id ? node : 0U)) & 0x7FFU;
@@ -257,6 +324,8 @@ void check(const Subject& subject, Findings& findings) {
   check_can_ids(subject, findings);
   check_restricted(subject, findings);
   check_counts(subject, findings);
+  check_fixed(subject, findings);
+  check_number_object(subject, findings);
   check_pairs(subject, findings);
   check_mappable(subject, findings);
 }

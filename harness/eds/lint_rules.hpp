@@ -20,6 +20,7 @@ struct Subject {
   const std::vector<Object>& objects;
   std::string expansion_fault;  ///< why `objects` lacks what is implied, or empty
   Position expansion_at;
+  std::optional<std::uint8_t> node = {};  ///< of a configuration
 };
 
 class Findings {
@@ -51,6 +52,9 @@ extern const Group pdo_rules;
 extern const Group mapping_rules;
 extern const Group identity_rules;
 extern const Group module_rules;
+extern const Group presence_rules;
+extern const Group cob_id_rules;
+extern const Group entry_rules;
 
 /// "[1018]" or "[1018sub1]": a section as the standard spells it.
 [[nodiscard]] std::string section_name(Index index, std::optional<SubIndex> sub = {});
@@ -76,6 +80,9 @@ void each_described(const Subject& subject, const std::function<void(const Spot&
 /// The number that an entry has at power-on: ParameterValue of a DCF before DefaultValue.
 [[nodiscard]] const Field& effective_value(const Entry& entry);
 
+/// A COB-ID: a number, or a formula of the node-ID; nothing where the text is neither.
+[[nodiscard]] std::optional<Number> cob_id_of(const Field& field);
+
 inline bool between(Index index, unsigned first, unsigned last) {
   return index.value() >= first && index.value() <= last;
 }
@@ -87,7 +94,7 @@ inline bool is_mapping_parameter(Index index) {
 }
 /// Modules add objects and PDOs that the file of the coupler only announces.
 inline bool is_modular(const EdsFile& file) {
-  return !file.supported_modules.entries.empty() || !file.modules.empty();
+  return number_of(file.supported_modules.count).value_or(0) > 0 || !file.modules.empty();
 }
 
 }  // namespace conform::eds

@@ -28,12 +28,20 @@ constexpr Rule no_sub_zero_default{"EDS256", Severity::warning,
                                    "Sub-index 00h is read-only and has no DefaultValue", structures};
 constexpr Rule sub_zero_type{"EDS257", Severity::error, "Sub-index 00h is not UNSIGNED8", sub_index_zero};
 constexpr Rule different_types{"EDS258", Severity::error,
-                               "The elements of an array have different data types", "CiA 301, 7.4.3"};
+                               "The elements of an array of CiA 301 or 302 have different data types",
+                               "CiA 301, 7.4.3"};
 constexpr Rule nested{"EDS259", Severity::error, "A sub-object is neither a variable nor a DOMAIN",
                       "CiA 301, 7.4.3"};
 constexpr Rule below_the_highest{
     "EDS260", Severity::note, "Sub-index 00h can be written and its default is below the highest sub-index",
     sub_index_zero};
+
+constexpr Rule profile_types{"EDS261", Severity::warning,
+                             "The elements of an array from 2000h on have different data types",
+                             "CiA 301, 7.4.3"};
+constexpr Rule modular_count{"EDS262", Severity::warning,
+                             "Sub-index 00h of a modular device is not the highest sub-index described",
+                             sub_index_zero};
 
 constexpr const Rule* all[] = {&no_subs,
                                &no_sub_zero,
@@ -45,12 +53,14 @@ constexpr const Rule* all[] = {&no_subs,
                                &sub_zero_type,
                                &different_types,
                                &nested,
-                               &below_the_highest};
+                               &below_the_highest,
+                               &profile_types,
+                               &modular_count};
 
 class Check {
  public:
-  Check(const Object& object, bool xml, Findings& findings)
-      : object_(object), xml_(xml), findings_(findings) {}
+  Check(const Object& object, const EdsFile& file, Findings& findings)
+      : object_(object), xml_(file.is_xml()), modular_(is_modular(file)), findings_(findings) {}
 
   void run() {
     const bool compact = number_of(object_.compact_sub_obj).value_or(0) > 0;
@@ -93,11 +103,14 @@ class Check {
     const auto type = data_type(zero);
     if (type && *type != 0x05)
       add(sub_zero_type, zero.data_type.at, "sub-index 00h must be UNSIGNED8", SubIndex(0));
-    // What these count are errors and mapped objects, not sub-indices.
-    if (object_.index == Index(0x1003) || is_mapping_parameter(object_.index)) return;
+    // What these count are errors, modules, mapped objects and network variables, not sub-indices.
+    if (object_.index == Index(0x1003) || object_.index == Index(0x1027) ||
+        is_mapping_parameter(object_.index) || between(object_.index, 0xA000, 0xAFFF))
+      return;
     const auto allowed = access(zero);
     const bool fixed = allowed && !can_be_written(*allowed);
-    if (zero.default_value.empty()) {
+    const auto& value = effective_value(zero);
+    if (value.empty()) {
       if (fixed)
         add(no_sub_zero_default, zero.at, "a read-only sub-index 00h without DefaultValue", SubIndex(0));
       return;
@@ -106,11 +119,15 @@ class Check {
     for (const auto& sub : object_.subs) {
       if (sub.sub != SubIndex(0xFF)) highest = std::max<std::uint64_t>(highest, sub.sub.value());
     }
-    const auto said = number_of(zero.default_value);
+    const auto said = number_of(value);
     if (!said || *said == highest) return;
-    const auto& rule = fixed ? not_the_highest : *said > highest ? beyond_the_highest : below_the_highest;
-    add(rule, zero.default_value.at,
-        fmt::format("sub-index 00h is {}, the highest sub-index is {}", *said, highest), SubIndex(0));
+    // Modules add sub-indices to objects of the device that they are plugged into.
+    const auto& rule = fixed && modular_ ? modular_count
+                       : fixed           ? not_the_highest
+                       : *said > highest ? beyond_the_highest
+                                         : below_the_highest;
+    add(rule, value.at, fmt::format("sub-index 00h is {}, the highest sub-index is {}", *said, highest),
+        SubIndex(0));
   }
 
   void types() {
@@ -121,7 +138,8 @@ class Check {
       if (first == nullptr) {
         first = &sub;
       } else if (data_type(first->entry) != type) {
-        add(different_types, sub.entry.data_type.at,
+        const auto& rule = object_.index.value() < 0x2000 ? different_types : profile_types;
+        add(rule, sub.entry.data_type.at,
             fmt::format("not the data type of sub-index {}", to_string(first->sub)), sub.sub);
         return;
       }
@@ -130,11 +148,12 @@ class Check {
 
   const Object& object_;
   bool xml_;
+  bool modular_;
   Findings& findings_;
 };
 
 void check(const Subject& subject, Findings& findings) {
-  for (const auto& object : subject.file.objects) Check(object, subject.file.is_xml(), findings).run();
+  for (const auto& object : subject.file.objects) Check(object, subject.file, findings).run();
 }
 
 }  // namespace

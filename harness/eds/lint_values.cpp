@@ -29,8 +29,14 @@ constexpr Rule no_octets{"EDS077", Severity::warning,
 constexpr Rule quoted{"EDS078", Severity::note, "A text begins with quotes, which become part of it", values};
 constexpr Rule limits_of_text{"EDS079", Severity::note, "A type without order has limits", limits};
 
-constexpr const Rule* all[] = {&value_range, &limit_range, &outside_limits, &limits_crossed, &twos_complement,
-                               &no_real,     &real_bits,   &no_octets,      &quoted,         &limits_of_text};
+constexpr Rule no_domain{"EDS080", Severity::warning,
+                         "The value of a DOMAIN is not made of hexadecimal bytes", values};
+constexpr Rule sign_extended{"EDS081", Severity::warning, "A negative value has more bits than its data type",
+                             values};
+
+constexpr const Rule* all[] = {&value_range,     &limit_range,    &outside_limits, &limits_crossed,
+                               &twos_complement, &no_real,        &real_bits,      &no_octets,
+                               &quoted,          &limits_of_text, &no_domain,      &sign_extended};
 
 /// A number with its sign, so that all of INTEGER64 and UNSIGNED64 can be compared.
 struct Value {
@@ -60,15 +66,22 @@ std::optional<Value> as_value(const Number& number, const TypeInfo& type) {
   }
   if (number.magnitude < sign) return Value{false, number.magnitude};
   // 0xFFFF for an INTEGER16 is how many write -1; in decimal nobody means it.
-  if (number.base == NumberBase::hexadecimal && number.magnitude <= most)
-    return Value{true, most - number.magnitude + 1U};
+  if (number.base != NumberBase::hexadecimal) return std::nullopt;
+  if (number.magnitude <= most) return Value{true, most - number.magnitude + 1U};
+  // 0xFFFFFF80 for an INTEGER8: the same value, in a longer type.
+  const auto above = ~(most >> 1U);
+  for (const unsigned bits : {16U, 32U, 64U}) {
+    const auto ones = all_ones(bits);
+    if (number.magnitude <= ones && (number.magnitude & above & ones) == (above & ones))
+      return Value{true, ones - number.magnitude + 1U};
+  }
   return std::nullopt;
 }
 
 class Check {
  public:
-  Check(const Spot& spot, const TypeInfo& type, Findings& findings)
-      : spot_(spot), type_(type), findings_(findings) {}
+  Check(const Spot& spot, const TypeInfo& type, bool xml, Findings& findings)
+      : spot_(spot), type_(type), xml_(xml), findings_(findings) {}
 
   void run() {
     const auto& entry = spot_.entry;
@@ -82,9 +95,13 @@ class Check {
         no_limits();
         break;
       case TypeKind::octets:
-        octets("DefaultValue", entry.default_value);
-        octets("ParameterValue", entry.parameter_value);
+        octets(no_octets, "DefaultValue", entry.default_value);
+        octets(no_octets, "ParameterValue", entry.parameter_value);
         no_limits();
+        break;
+      case TypeKind::domain:
+        octets(no_domain, "DefaultValue", entry.default_value);
+        octets(no_domain, "ParameterValue", entry.parameter_value);
         break;
       default: break;
     }
@@ -99,6 +116,9 @@ class Check {
   /// complained of.
   std::optional<Value> integer(std::string_view key, const Field& field, const Rule& range) {
     if (field.empty()) return std::nullopt;
+    // In XML the words of xsd:boolean are values, too.
+    if (const auto flag = flag_of(field); xml_ && type_.kind == TypeKind::boolean && flag)
+      return Value{false, *flag ? 1U : 0U};
     const auto number = read_number(field, label(key), findings_);
     if (!number) return std::nullopt;
     const auto value = as_value(*number, type_);
@@ -110,7 +130,7 @@ class Check {
     if (number->node_id) return std::nullopt;
     if (value->negative && !number->negative) {
       findings_.add(
-          twos_complement, field.at,
+          number->magnitude > all_ones(type_.bits) ? sign_extended : twos_complement, field.at,
           fmt::format("{}: {} stands for -{}", label(key), shortened(field.text), value->magnitude));
     }
     return value;
@@ -183,11 +203,13 @@ class Check {
         fmt::format("{}: the quotes of '{}' are part of the text", spot_.name(), shortened(field.text)));
   }
 
-  void octets(std::string_view key, const Field& field) {
+  void octets(const Rule& rule, std::string_view key, const Field& field) {
+    // What editors write where a DOMAIN has no default.
+    if (type_.kind == TypeKind::domain && field.text == "0") return;
     const auto digits = std::ranges::count_if(field.text, [](char c) { return c != ' '; });
     const bool hex = field.text.find_first_not_of("0123456789abcdefABCDEF ") == std::string::npos;
     if (hex && digits % 2 == 0) return;
-    findings_.add(no_octets, field.at,
+    findings_.add(rule, field.at,
                   fmt::format("{}: '{}' is not made of bytes", label(key), shortened(field.text)),
                   "two hexadecimal digits for each byte, without 0x");
   }
@@ -202,6 +224,7 @@ class Check {
 
   const Spot& spot_;
   const TypeInfo& type_;
+  bool xml_;
   Findings& findings_;
 };
 
@@ -209,9 +232,11 @@ void check(const Subject& subject, Findings& findings) {
   each_described(subject, [&](const Spot& spot) {
     // The head of a compact array has the values of its sub-objects.
     if (!spot.has_value() && spot.object.compact_sub_obj.empty()) return;
-    const auto type = data_type(spot.entry);
+    constexpr std::uint16_t domain = 0x0F;
+    const bool is_domain = object_code(spot.entry) == ObjectCode::domain;
+    const auto type = is_domain ? domain : data_type(spot.entry);
     const auto* info = type ? find_type(*type) : nullptr;
-    if (info != nullptr) Check(spot, *info, findings).run();
+    if (info != nullptr) Check(spot, *info, subject.file.is_xml(), findings).run();
   });
   // Texts of the information sections are quoted by the same mistake.
   const auto quotes = [&findings](std::string_view key, const Field& field) {

@@ -52,6 +52,7 @@ enum class Deviation : std::uint8_t {
   sub_without_object,
   two_commissionings,
   commissioning_spelling,
+  reserved_entry,
   // XDD
   xml_bad_index,
   xml_no_object_list,

@@ -27,6 +27,7 @@ constexpr Word fixed_names[] = {
     {"tools", SectionKind::tools},
     {"dynamicchannels", SectionKind::dynamic_channels},
     {"supportedmodules", SectionKind::supported_modules},
+    {"connectedmodules", SectionKind::connected_modules},
 };
 
 constexpr Word after_index[] = {

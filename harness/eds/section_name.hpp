@@ -29,6 +29,7 @@ enum class SectionKind : std::uint8_t {
   denotations,  ///< [1A00Denotation]
   links,        ///< [1A00ObjectLinks]
   supported_modules,
+  connected_modules,
   module_info,
   module_comments,
   fixed_list,
