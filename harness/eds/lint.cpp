@@ -121,6 +121,24 @@ void each_described(const Subject& subject, const std::function<void(const Spot&
     if (object.described) look({object, {}, object.entry});
     for (const auto& sub : object.subs) look({object, sub.sub, sub.entry});
   }
+  for (const auto& module : subject.file.modules) {
+    for (const auto& object : module.fixed_objects) {
+      if (object.described) look({object, {}, object.entry, Spot::Kind::fixed, module.number});
+      for (const auto& sub : object.subs)
+        look({object, sub.sub, sub.entry, Spot::Kind::fixed, module.number});
+    }
+    for (const auto& extension : module.extensions) {
+      Object object;
+      object.index = extension.index;
+      look({object, {}, extension.entry, Spot::Kind::extension, module.number});
+    }
+  }
+}
+
+std::string Spot::name() const {
+  const auto own = section_name(object.index, sub);
+  if (kind == Kind::of_the_device) return own;
+  return fmt::format("[M{}{}{}", module, kind == Kind::fixed ? "Fixed" : "SubExt", own.substr(1));
 }
 
 const Field& effective_value(const Entry& entry) {

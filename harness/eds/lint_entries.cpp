@@ -34,8 +34,11 @@ constexpr Rule later_version{"EDS476", Severity::note, "EDSVersion is later than
 constexpr Rule unknown_dummy{"EDS477", Severity::warning, "A dummy that is allowed is no basic data type",
                              "CiA 306, [DummyUsage]"};
 
-constexpr const Rule* all[] = {&missing,  &missing_detail,  &missing_origin, &too_long,
-                               &of_a_dcf, &comment_numbers, &later_version,  &unknown_dummy};
+constexpr Rule no_place{"EDS478", Severity::warning,
+                        "[DeviceComissioning] does not say the node-ID or the bit rate", "CiA 306, DCF"};
+
+constexpr const Rule* all[] = {&missing,         &missing_detail, &missing_origin, &too_long, &of_a_dcf,
+                               &comment_numbers, &later_version,  &unknown_dummy,  &no_place};
 
 constexpr std::array wanted = {"RevisionNumber", "OrderCode", "SimpleBootUpMaster", "SimpleBootUpSlave",
                                "LSS_Supported"};
@@ -126,6 +129,15 @@ void check_comments(const NumberedList& comments, Findings& findings) {
   }
 }
 
+void check_place(const DeviceCommissioning& commissioning, Findings& findings) {
+  if (!commissioning.present) return;
+  for (const auto& row : commissioning_fields) {
+    const auto& field = commissioning.*row.field;
+    if ((row.key == "NodeID" || row.key == "Baudrate") && field.empty())
+      findings.add(no_place, place_of(field, commissioning.at), fmt::format("{} is missing", row.key));
+  }
+}
+
 void check_version(const Field& version, Findings& findings) {
   const auto& text = version.text;
   const bool has_form = text.size() == 3 && text[1] == '.' && text[0] >= '0' && text[0] <= '9';
@@ -152,6 +164,7 @@ void check(const Subject& subject, Findings& findings) {
   check_lengths(subject, findings);
   check_kind(subject, findings);
   check_comments(file.comments, findings);
+  check_place(file.commissioning, findings);
   check_version(file.file_info.eds_version, findings);
 }
 

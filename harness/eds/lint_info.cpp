@@ -173,9 +173,12 @@ void check_commissioning(const EdsFile& file, Findings& findings) {
   const auto rate = number_of(info.baudrate);
   if (!rate || *rate == 0) return;
   const auto claim = std::ranges::find(file.device_info.baud_rates, *rate, &NumberedField::number);
-  if (claim != file.device_info.baud_rates.end() && flag_of(claim->field) == false)
-    findings.add(unsupported_rate, info.baudrate.at,
-                 fmt::format("Baudrate is {} kbit/s, but BaudRate_{} is 0", *rate, *rate));
+  // A rate that is not named is not supported; where none is named there is a finding already.
+  const bool named = claim != file.device_info.baud_rates.end();
+  if (named ? flag_of(claim->field) == false : !file.device_info.baud_rates.empty())
+    findings.add(
+        unsupported_rate, info.baudrate.at,
+        fmt::format("Baudrate is {} kbit/s, but BaudRate_{} is {}", *rate, *rate, named ? "0" : "missing"));
 }
 
 void check_dummies(const EdsFile& file, Findings& findings) {

@@ -79,7 +79,10 @@ class Check {
   void list(const NumberedList& list) {
     if (!list.present) return;
     const auto count = number_of(list.count);
-    if ((count || list.count.empty()) && count.value_or(0) != list.entries.size()) {
+    if (list.count.empty())
+      findings_.add(wrong_count, place_of(list.count, list.at),
+                    fmt::format("[{}]: SupportedObjects is missing", list.name));
+    else if (count && *count != list.entries.size()) {
       findings_.add(wrong_count, place_of(list.count, list.at),
                     fmt::format("[{}]: SupportedObjects says {}, but {} objects are listed", list.name,
                                 count.value_or(0), list.entries.size()));

@@ -80,6 +80,7 @@ constexpr NumberRow<DeviceInfo> device_info[] = {
     {{"NrOfRXPDO", &DeviceInfo::nr_of_rx_pdo}, 512},
     {{"NrOfTXPDO", &DeviceInfo::nr_of_tx_pdo}, 512},
     {{"CompactPDO", &DeviceInfo::compact_pdo}, 0xFFFF},
+    {{"DynamicChannelsSupported", &DeviceInfo::dynamic_channels}, u32},
 };
 constexpr FieldRow<DeviceInfo> device_flags[] = {
     {"SimpleBootUpMaster", &DeviceInfo::simple_boot_up_master},
@@ -87,10 +88,15 @@ constexpr FieldRow<DeviceInfo> device_flags[] = {
     {"GroupMessaging", &DeviceInfo::group_messaging},
     {"LSS_Supported", &DeviceInfo::lss_supported},
 };
+constexpr std::uint64_t any = ~std::uint64_t{0};  // the range has a rule of its own
 constexpr NumberRow<DeviceCommissioning> commissioning[] = {
+    {{"NodeID", &DeviceCommissioning::node_id}, any},
+    {{"Baudrate", &DeviceCommissioning::baudrate}, any},
     {{"NetNumber", &DeviceCommissioning::net_number}, u32},
     {{"LSS_SerialNumber", &DeviceCommissioning::lss_serial_number}, u32},
 };
+constexpr NumberRow<Module> modules[] = {{{"ProductVersion", &Module::product_version}, 0xFF},
+                                         {{"ProductRevision", &Module::product_revision}, 0xFF}};
 constexpr NumberRow<Entry> entries[] = {
     {{"ObjectType", &Entry::object_type}, 0xFF},
     {{"DataType", &Entry::data_type}, 0xFFFF},
@@ -116,8 +122,19 @@ class Check {
       flag(fmt::format("BaudRate_{}", rate.number), rate.field);
     for (const auto& dummy : file.dummy_usage.entries)
       flag(fmt::format("Dummy{:04X}", dummy.number), dummy.field);
-    rows(file.commissioning, commissioning);
+    // In XML the bit rate has a unit.
+    if (!xml) rows(file.commissioning, commissioning);
     flag("CANopenManager", file.commissioning.canopen_manager);
+    for (const auto& module : file.modules) {
+      rows(module, modules);
+      counted(module.fixed_list);
+      counted(module.extension_list);
+    }
+    for (const auto* list : {&file.supported_modules, &file.connected_modules}) counted(*list);
+    for (const auto& object : file.objects) {
+      const auto& lists = *object.lists.operator->();
+      for (const auto* list : {&lists.names, &lists.values, &lists.denotations, &lists.links}) counted(*list);
+    }
     number("Lines", file.comments.count, 0xFFFF);
     for (const auto* list : {&file.mandatory_objects, &file.optional_objects, &file.manufacturer_objects}) {
       number("SupportedObjects", list->count, 0xFFFF);
@@ -137,6 +154,10 @@ class Check {
   template <typename Section, std::size_t count>
   void rows(const Section& section, const NumberRow<Section> (&table)[count]) {
     for (const auto& row : table) number(row.row.key, section.*row.row.field, row.most);
+  }
+
+  void counted(const NumberedList& list) {
+    if (list.present) number("count", list.count, 0xFFFF, fmt::format("[{}]", list.name));
   }
 
   void flag(std::string_view key, const Field& field, std::string_view where = {}) {

@@ -132,7 +132,9 @@ class Check {
     const auto type = data_type(entry);
     const auto* info = type ? find_type(*type) : nullptr;
     const bool domain = code == ObjectCode::domain || (info != nullptr && info->kind == TypeKind::domain);
-    if (entry.data_type.empty() && code == ObjectCode::var) {
+    // CompactSubObj: the main section says what all its sub-objects are.
+    const bool typed = code == ObjectCode::var || (!spot_.sub && is_structured(spot_.object));
+    if (entry.data_type.empty() && typed) {
       add(no_data_type, entry.data_type, "DataType is missing");
     } else if (type && is_reserved_type(*type)) {
       add(bad_data_type, entry.data_type,
@@ -149,7 +151,7 @@ class Check {
     }
     const auto& word = entry.access_type;
     const auto allowed = access(entry);
-    if (word.empty() && !domain && code == ObjectCode::var) {
+    if (word.empty() && !domain && typed) {
       add(no_access, word, "AccessType is missing");
     } else if (!word.empty() && (!allowed || without_comment(word.text).size() != word.text.size())) {
       // noAccess is how a parameter of CiA 311 says that it is not in the dictionary's reach.

@@ -66,15 +66,20 @@ extern const Group entry_rules;
 
 /// Where an entry stands in the dictionary.
 struct Spot {
+  enum class Kind : std::uint8_t { of_the_device, fixed, extension };
+
   const Object& object;
   std::optional<SubIndex> sub;  ///< nothing: the section of the object itself
   const Entry& entry;
-  [[nodiscard]] std::string name() const { return section_name(object.index, sub); }
+  Kind kind = Kind::of_the_device;
+  std::uint64_t module = 0;  ///< that brings it
+  [[nodiscard]] std::string name() const;
   /// The entry has a value of its own, and is not only the head of a structure.
   [[nodiscard]] bool has_value() const { return sub.has_value() || !is_structured(object); }
 };
 
-/// Everything that sections of objects and sub-objects describe, in ascending order.
+/// Everything that sections of objects and sub-objects describe: those of the device in ascending order, then
+/// those of each module.
 void each_described(const Subject& subject, const std::function<void(const Spot&)>& look);
 
 /// The number that an entry has at power-on: ParameterValue of a DCF before DefaultValue.

@@ -228,6 +228,19 @@ class Check {
   Findings& findings_;
 };
 
+/// [xxxxValue]: the values of the sub-objects that CompactSubObj implies.
+void configured_list(const Subject& subject, const Object& object, Findings& findings) {
+  const auto type = data_type(object.entry);
+  const auto* info = type ? find_type(*type) : nullptr;
+  if (info == nullptr) return;
+  for (const auto& value : object.lists->values.entries) {
+    Entry entry = object.entry;
+    entry.default_value = {};
+    entry.parameter_value = value.field;
+    Check({object, {}, entry}, *info, subject.file.is_xml(), findings).run();
+  }
+}
+
 void check(const Subject& subject, Findings& findings) {
   each_described(subject, [&](const Spot& spot) {
     // The head of a compact array has the values of its sub-objects.
@@ -238,6 +251,7 @@ void check(const Subject& subject, Findings& findings) {
     const auto* info = type ? find_type(*type) : nullptr;
     if (info != nullptr) Check(spot, *info, subject.file.is_xml(), findings).run();
   });
+  for (const auto& object : subject.file.objects) configured_list(subject, object, findings);
   // Texts of the information sections are quoted by the same mistake.
   const auto quotes = [&findings](std::string_view key, const Field& field) {
     if (field.text.starts_with('"'))
