@@ -135,6 +135,20 @@ void each_described(const Subject& subject, const std::function<void(const Spot&
   }
 }
 
+const NumberedField* first_out_of_row(const NumberedList& list) {
+  std::vector<const NumberedField*> entries;
+  entries.reserve(list.entries.size());
+  for (const auto& entry : list.entries) entries.push_back(&entry);
+  std::ranges::stable_sort(entries, {}, &NumberedField::number);
+  std::uint64_t expected = 1;
+  for (const auto* entry : entries) {
+    if (entry->number + 1 == expected) continue;
+    if (entry->number != expected) return entry;
+    ++expected;
+  }
+  return nullptr;
+}
+
 std::string Spot::name() const {
   const auto own = section_name(object.index, sub);
   if (kind == Kind::of_the_device) return own;

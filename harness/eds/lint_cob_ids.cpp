@@ -79,7 +79,12 @@ class Check {
 
   void run() {
     if (!is_structured(object_)) look({object_, {}, object_.entry}, 0);
-    for (const auto& sub : object_.subs) look({object_, sub.sub, sub.entry}, sub.sub.value());
+    bool some = false;
+    for (const auto& sub : object_.subs) {
+      // CompactSubObj makes sub-index 00h by itself, and all others alike: the first speaks for them.
+      if (sub.entry.implied_by.known() && (sub.sub == SubIndex(0) || std::exchange(some, true))) continue;
+      look({object_, sub.sub, sub.entry}, sub.sub.value());
+    }
   }
 
  private:

@@ -117,16 +117,9 @@ void check_kind(const Subject& subject, Findings& findings) {
 }
 
 void check_comments(const NumberedList& comments, Findings& findings) {
-  std::uint64_t expected = 1;
-  for (const auto& line : comments.entries) {
-    if (line.number == expected) {
-      ++expected;
-      continue;
-    }
-    findings.add(comment_numbers, line.field.key_at,
-                 fmt::format("Line{} where Line{} is expected", line.number, expected));
-    return;
-  }
+  if (const auto* line = first_out_of_row(comments))
+    findings.add(comment_numbers, line->field.key_at,
+                 fmt::format("there is Line{}, but one before it is missing", line->number));
 }
 
 void check_place(const DeviceCommissioning& commissioning, Findings& findings) {

@@ -87,17 +87,10 @@ class Check {
                     fmt::format("[{}]: SupportedObjects says {}, but {} objects are listed", list.name,
                                 count.value_or(0), list.entries.size()));
     }
-    std::uint64_t expected = 1;
-    for (const auto& entry : list.entries) {
-      // A number that is there twice has its own finding.
-      if (entry.number + 1 == expected) continue;
-      if (entry.number != expected) {
-        findings_.add(numbering, entry.field.key_at,
-                      fmt::format("[{}]: entry {} where {} is expected", list.name, entry.number, expected));
-        break;
-      }
-      ++expected;
-    }
+    if (const auto* entry = first_out_of_row(list))
+      findings_.add(
+          numbering, entry->field.key_at,
+          fmt::format("[{}]: there is entry {}, but one before it is missing", list.name, entry->number));
     for (const auto& entry : list.entries) {
       const auto index = number_of(entry.field);
       if (index && *index <= 0xFFFF)

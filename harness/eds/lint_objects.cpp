@@ -114,11 +114,18 @@ class Check {
         {"HighLimit", &Entry::high_limit},       {"PDOMapping", &Entry::pdo_mapping}};
     // Without ObjectType it is a variable by mistake, which is said already.
     if (object_code(spot_.entry) == ObjectCode::var) return;
+    std::string keys;
+    const Field* first = nullptr;
     for (const auto& row : rows) {
       const auto& field = spot_.entry.*row.field;
-      if (!field.empty())
-        add(not_for_structure, field, fmt::format("{} belongs to the sub-objects", row.key));
+      // That a structure cannot be mapped is no harm to say.
+      if (field.empty() || (row.key == "PDOMapping" && number_of(field) == 0U)) continue;
+      keys += (first == nullptr ? "" : ", ") + std::string(row.key);
+      if (first == nullptr) first = &field;
     }
+    if (first != nullptr)
+      add(not_for_structure, *first,
+          fmt::format("what the sub-objects have is given for the whole: {}", keys));
   }
 
   void mapping(const Field& field, std::optional<Access> allowed, const TypeInfo* info) {

@@ -30,12 +30,12 @@ constexpr Rule no_period{"EDS445", Severity::warning,
 constexpr const Rule* all[] = {&no_error_control, &missing_sub,  &no_emergency,
                                &no_sync,          &sync_without, &no_period};
 
-/// Sub-indices that are there only while there is something: errors, and modules.
-bool comes_and_goes(Index index) { return index == Index(0x1027); }
+/// Modules come and go; and of 1010h and 1011h CiA 306 itself shows an example without sub-index 01h.
+bool may_lack_subs(Index index) { return index == Index(0x1027) || between(index, 0x1010, 0x1011); }
 
 void check_subs(const Object& object, Findings& findings) {
   // Without any sub-objects there is another finding; so there is where sub-index 00h is missing.
-  if (object.subs.empty() || comes_and_goes(object.index)) return;
+  if (object.subs.empty() || may_lack_subs(object.index)) return;
   for (const auto* row : rows_of(object.index)) {
     const auto sub = SubIndex(row->first_sub);
     if (row->category == Category::optional || row->first_sub == 0 || object.find(sub) != nullptr) continue;

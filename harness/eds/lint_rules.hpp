@@ -64,6 +64,10 @@ extern const Group entry_rules;
   return field.at.known() ? field.at : otherwise;
 }
 
+/// The first entry that is not numbered in a row from 1 on, in whatever order they stand; nullptr when all
+/// are. A number that is there twice has a finding of its own.
+[[nodiscard]] const NumberedField* first_out_of_row(const NumberedList& list);
+
 /// Where an entry stands in the dictionary.
 struct Spot {
   enum class Kind : std::uint8_t { of_the_device, fixed, extension };
