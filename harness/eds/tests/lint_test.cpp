@@ -149,4 +149,24 @@ TEST_CASE("The page of the codes is the one that the program writes") {
   CHECK(content(fs::path(CONFORM_SOURCE_DIR) / "docs/eds-lint.md") == lint_table_markdown());
 }
 
+TEST_CASE("Every message of CANchkEDS has a code that exists, or a reason") {
+  const auto page = content(fs::path(CONFORM_SOURCE_DIR) / "docs/eds-canchkeds.md");
+  std::size_t errors = 0, warnings = 0;
+  for (const auto line : split(page, '\n')) {
+    const bool error = line.starts_with("| error ");
+    if (!error && !line.starts_with("| warning ")) continue;
+    CAPTURE(line);
+    ++(error ? errors : warnings);
+    bool some = line.find("| none: ") != std::string_view::npos;
+    for (auto at = line.find("EDS"); at != std::string_view::npos; at = line.find("EDS", at + 1)) {
+      if (at + 3 >= line.size() || line[at + 3] < '0' || line[at + 3] > '9') continue;  // EDSVersion
+      CHECK(find_rule(line.substr(at, 6)) != nullptr);
+      some = true;
+    }
+    CHECK(some);
+  }
+  CHECK(errors == 59);
+  CHECK(warnings == 15);
+}
+
 }  // namespace
