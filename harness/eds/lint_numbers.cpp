@@ -107,6 +107,14 @@ constexpr NumberRow<Object> objects[] = {
     {{"CompactSubObj", &Object::compact_sub_obj}, 0xFF},
 };
 
+/// Nothing, or a number as the standard writes it and in its range.
+bool is_plain(const Field& field, std::uint64_t most) {
+  if (field.empty()) return true;
+  const auto number = parse_number(field.text);
+  return number && number->odd == Oddities{} && !number->node_id && !number->negative &&
+         number->magnitude <= most;
+}
+
 class Check {
  public:
   Check(const Subject& subject, Findings& findings) : subject_(subject), findings_(findings) {}
@@ -141,11 +149,14 @@ class Check {
       for (const auto& entry : list->entries) number(fmt::format("{}", entry.number), entry.field, 0xFFFF);
     }
     each_described(subject_, [&](const Spot& spot) {
-      for (const auto& row : entries) number(row.row.key, spot.entry.*row.row.field, row.most, spot.name());
-      if (!xml) flag("PDOMapping", spot.entry.pdo_mapping, spot.name());
+      // A dictionary has thousands of entries, nearly all of them right: a name is made only for the others.
+      const auto look = [&](std::string_view key, const Field& field, std::uint64_t most) {
+        if (!is_plain(field, most)) number(key, field, most, spot.name());
+      };
+      for (const auto& row : entries) look(row.row.key, spot.entry.*row.row.field, row.most);
+      if (!xml) look("PDOMapping", spot.entry.pdo_mapping, 1);
       if (!spot.sub) {
-        for (const auto& row : objects)
-          number(row.row.key, spot.object.*row.row.field, row.most, spot.name());
+        for (const auto& row : objects) look(row.row.key, spot.object.*row.row.field, row.most);
       }
     });
   }

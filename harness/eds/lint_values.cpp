@@ -119,7 +119,10 @@ class Check {
     // In XML the words of xsd:boolean are values, too.
     if (const auto flag = flag_of(field); xml_ && type_.kind == TypeKind::boolean && flag)
       return Value{false, *flag ? 1U : 0U};
-    const auto number = read_number(field, label(key), findings_);
+    // A name is made only for what there is something to say of.
+    const auto plain = parse_number(field.text);
+    const auto number =
+        plain && plain->odd == Oddities{} ? std::optional(*plain) : read_number(field, label(key), findings_);
     if (!number) return std::nullopt;
     const auto value = as_value(*number, type_);
     if (!value) {
