@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view compact = "CiA 306, CompactSubObj";
 
-constexpr Rule with_sub_number{"EDS270", Severity::error, "CompactSubObj and SubNumber are both given",
+constexpr Rule with_sub_number{"EDS270", Severity::warning, "CompactSubObj and SubNumber are both given",
                                compact};
 constexpr Rule redundant{"EDS271", Severity::warning,
                          "A sub-object that CompactSubObj implies is described as well", compact};

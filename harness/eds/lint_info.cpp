@@ -36,7 +36,7 @@ constexpr Rule missing_device_entry{"EDS109", Severity::warning,
 constexpr Rule no_baud_rate{"EDS110", Severity::warning, "No bit rate is supported", device_information};
 constexpr Rule odd_baud_rate{"EDS111", Severity::note, "A bit rate is none of those of CiA 301",
                              "CiA 301, 5.3"};
-constexpr Rule comment_count{"EDS112", Severity::error, "Lines is not the number of comment lines",
+constexpr Rule comment_count{"EDS112", Severity::error, "There are fewer comment lines than Lines says",
                              "CiA 306, [Comments]"};
 constexpr Rule no_commissioning{"EDS113", Severity::warning, "A DCF has no [DeviceComissioning]", dcf};
 constexpr Rule bad_node_id{"EDS114", Severity::error, "The node-ID is not in 1 to 127", "CiA 301, 7.2.1"};
@@ -53,11 +53,15 @@ constexpr Rule dynamic_channels{"EDS118", Severity::warning,
 constexpr Rule open_dummy{"EDS119", Severity::warning, "A dummy that is allowed has no fixed length",
                           "CiA 306, [DummyUsage]"};
 
+constexpr Rule more_comments{"EDS120", Severity::warning, "There are more comment lines than Lines says",
+                             "CiA 306, [Comments]"};
+
 constexpr const Rule* all[] = {
     &no_file_info,     &no_device_info, &no_dummy_usage, &no_version,         &bad_version,
     &bad_date,         &bad_time,       &other_name,     &missing_file_entry, &missing_device_entry,
     &no_baud_rate,     &odd_baud_rate,  &comment_count,  &no_commissioning,   &bad_node_id,
-    &unsupported_rate, &reserved_entry, &fine_dummy,     &dynamic_channels,   &open_dummy};
+    &unsupported_rate, &reserved_entry, &fine_dummy,     &dynamic_channels,   &open_dummy,
+    &more_comments};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -222,9 +226,10 @@ void check(const Subject& subject, Findings& findings) {
   if (comments.present) {
     const auto lines = number_of(comments.count);
     if (!comments.count.empty() && !lines) return check_commissioning(file, findings);
-    if (lines.value_or(0) != comments.entries.size())
+    if (comments.count.empty() || lines.value_or(0) != comments.entries.size())
       findings.add(
-          comment_count, place_of(comments.count, comments.at),
+          comments.count.empty() || *lines > comments.entries.size() ? comment_count : more_comments,
+          place_of(comments.count, comments.at),
           fmt::format("Lines says {}, but there are {} lines", lines.value_or(0), comments.entries.size()));
   }
   for (const auto& remark : file.remarks.all()) {

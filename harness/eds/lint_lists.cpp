@@ -22,7 +22,7 @@ constexpr Rule wrong_count{"EDS152", Severity::error, "SupportedObjects is not t
 constexpr Rule numbering{"EDS153", Severity::warning,
                          "The entries of a list are not numbered in a row from 1 on", lists};
 constexpr Rule not_described{"EDS154", Severity::error, "A listed object has no section", lists};
-constexpr Rule not_listed{"EDS155", Severity::error, "A described object is in no list", lists};
+constexpr Rule not_listed{"EDS155", Severity::warning, "A described object is in no list", lists};
 constexpr Rule wrong_list{"EDS156", Severity::error, "An object is in a list for other indices", lists};
 constexpr Rule listed_twice{"EDS157", Severity::error, "An object is listed twice", lists};
 constexpr Rule mandatory_absent{"EDS158", Severity::error,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view mapping_parameter = "CiA 301, 7.5.2.36 and 7.5.2.38";
 
-constexpr Rule gap{"EDS330", Severity::error, "A mapping has a gap", mapping_parameter};
+constexpr Rule gap{"EDS330", Severity::warning, "A mapping has a gap", mapping_parameter};
 constexpr Rule no_object{"EDS331", Severity::error, "A mapped object is not described", mapping_parameter};
 constexpr Rule not_mappable{"EDS332", Severity::error, "A mapped object says that it cannot be mapped",
                             mapping_parameter};
@@ -24,11 +24,11 @@ constexpr Rule wrong_direction{"EDS334", Severity::error,
                                "The access of a mapped object does not fit the direction", mapping_parameter};
 constexpr Rule too_long{"EDS335", Severity::error, "A mapping has more than 64 bits", mapping_parameter};
 constexpr Rule dummy_in_tpdo{"EDS336", Severity::error, "A TPDO maps a dummy", "CiA 301, 7.4.7.3"};
-constexpr Rule dummy_unused{"EDS337", Severity::error,
+constexpr Rule dummy_unused{"EDS337", Severity::warning,
                             "An RPDO maps a dummy that [DummyUsage] does not allow", "CiA 306, [DummyUsage]"};
 constexpr Rule too_many{"EDS338", Severity::error, "More objects are mapped than are described",
                         mapping_parameter};
-constexpr Rule multiplexed{"EDS339", Severity::error, "A multiplexed PDO needs GroupMessaging",
+constexpr Rule multiplexed{"EDS339", Severity::warning, "A multiplexed PDO needs GroupMessaging",
                            "CiA 306, [DeviceInfo]"};
 constexpr Rule valid_but_empty{"EDS340", Severity::note, "A valid PDO maps nothing", mapping_parameter};
 constexpr Rule head_mapped{"EDS341", Severity::error, "A structure is mapped as if it were a variable",

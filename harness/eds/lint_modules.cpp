@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::string_view modules = "CiA 306, modules";
 
-constexpr Rule no_module_list{"EDS420", Severity::error, "1027h exists, but there is no [SupportedModules]",
+constexpr Rule no_module_list{"EDS420", Severity::warning, "1027h exists, but there is no [SupportedModules]",
                               modules};
-constexpr Rule no_1027{"EDS421", Severity::error, "There is [SupportedModules], but 1027h is missing",
+constexpr Rule no_1027{"EDS421", Severity::warning, "There is [SupportedModules], but 1027h is missing",
                        modules};
 constexpr Rule module_count{"EDS422", Severity::error,
                             "A module that NrOfEntries of [SupportedModules] counts is not described",
@@ -42,7 +42,7 @@ constexpr Rule twice{"EDS433", Severity::warning, "A fixed object of a module is
                      modules};
 constexpr Rule connected{"EDS434", Severity::error, "[ConnectedModules] does not fit [SupportedModules]",
                          "CiA 306, DCF of modular devices"};
-constexpr Rule no_objects{"EDS435", Severity::warning, "A module has no objects", modules};
+constexpr Rule no_objects{"EDS435", Severity::note, "A module has no objects", modules};
 
 constexpr const Rule* all[] = {
     &no_module_list,     &no_1027,    &module_count, &no_info,       &beyond,     &list_count,

@@ -22,9 +22,9 @@ constexpr Rule other_type{"EDS230", Severity::error, "An object of CiA 301 has a
                           dictionary};
 constexpr Rule other_code{"EDS231", Severity::warning, "An object of CiA 301 has another object code",
                           dictionary};
-constexpr Rule too_open{"EDS232", Severity::warning, "An object of CiA 301 that is read-only can be written",
+constexpr Rule too_open{"EDS232", Severity::error, "An object of CiA 301 that is read-only can be written",
                         dictionary};
-constexpr Rule not_readable{"EDS233", Severity::warning, "An object of CiA 301 cannot be read", dictionary};
+constexpr Rule not_readable{"EDS233", Severity::error, "An object of CiA 301 cannot be read", dictionary};
 constexpr Rule mappable{"EDS234", Severity::error, "An object that CiA 301 keeps out of PDOs can be mapped",
                         dictionary};
 constexpr Rule half_guarding{"EDS235", Severity::error, "Of guard time and life time factor one is missing",

@@ -16,7 +16,7 @@ constexpr std::string_view sub_index_zero = "CiA 301, 7.4.8";
 
 constexpr Rule no_subs{"EDS250", Severity::error, "An array or record has no sub-objects", structures};
 constexpr Rule no_sub_zero{"EDS251", Severity::error, "Sub-index 00h is missing", sub_index_zero};
-constexpr Rule wrong_sub_number{"EDS252", Severity::error, "SubNumber is not the number of sub-objects",
+constexpr Rule wrong_sub_number{"EDS252", Severity::error, "There are fewer sub-objects than SubNumber says",
                                 structures};
 constexpr Rule no_sub_number{"EDS253", Severity::error, "An array or record has no SubNumber", structures};
 constexpr Rule not_the_highest{"EDS254", Severity::error,
@@ -43,6 +43,9 @@ constexpr Rule modular_count{"EDS262", Severity::warning,
                              "Sub-index 00h of a modular device is not the highest sub-index described",
                              sub_index_zero};
 
+constexpr Rule more_subs{"EDS263", Severity::warning, "There are more sub-objects than SubNumber says",
+                         structures};
+
 constexpr const Rule* all[] = {&no_subs,
                                &no_sub_zero,
                                &wrong_sub_number,
@@ -55,7 +58,8 @@ constexpr const Rule* all[] = {&no_subs,
                                &nested,
                                &below_the_highest,
                                &profile_types,
-                               &modular_count};
+                               &modular_count,
+                               &more_subs};
 
 class Check {
  public:
@@ -95,7 +99,7 @@ class Check {
                  fmt::format("SubNumber is missing; there are {} sub-objects", described));
     const auto said = number_of(object_.sub_number);
     if (said && *said != described)
-      add(wrong_sub_number, object_.sub_number.at,
+      add(*said > described ? wrong_sub_number : more_subs, object_.sub_number.at,
           fmt::format("SubNumber says {}, but there are {} sub-objects", *said, described));
   }
 

@@ -18,7 +18,7 @@ constexpr std::string_view limits = "CiA 306, LowLimit and HighLimit";
 
 constexpr Rule value_range{"EDS070", Severity::error, "A value does not fit into its data type", values};
 constexpr Rule limit_range{"EDS071", Severity::error, "A limit does not fit into the data type", limits};
-constexpr Rule outside_limits{"EDS072", Severity::warning, "A value is outside the limits", limits};
+constexpr Rule outside_limits{"EDS072", Severity::error, "A value is outside the limits", limits};
 constexpr Rule limits_crossed{"EDS073", Severity::error, "LowLimit is above HighLimit", limits};
 constexpr Rule twos_complement{"EDS074", Severity::note,
                                "A negative value is written as the bits of its two's complement", values};
