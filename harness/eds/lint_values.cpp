@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <ranges>
 
 #include "base/text.hpp"
 #include "eds/lint_numbers.hpp"
@@ -236,9 +237,14 @@ void configured_list(const Subject& subject, const Object& object, Findings& fin
   const auto type = data_type(object.entry);
   const auto* info = type ? find_type(*type) : nullptr;
   if (info == nullptr) return;
-  for (const auto& value : object.lists->values.entries) {
-    Entry entry = object.entry;
-    entry.default_value = {};
+  // No more than there can be sub-indices, and the limits only as long as numbers are: a hostile file has
+  // both.
+  constexpr std::size_t most = 254, longest = 64;
+  Entry entry;
+  entry.at = object.entry.at;
+  if (object.entry.low_limit.text.size() <= longest) entry.low_limit = object.entry.low_limit;
+  if (object.entry.high_limit.text.size() <= longest) entry.high_limit = object.entry.high_limit;
+  for (const auto& value : object.lists->values.entries | std::views::take(most)) {
     entry.parameter_value = value.field;
     Check({object, {}, entry}, *info, subject.file.is_xml(), findings).run();
   }
