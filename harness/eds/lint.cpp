@@ -139,7 +139,8 @@ const NumberedField* first_out_of_row(const NumberedList& list) {
   std::vector<const NumberedField*> entries;
   entries.reserve(list.entries.size());
   for (const auto& entry : list.entries) entries.push_back(&entry);
-  std::ranges::stable_sort(entries, {}, &NumberedField::number);
+  std::ranges::sort(entries, {},
+                    [](const auto* entry) { return std::tie(entry->number, entry->field.key_at); });
   std::uint64_t expected = 1;
   for (const auto* entry : entries) {
     if (entry->number + 1 == expected) continue;

@@ -46,7 +46,7 @@ struct StandardRow {
   [[nodiscard]] bool has(StandardFlag flag) const { return (flags & static_cast<unsigned>(flag)) != 0; }
 };
 
-/// Ascending by first index, those of one index by sub-index.
+/// By index; of the PDO parameters those that all have in common stand beside those of PDO 1 to 4.
 [[nodiscard]] std::span<const StandardRow> standard_rows();
 /// nullptr where the standard defines nothing.
 [[nodiscard]] const StandardRow* find_standard_row(Multiplexer mux);

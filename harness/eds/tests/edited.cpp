@@ -26,9 +26,10 @@ std::string unescaped(std::string_view text) {
       std::size_t count = 0;
       const auto* begin = text.data() + i + 1;
       const auto [end, error] = std::from_chars(begin, text.data() + text.size(), count);
-      if (error == std::errc() && std::string_view(end, 2) == "x}") {
+      const auto after = static_cast<std::size_t>(end - text.data());
+      if (error == std::errc() && text.substr(after).starts_with("x}")) {
         out.append(count, 'x');
-        i = static_cast<std::size_t>(end - text.data()) + 1;
+        i = after + 1;
         continue;
       }
     }
