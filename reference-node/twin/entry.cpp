@@ -191,8 +191,18 @@ Bytes TwinEntryMaker::silent_value(const Job& job, const Entry& entry) const {
     }
     return conform::to_le(highest, size);
   }
+  if (const auto identity = identity_value(job, entry.type)) return conform::to_le(*identity, size);
   if (const auto usual = usual_value(job.index, job.sub, node_id_)) return conform::to_le(*usual, size);
   return conform::to_le(static_cast<std::uint64_t>(nearest_to_zero(entry.type, entry.low, entry.high)), size);
+}
+
+std::optional<std::uint64_t> TwinEntryMaker::identity_value(const Job& job, DataType type) const {
+  constexpr std::uint16_t identity = 0x1018;
+  if (job.index != identity || job.sub < 1 || job.sub > 3) return std::nullopt;
+  const eds::Field* fields[] = {&info_->vendor_number, &info_->product_number, &info_->revision_number};
+  const auto value = eds::number_of(*fields[job.sub - 1]);
+  const bool fits = value && (fixed_size(type) == 8 || *value >> (8 * fixed_size(type)) == 0);
+  return fits ? value : std::nullopt;
 }
 
 void TwinEntryMaker::set_value(const Job& job, Entry& entry) {

@@ -17,7 +17,9 @@ namespace refnode {
 
 class TwinEntryMaker {
  public:
-  TwinEntryMaker(std::uint8_t node_id, TwinRemarks& remarks) : node_id_(node_id), remarks_(&remarks) {}
+  /// `info` of the same file says who the device is where 1018h does not; it must outlive the maker.
+  TwinEntryMaker(std::uint8_t node_id, const conform::eds::DeviceInfo& info, TwinRemarks& remarks)
+      : node_id_(node_id), info_(&info), remarks_(&remarks) {}
 
   /// `object` is the one that holds the entry. `is_sub`: the entry is described as a sub-index.
   [[nodiscard]] Entry make(const conform::eds::Object& object, std::uint8_t sub,
@@ -40,6 +42,8 @@ class TwinEntryMaker {
   void look_at_service(const Job& job, const Entry& entry, conform::eds::Position at);
   /// The value of an entry of which the file says nothing.
   [[nodiscard]] Bytes silent_value(const Job& job, const Entry& entry) const;
+  /// What [DeviceInfo] says of the vendor, the product and its revision (1018h:01 to 03).
+  [[nodiscard]] std::optional<std::uint64_t> identity_value(const Job& job, DataType type) const;
   /// A limit that is missing or cannot be understood is none.
   template <typename Value, typename Read>
   void take_limits(const Job& job, DataType type, const Read& read, std::optional<Value>& low,
@@ -48,6 +52,7 @@ class TwinEntryMaker {
   void remark(const Job& job, conform::eds::Position at, std::string_view topic, std::string_view text);
 
   std::uint8_t node_id_;
+  const conform::eds::DeviceInfo* info_;
   TwinRemarks* remarks_;
   std::set<std::tuple<conform::eds::Position, std::string>> remarked_;
 };

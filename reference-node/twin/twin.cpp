@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "eds/expand.hpp"
 #include "twin/entry.hpp"
+#include "twin/usual.hpp"
 
 namespace refnode {
 
@@ -20,7 +21,7 @@ namespace {
 class TwinMaker {
  public:
   TwinMaker(const eds::EdsFile& file, std::uint8_t node_id)
-      : file_(&file), entries_(node_id, twin_.remarks) {}
+      : file_(&file), entries_(node_id, file.device_info, twin_.remarks) {}
   TwinMaker(const TwinMaker&) = delete;  // the maker of entries points here
   TwinMaker& operator=(const TwinMaker&) = delete;
 
@@ -59,6 +60,24 @@ class TwinMaker {
     made.kind = code == eds::ObjectCode::array ? ObjectKind::array : ObjectKind::record;
     for (const auto& [sub, entry] : object.subs) add_entry(made, object, sub.value(), entry, true);
     if (object.subs.empty()) remark(object, object.entry.at, "no sub-index is described");
+    if (object.entry.implied_by.known() && is_pdo_mapping(index)) add_mapping(made);
+  }
+
+  /// CompactPDO says nothing of the entries of a mapping, but without them a PDO could carry nothing: there
+  /// are as many as the granularity lets into a PDO.
+  void add_mapping(Object& to) {
+    constexpr std::uint64_t bits_of_pdo = 64, usual = 8;
+    const auto bits = eds::number_of(file_->device_info.granularity).value_or(usual);
+    const auto entries = bits_of_pdo / (bits >= 1 && bits <= bits_of_pdo ? bits : usual);
+    for (std::uint64_t sub = 1; sub <= entries && count_ < most_twin_entries; ++sub) {
+      ++count_;
+      Entry entry;
+      entry.name = fmt::format("Mapped object {}", sub);
+      entry.type = DataType::unsigned32;
+      entry.access = Access::rw;
+      entry.value = entry.default_value = Bytes(fixed_size(entry.type), 0);
+      to.entries.emplace(static_cast<std::uint8_t>(sub), std::move(entry));
+    }
   }
 
   void add_entry(Object& to, const eds::Object& object, std::uint8_t sub, const eds::Entry& from,

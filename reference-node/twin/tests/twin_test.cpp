@@ -91,6 +91,52 @@ TEST_CASE("A device that is described as it should not be is as described") {
   CHECK(bench.sdo("40 01 10 00 00 00 00 00") == "43 01 10 00 00 00 00 00");
 }
 
+TEST_CASE("An identity without values of its own is that of DeviceInfo") {
+  const std::string info =
+      "[DeviceInfo]\nVendorNumber=0x1234\nProductNumber=77\nRevisionNumber=0x00010002\n\n";
+  const std::string object = record("1018") + entry("1018sub0", u8, "const", "4");
+  const auto number = [](const std::string& text, std::uint8_t sub) {
+    const auto twin = twin_of(text);
+    CHECK(twin.remarks.all().empty());
+    return twin.objects.at(0x1018).entries.at(sub).number();
+  };
+  std::string silent = info + object, own = info + object;
+  for (const char* sub : {"1", "2", "3", "4"}) {
+    silent += entry("1018sub" + std::string(sub), u32, "ro", "");
+    own += entry("1018sub" + std::string(sub), u32, "ro", std::string("9") + sub);
+  }
+  CHECK(number(silent, 1) == 0x1234);
+  CHECK(number(silent, 2) == 77);
+  CHECK(number(silent, 3) == 0x0001'0002);
+  CHECK(number(silent, 4) == 0);  // each device has its own serial number
+  CHECK(number(own, 1) == 91);
+  CHECK(number(own, 3) == 93);
+  CHECK(number(object + entry("1018sub1", u32, "ro", ""), 1) == 0);
+}
+
+TEST_CASE("PDOs that CompactPDO implies can be mapped and carry what is mapped") {
+  const auto info = [](const std::string& granularity) {
+    return "[DeviceInfo]\nCompactPDO=0x03\nNrOfRXPDO=1\nNrOfTXPDO=0\n" + granularity + "\n";
+  };
+  const auto last = [&](const std::string& granularity) {
+    return twin_of(info(granularity) + identity).objects.at(0x1600).entries.rbegin()->first;
+  };
+  CHECK(last("Granularity=16\n") == 4);
+  CHECK(last("Granularity=1\n") == 64);
+  CHECK(last("Granularity=0\n") == 8);
+  CHECK(last("") == 8);
+  Bench bench(described(info("Granularity=8\n") + identity + process));
+  bench.wait(100ms);
+  CHECK(bench.sdo("40 00 16 00 00 00 00 00") == "4F 00 16 00 00 00 00 00");
+  CHECK(bench.sdo("23 00 14 01 05 02 00 80") == "60 00 14 01 00 00 00 00");
+  CHECK(bench.sdo("23 00 16 01 20 00 00 62") == "60 00 16 01 00 00 00 00");
+  CHECK(bench.sdo("2F 00 16 00 01 00 00 00") == "60 00 16 00 00 00 00 00");
+  CHECK(bench.sdo("23 00 14 01 05 02 00 00") == "60 00 14 01 00 00 00 00");
+  bench.send("000: 01 05");
+  bench.send("205: 11 22 33 44");
+  CHECK(bench.sdo("40 00 62 00 00 00 00 00") == "43 00 62 00 11 22 33 44");
+}
+
 TEST_CASE("LSS is there where the description says so, and moves what adds the node-ID, nothing else") {
   const auto text = identity + entry("1014", u32, "rw", "$NODEID+0x80") + entry("1200", u32, "ro", "0x605");
   Bench without(described(text));
