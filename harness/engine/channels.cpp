@@ -23,9 +23,9 @@ void Channels::note(const scenario::Scenario& scenario, const result::CaseResult
       return each.verdict == Verdict::fail || each.verdict == Verdict::waived;
     });
     if (failed != result.judgements.end()) {
-      broken_[channel] = {failed->requirement, result.name()};
+      broken_[channel] = {failed->requirement, result.name(), channel == steps::channel::device_type};
     } else if (result.verdict == Verdict::inconclusive && !result.rests_on.empty()) {
-      broken_[channel] = {result.rests_on, result.name()};
+      broken_[channel] = {result.rests_on, result.name(), false};
     }
   }
 }

@@ -16,6 +16,9 @@ class Channels {
   /// A channel that failed, with the requirement that says so and the case.
   struct Broken {
     std::string requirement, in;
+    /// The device lacks the object that is looked through: what rests on it does not apply. What else is
+    /// wrong with a channel leaves open what would have been seen.
+    bool absent = false;
   };
 
   /// nullptr: whatever the scenario rests on holds, as far as is known.

@@ -159,7 +159,7 @@ class Run {
       if (mute_ && !scenario.basic) continue;
       if (const auto* broken = channels_.broken_for(scenario)) {
         // It costs no bus time: whatever came would say nothing.
-        result.verdict = Verdict::inconclusive;
+        result.verdict = broken->absent ? Verdict::not_applicable : Verdict::inconclusive;
         result.rests_on = broken->requirement;
         result.reason = "rests on " + broken->requirement + ", which failed in " + broken->in;
         end_unplayed(result, i);
