@@ -256,6 +256,18 @@ Result<bool> RunSession::has_variable_mapping(Multiplexer object) {
       why = to_string(part) + " is " + grounds(steps::Asked::writing, part);
       return false;
     }
+    // Nor can it be mapped anew where a part is missing: entries to write, or the COB-ID to switch it off by.
+    const auto* number = entry(count);
+    if (number == nullptr || !number->described) return true;
+    for (const auto part : {Multiplexer{*pdo, SubIndex(1)}, Multiplexer{count.index, SubIndex(1)}}) {
+      const auto* found = entry(part);
+      if (found != nullptr && found->described) continue;
+      const auto present = is_present(part, false);
+      if (!present) return std::unexpected(present.error());
+      if (*present) continue;
+      why = to_string(part) + " is neither described nor there";
+      return false;
+    }
     return true;
   }
   if (profile_.not_claimed.contains(feature)) {
