@@ -129,7 +129,7 @@ class Describer {
       entry.low.reset();
       entry.high.reset();
     }
-    read_default(described.default_value, entry);
+    read_default(described, entry);
     // rwr and rww tell into which PDOs, PDOMapping whether at all; without it the words are enough.
     if (!described.pdo_mapping.empty()) {
       entry.pdo_mappable = eds::pdo_mapping(described) != eds::PdoMapping::no;
@@ -185,13 +185,16 @@ class Describer {
     return std::nullopt;
   }
 
-  void read_default(const eds::Field& field, Entry& entry) {
+  void read_default(const eds::Entry& described, Entry& entry) {
+    const bool configured = !described.parameter_value.empty();
+    const auto& field = configured ? described.parameter_value : described.default_value;
     entry.declared_default = false;
     if (field.empty() || entry.type == DataType::domain) return;
     auto value = read_described_value(entry.type, field.text);
     if (!value) {
-      unused(field.at, fmt::format("the default of {}, '{}', {}: it is not compared", to_string(entry.mux),
-                                   printable(eds::shortened(field.text)), value.error().what));
+      unused(field.at,
+             fmt::format("the {} of {}, '{}', {}: it is not compared", configured ? "value" : "default",
+                         to_string(entry.mux), printable(eds::shortened(field.text)), value.error().what));
       return;
     }
     entry.default_value = std::move(value->bytes);
@@ -229,6 +232,13 @@ class Describer {
         out_.info.bit_rates.push_back(static_cast<std::uint32_t>(rate));
     }
     std::ranges::sort(out_.info.bit_rates);
+    const auto tells = [this](const char* words, const eds::Field& field) {
+      if (field.present) out_.places.info.emplace(words, place(field.at));
+    };
+    tells("profile.rpdos", info.nr_of_rx_pdo);
+    tells("profile.tpdos", info.nr_of_tx_pdo);
+    tells("profile.lss", info.lss_supported);
+    if (!info.baud_rates.empty()) tells("bus bit rate", info.baud_rates.front().field);
   }
 
   [[nodiscard]] std::string place(eds::Position at) const {

@@ -44,8 +44,8 @@ struct Description {
 /// Defaults are compared with the device where they have one meaning: numbers in every notation, formulas of
 /// $NODEID, REAL as a decimal number or as the bits in hexadecimal, VISIBLE_STRING as it stands, OCTET_STRING
 /// as pairs of digits. Of a type that is none of the basic ones (7.4.7.1) only the presence and the access
-/// are claimed. ObjFlags keep the suite off entries that CiA 301 does not define. DCF: ParameterValue is what
-/// somebody downloads later, so the DefaultValue counts.
+/// are claimed. ObjFlags keep the suite off entries that CiA 301 does not define. DCF: where there is a
+/// ParameterValue, it is what the device is configured to, and counts in the place of the DefaultValue.
 [[nodiscard]] Result<Description> describe(const eds::EdsFile& file);
 
 /// Lays the description under the profile: what the profile lists itself is closer to the device. The claims

@@ -71,6 +71,8 @@ struct StoreFault {
 struct DescribedPlaces {
   std::map<Index, std::string> objects;
   std::map<Multiplexer, std::string> entries;
+  /// Of [DeviceInfo], by the words of the conditions that ask for it: "profile.rpdos", "bus bit rate".
+  std::map<std::string, std::string> info;
 };
 
 /// Wanted content of 1018h; what is absent is not compared.

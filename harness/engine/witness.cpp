@@ -148,6 +148,12 @@ std::string Witness::declared_at(const Step& step, const Actual& actual) const {
     auto place = session_.profile().place_of(mux);
     if (std::ranges::find(places, place) == places.end()) places.push_back(std::move(place));
   }
+  if (places.empty()) {
+    const auto words = step.action->words(session_);
+    for (const auto& [asked, place] : session_.profile().described_places.info) {
+      if (words.contains(asked)) places.push_back(place);
+    }
+  }
   return join(places, "; ");
 }
 

@@ -37,6 +37,11 @@ Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profil
   if (!node) return std::unexpected(node.error());
   can::SimulatedBus::Options bus_options;
   bus_options.seed = seed;
+  // A twin is on a bus that its device is for.
+  const auto& rates = profile.device_info.bit_rates;
+  const auto usual = bus_options.bit_rate / 1000;
+  if (switches.description && !rates.empty() && !std::ranges::binary_search(rates, usual))
+    bus_options.bit_rate = rates.back() * 1000;
   can::SimulatedBus bus(bus_options);
   bus.attach(**node, "reference node");
   options.plan.seed = seed;

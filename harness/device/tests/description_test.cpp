@@ -253,6 +253,22 @@ TEST_CASE("A DCF names the node-ID") {
         NodeId(16));
 }
 
+TEST_CASE("What a DCF configures is expected in the place of the default") {
+  const auto description = described("[DeviceComissioning]\nNodeID=5\n" +
+                                         variable("2000", "5", "rw", "DefaultValue=1\nParameterValue=0x2\n") +
+                                         variable("2001", "5", "rw", "DefaultValue=1\nParameterValue=\n") +
+                                         variable("2002", "7", "rw", "ParameterValue=$NODEID+0x80\n") +
+                                         variable("2003", "5", "rw", "DefaultValue=1\nParameterValue=x\n"),
+                                     "a.dcf");
+  CHECK(entry_of(description, 0x2000, 0).default_value == Bytes{2});
+  CHECK(entry_of(description, 0x2001, 0).default_value == Bytes{1});
+  CHECK(entry_of(description, 0x2002, 0).default_adds_node_id);
+  CHECK_FALSE(entry_of(description, 0x2003, 0).declared_default);
+  REQUIRE(description.unused.size() == 1);
+  CHECK(description.unused[0].what ==
+        "the value of 2003h:00, 'x', is no value of UNSIGNED8: it is no number: it is not compared");
+}
+
 TEST_CASE("[DeviceInfo] tells how many PDOs there are, whether there is LSS, and the bit rates") {
   const auto info = described("[DeviceInfo]\nNrOfRXPDO=2\nNrOfTXPDO=0x3\nLSS_Supported=0\nBaudRate_500=1\n"
                               "BaudRate_250=0\nBaudRate_125=1\n")
