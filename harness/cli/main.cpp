@@ -49,6 +49,8 @@ struct EdsOptions {
         ->type_name("BEFORE");
     diff_sub->add_option("after", diff.after, "Device description of after")->required()->type_name("AFTER");
     format(diff_sub, diff.format, {"text", "json"}, "Output: text or json");
+    diff_sub->add_flag("--file-info", diff.file_info,
+                       "What only describes the file counts, too: [FileInfo] and [Comments]");
   }
 
   [[nodiscard]] int run() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changed between two descriptions, for example of two firmware versions.
+// What differs between two descriptions, of whatever format.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,20 @@ struct Difference {
   Position at_after;
 };
 
-/// Compares what the files say about the device: information, dummies, commissioning, and the dictionary in
-/// full with what is implied. 0x7 and 7 are the same, so are an empty and a missing entry; [FileInfo],
-/// comments, names of modules and the order of sections do not count. Fails as expand() does.
+struct Comparison {
+  std::vector<Difference> of_device;  ///< information, dummies, commissioning and the dictionary in full
+  std::vector<Difference> of_file;    ///< [FileInfo] and [Comments]: who wrote it, when, under which name
+  /// What one of the two formats has no room for, so that nothing is known of a change.
+  std::vector<Difference> unsayable;
+};
+
+/// Compares what the files say, with what is implied: values by their data type (same_value.hpp), an empty
+/// and a missing entry are the same, so are the words of EDS and XDD for one thing (`rwr` mapped, and `rw`
+/// mapped as TPDO). The order of sections, and between two files of CiA 306 their modules, do not count.
+/// Fails as expand() does.
+[[nodiscard]] Result<Comparison> compare_in_full(const EdsFile& before, const EdsFile& after);
+
+/// compare_in_full(), of the device alone.
 [[nodiscard]] Result<std::vector<Difference>> compare(const EdsFile& before, const EdsFile& after);
 
 }  // namespace conform::eds

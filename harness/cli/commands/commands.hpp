@@ -105,7 +105,6 @@ struct WaiveCommand {
 struct CompareCommand {
   std::string before, after;    ///< result.json or journal
   std::string format = "text";  ///< text, markdown, json
-  std::string html;             ///< file of the page, beside what is printed; empty: none
   bool strict = false;          ///< new warnings are worse
   std::string color = "auto";
 };
@@ -205,6 +204,7 @@ struct EdsShowCommand {
 struct EdsDiffCommand {
   std::string before, after;
   std::string format = "text";  ///< text, json
+  bool file_info = false;       ///< what only describes the file counts, too
 };
 /// 0: they say the same; 1: they do not.
 [[nodiscard]] int eds_diff_command(const EdsDiffCommand& options);
@@ -243,7 +243,6 @@ struct SelftestCommand {
   bool quick = false;               ///< with mutants: without the scenarios that take long
   unsigned jobs = 0;                ///< 0: the machine's cores
   std::string markdown;             ///< file for docs/proof.md, with mutants for docs/mutants.md
-  std::string html;                 ///< file of the page
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);
 /// Its --mutants; what became of them is added to the proof.

@@ -166,9 +166,9 @@ class Descriptions(unittest.TestCase):
         done = run("diff", good, good)
         self.assertEqual((done.returncode, done.stdout), (0, "no differences\n"))
         done = run("diff", good, fixture("bad-value-range.eds"))
-        self.assertEqual((done.returncode, done.stdout), (1, "+ 2000h Value\n1 difference\n"))
+        self.assertEqual((done.returncode, done.stdout), (1, "+ 2000h Value\n1 difference, and 1 in what only describes the file (--file-info)\n"))
         done = run("diff", fixture("bad-value-range.eds"), fixture("bad-incomplete.eds"))
-        self.assertEqual(done.stdout, "+ 1019h Synchronous counter overflow\n- 2000h Value\n2 differences\n")
+        self.assertEqual(done.stdout, "+ 1019h Synchronous counter overflow\n- 2000h Value\n2 differences, and 1 in what only describes the file (--file-info)\n")
         done = run("diff", "-f", "json", good, fixture("bad-vendor.eds"))
         (change,) = json.loads(done.stdout)["differences"]
         self.assertEqual((change["kind"], change["key"], change["before"], change["after"]), ("changed", "VendorNumber", "0x1F", "0x20"))
