@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -159,6 +160,14 @@ struct Module {
 enum class Format : std::uint8_t { eds, dcf, xdd, xdc };
 [[nodiscard]] std::string_view to_string(Format format);
 
+/// Something that the file says and this model has no place for: `[Tools]`, a list of LEDs. It is lost where
+/// the model is written in another format.
+struct Unmodelled {
+  std::string what;  ///< of the file: "[Tools]", "DeviceManager/indicatorList"
+  Position at;       ///< of the first
+  std::size_t count = 1;
+};
+
 struct EdsFile {
   std::string name;  ///< as the user wrote it
   Format format = Format::eds;
@@ -173,6 +182,7 @@ struct EdsFile {
   NumberedList supported_modules;  ///< a count alone: the modules follow as sections
   NumberedList connected_modules;  ///< DCF: numbers of supported modules, in the order of the slots
   std::vector<Module> modules;     ///< ascending by number
+  std::vector<Unmodelled> unmodelled;
   Remarks remarks;
 
   [[nodiscard]] bool is_xml() const { return format == Format::xdd || format == Format::xdc; }

@@ -210,10 +210,10 @@ class Reader {
         return;
       case SectionKind::dynamic_channels:
         out_.dynamic_channels = section.at;
-        taker.rest_is_known();
+        not_modelled(taker, section);
         break;
       case SectionKind::tools:
-      case SectionKind::module_comments: taker.rest_is_known(); break;
+      case SectionKind::module_comments: not_modelled(taker, section); break;
       case SectionKind::file_info: info(taker, section, out_.file_info, file_info_fields); break;
       case SectionKind::device_info:
         info(taker, section, out_.device_info, device_info_fields);
@@ -272,6 +272,11 @@ class Reader {
     into.present = true;
     taker.field(count, into.count);
     taker.numbers(prefix, into.entries);
+  }
+
+  void not_modelled(Taker& taker, const IniSection& section) {
+    taker.rest_is_known();
+    out_.unmodelled.push_back({"[" + shortened(section.name) + "]", section.at});
   }
 
   void commissioning(Taker& taker, const IniSection& section) {

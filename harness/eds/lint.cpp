@@ -20,7 +20,7 @@ namespace {
 constexpr std::array groups = {
     &structure_rules,  &number_rules,     &value_rules,   &info_rules,  &list_rules,    &object_rules,
     &predefined_rules, &sub_object_rules, &compact_rules, &pdo_rules,   &mapping_rules, &identity_rules,
-    &module_rules,     &presence_rules,   &cob_id_rules,  &entry_rules,
+    &module_rules,     &presence_rules,   &cob_id_rules,  &entry_rules, &xdd_rules,
 };
 
 std::vector<RuleGroup> tables() {

@@ -55,6 +55,7 @@ extern const Group module_rules;
 extern const Group presence_rules;
 extern const Group cob_id_rules;
 extern const Group entry_rules;
+extern const Group xdd_rules;
 
 /// "[1018]" or "[1018sub1]": a section as the standard spells it.
 [[nodiscard]] std::string section_name(Index index, std::optional<SubIndex> sub = {});

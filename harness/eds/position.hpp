@@ -59,6 +59,14 @@ enum class Deviation : std::uint8_t {
   xml_unknown_reference,
   xml_duplicate_object,
   xml_unknown_mapping,
+  xml_unknown_element,
+  xml_order,
+  xml_missing_element,
+  xml_unknown_attribute,
+  xml_missing_attribute,
+  xml_bad_value,
+  xml_namespace,
+  xml_qualified,
 };
 
 /// One deviation. `detail` is the text in question (raw bytes of the file, shortened).
@@ -75,7 +83,9 @@ class Remarks {
  public:
   static constexpr std::size_t most_of_a_kind = 1000;
 
-  void add(Deviation what, Position at, std::string_view detail = {}, Position first = {});
+  /// At most `most` bytes of the detail are kept.
+  void add(Deviation what, Position at, std::string_view detail = {}, Position first = {},
+           std::size_t most = 60);
   [[nodiscard]] const std::vector<Remark>& all() const { return all_; }
   [[nodiscard]] std::size_t left_out() const { return left_out_; }
 

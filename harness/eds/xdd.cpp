@@ -9,10 +9,14 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "base/text.hpp"
+#include "eds/convert/xdd_types.hpp"
 #include "eds/ini_file.hpp"
+#include "eds/xdd_extras.hpp"
+#include "eds/xdd_structure.hpp"
 #include "eds/xml_text.hpp"
 
 namespace conform::eds {
@@ -21,27 +25,14 @@ namespace {
 constexpr std::ptrdiff_t most_tags = 1'000'000;  // pugixml takes some 100 bytes for each
 constexpr unsigned deepest = 64;                 // the schema needs about ten
 
-struct TypeName {
-  std::string_view element;
-  std::string_view data_type;
-};
-/// The elementary types of CiA 311 and the CANopen type that carries them.
-constexpr TypeName type_names[] = {
-    {"BOOL", "0x0001"},    {"SINT", "0x0002"},  {"INT", "0x0003"},       {"DINT", "0x0004"},
-    {"LINT", "0x0015"},    {"USINT", "0x0005"}, {"UINT", "0x0006"},      {"UDINT", "0x0007"},
-    {"ULINT", "0x001B"},   {"BYTE", "0x0005"},  {"WORD", "0x0006"},      {"DWORD", "0x0007"},
-    {"LWORD", "0x001B"},   {"REAL", "0x0008"},  {"LREAL", "0x0011"},     {"STRING", "0x0009"},
-    {"WSTRING", "0x000B"}, {"CHAR", "0x0005"},  {"BITSTRING", "0x000A"},
-};
-
 struct AccessName {
   std::string_view attribute;
   std::string_view access;
 };
-/// The access of a parameter.
+/// The access of a parameter. A process input is read from the bus (rwr), a process output written (rww).
 constexpr AccessName access_names[] = {
     {"read", "ro"},           {"write", "wo"},           {"readWrite", "rw"},
-    {"const", "const"},       {"readWriteInput", "rww"}, {"readWriteOutput", "rwr"},
+    {"const", "const"},       {"readWriteInput", "rwr"}, {"readWriteOutput", "rww"},
     {"noAccess", "noAccess"},
 };
 
@@ -63,7 +54,7 @@ Field with_hex_prefix(Field field) {
 
 class XddReader {
  public:
-  XddReader(std::string_view bytes, std::string name) : bytes_(bytes), text_(bytes) {
+  XddReader(std::string_view bytes, std::string name) : bytes_(bytes), text_(bytes), extras_(text_) {
     out_.name = std::move(name);
   }
 
@@ -87,6 +78,11 @@ class XddReader {
     if (!visit(root, 0)) return std::unexpected(*refused_);
     for (const auto& list : object_lists_) read_objects(list);
     if (object_lists_.empty()) out_.remarks.add(Deviation::xml_no_object_list, text_.position(root));
+    for (const auto& [id, node] : by_id_) {
+      if (local_name(node) == "parameter" && !referred_.contains(id)) extras_.note("parameter", node);
+    }
+    out_.unmodelled = extras_.take();
+    check_xdd_structure(root, text_, out_.remarks);
     out_.format = is_xdc() ? Format::xdc : Format::xdd;
     return std::move(out_);
   }
@@ -121,6 +117,7 @@ class XddReader {
     if (name == "CANopenMasterFeatures")
       keep(out_.device_info.simple_boot_up_master, text_.attribute(node, "bootUpMaster"));
     if (name == "deviceCommissioning") commissioning(node);
+    extras_.look(node);
     return std::ranges::all_of(node.children(),
                                [&](const pugi::xml_node& each) { return visit(each, depth + 1); });
   }
@@ -157,6 +154,10 @@ class XddReader {
     keep(info.product_name, text_.content(child(node, "productName")));
     keep(info.product_number, text_.content(child(node, "productID")));
     keep(info.order_code, text_.content(child(node, "orderNumber")));
+    // No elements of CiA 311, but of CANopenEditor.
+    keep(info.revision_number, text_.content(child(node, "revisionNumber")));
+    keep(info.order_code, text_.content(child(node, "orderCode")));
+    keep(out_.file_info.description, text_.content(child(child(node, "productText"), "description")));
   }
 
   void general_features(const pugi::xml_node& node) {
@@ -176,10 +177,18 @@ class XddReader {
     found(info, node);
     keep(info.node_id, text_.attribute(node, "nodeID"));
     keep(info.node_name, text_.attribute(node, "nodeName"));
-    keep(info.baudrate, text_.attribute(node, "actualBaudRate"));
+    keep(info.baudrate, kbit_per_s(text_.attribute(node, "actualBaudRate")));
     keep(info.net_number, text_.attribute(node, "networkNumber"));
     keep(info.network_name, text_.attribute(node, "networkName"));
     keep(info.canopen_manager, text_.attribute(node, "CANopenManager"));
+  }
+
+  /// "500 Kbps" as the number that it is in a DCF; what has no unit stays.
+  static Field kbit_per_s(Field field) {
+    const auto blank = field.text.find(' ');
+    if (blank != std::string::npos && same_word(trim(std::string_view(field.text).substr(blank)), "Kbps"))
+      field.text.resize(blank);
+    return field;
   }
 
   /// entry="Dummy0005=1"
@@ -289,7 +298,10 @@ class XddReader {
     const auto reference = node.attribute(attribute);
     if (!reference) return {};
     const auto found = by_id_.find(reference.value());
-    if (found != by_id_.end() && local_name(found->second) == kind) return found->second;
+    if (found != by_id_.end() && local_name(found->second) == kind) {
+      referred_.insert(found->first);
+      return found->second;
+    }
     out_.remarks.add(Deviation::xml_unknown_reference, text_.attribute(node, attribute).at,
                      reference.value());
     return {};
@@ -302,8 +314,8 @@ class XddReader {
     const auto fill = [](Field& field, Field from) {
       if (field.empty() && from.present) field = std::move(from);
     };
-    if (into.data_type.empty() && !type.empty() && object_code(into) == ObjectCode::var)
-      into.data_type = {std::string(type), at, at, true};
+    if (into.data_type.empty() && type && object_code(into) == ObjectCode::var)
+      into.data_type = {fmt::format("0x{:04X}", *type), at, at, true};
     if (into.access_type.empty() && parameter.attribute("access") && object_code(into) == ObjectCode::var) {
       // A word that nobody knows stays as it is, for the lint to find.
       into.access_type = text_.attribute(parameter, "access");
@@ -313,6 +325,7 @@ class XddReader {
     }
     fill(into.default_value, text_.attribute(child(parameter, "defaultValue"), "value"));
     fill(into.parameter_value, text_.attribute(child(parameter, "actualValue"), "value"));
+    fill(into.denotation, text_.content(child(child(parameter, "denotation"), "label")));
     if (!limits) return;
     const auto allowed = child(parameter, "allowedValues");
     auto range = child(allowed, "range");
@@ -322,18 +335,18 @@ class XddReader {
   }
 
   /// The elementary type among the children, or of the type that is referred to.
-  std::string_view type_of(const pugi::xml_node& node) const {
-    for (const auto& each : node.children()) {
-      const auto* found = std::ranges::find(type_names, local_name(each), &TypeName::element);
-      if (found != std::end(type_names)) return found->data_type;
-    }
+  std::optional<std::uint16_t> type_of(const pugi::xml_node& node) const {
+    if (const auto own = elementary_type(node)) return own;
     const auto reference = by_id_.find(child(node, "dataTypeIDRef").attribute("uniqueIDRef").value());
-    if (reference == by_id_.end()) return {};
-    for (const auto& each : reference->second.children()) {
-      const auto* found = std::ranges::find(type_names, local_name(each), &TypeName::element);
-      if (found != std::end(type_names)) return found->data_type;
+    return reference == by_id_.end() ? std::nullopt : elementary_type(reference->second);
+  }
+
+  static std::optional<std::uint16_t> elementary_type(const pugi::xml_node& node) {
+    for (const auto& each : node.children()) {
+      const auto found = std::ranges::find(xdd_types(), local_name(each), &XddType::element);
+      if (found != xdd_types().end()) return found->data_type;
     }
-    return {};
+    return std::nullopt;
   }
 
   /// A configuration says what the values of one device are; a description says only what they could be.
@@ -354,6 +367,8 @@ class XddReader {
   std::optional<Error> refused_;
   std::vector<pugi::xml_node> object_lists_;
   std::unordered_map<std::string, pugi::xml_node> by_id_;
+  std::unordered_set<std::string> referred_;  ///< of the ids
+  XddExtras extras_;
 };
 
 }  // namespace

@@ -12,11 +12,11 @@ using namespace conform::eds;
 
 constexpr std::string_view text =
     "<?xml version=\"1.0\"?>\n"
-    "<ISO15745ProfileContainer>\n"
+    "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\">\n"
     " <ISO15745Profile><ProfileBody fileName=\"a.xdd\" fileVersion=\"2\">\n"
     "  <q1:DeviceIdentity><q1:vendorName>Example</q1:vendorName><q1:vendorID>0x1F</q1:vendorID></q1:DeviceIdentity>\n"
     "  <parameterList>\n"
-    "   <parameter uniqueID=\"P1\" access=\"readWriteOutput\"><REAL/><defaultValue value=\"1.5\"/>\n"
+    "   <parameter uniqueID=\"P1\" access=\"readWriteInput\" ><REAL/><defaultValue value=\"1.5\"/>\n"
     "    <allowedValues><range><minValue value=\"0\"/><maxValue value=\"2\"/></range></allowedValues></parameter>\n"
     "   <parameter uniqueID=\"P2\"><dataTypeIDRef uniqueIDRef=\"E1\"/></parameter>\n"
     "  </parameterList>\n"
@@ -81,7 +81,7 @@ TEST_CASE("What an object leaves open comes from the parameter it refers to") {
 
 /// The first line of `application_process` is line 3 of the file.
 std::string with_parameters(std::string_view application_process, std::string_view objects) {
-  return R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.1">
+  return R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.0">
 <ISO15745Profile><ProfileBody><ApplicationProcess>
 )" + std::string(application_process) +
          R"(</ApplicationProcess></ProfileBody></ISO15745Profile>
