@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/eds_options.hpp"
 #include "cli/run/command_line.hpp"
 #include "cli/run/guardian.hpp"
 #include "reports/formats.hpp"
@@ -18,6 +19,7 @@ struct EdsOptions {
   conform::cli::EdsLintCommand lint;
   conform::cli::EdsShowCommand show;
   conform::cli::EdsDiffCommand diff;
+  conform::cli::EdsWriters writers;
   CLI::App* lint_sub = nullptr;
   CLI::App* show_sub = nullptr;
   CLI::App* diff_sub = nullptr;
@@ -51,9 +53,11 @@ struct EdsOptions {
     format(diff_sub, diff.format, {"text", "json"}, "Output: text or json");
     diff_sub->add_flag("--file-info", diff.file_info,
                        "What only describes the file counts, too: [FileInfo] and [Comments]");
+    writers.add_to(app);
   }
 
   [[nodiscard]] int run() const {
+    if (const auto code = writers.run()) return *code;
     if (lint_sub->parsed()) return conform::cli::eds_lint_command(lint);
     return show_sub->parsed() ? conform::cli::eds_show_command(show) : conform::cli::eds_diff_command(diff);
   }
