@@ -44,6 +44,8 @@ struct EdsOptions {
     show_sub = app.add_subcommand("show", "Print the object dictionary as a table");
     show_sub->add_option("file", show.file, "Device description")->required()->type_name("FILE");
     format(show_sub, show.format, {"text", "json"}, "Output: text or json");
+    show_sub->add_option("--html", show.html, "Write a page for a browser instead, with what lint finds")
+        ->type_name("PAGE");
     diff_sub =
         app.add_subcommand("diff", "Tell what changed between two files; exits with 1 where they differ");
     diff_sub->add_option("before", diff.before, "Device description of before")

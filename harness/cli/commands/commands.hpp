@@ -105,6 +105,7 @@ struct WaiveCommand {
 struct CompareCommand {
   std::string before, after;    ///< result.json or journal
   std::string format = "text";  ///< text, markdown, json
+  std::string html;             ///< file of the page, beside what is printed; empty: none
   bool strict = false;          ///< new warnings are worse
   std::string color = "auto";
 };
@@ -198,6 +199,7 @@ struct EdsLintCommand {
 struct EdsShowCommand {
   std::string file;
   std::string format = "text";  ///< text, json
+  std::string html;             ///< file of the page to write instead; empty: none
 };
 [[nodiscard]] int eds_show_command(const EdsShowCommand& options);
 
@@ -243,6 +245,7 @@ struct SelftestCommand {
   bool quick = false;               ///< with mutants: without the scenarios that take long
   unsigned jobs = 0;                ///< 0: the machine's cores
   std::string markdown;             ///< file for docs/proof.md, with mutants for docs/mutants.md
+  std::string html;                 ///< file of the page
 };
 [[nodiscard]] int selftest_command(const SelftestCommand& options);
 /// Its --mutants; what became of them is added to the proof.

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/text.hpp"
-#include "eds/type_table.hpp"
+#include "cli/descriptions/eds_words.hpp"
 
 namespace conform::cli {
 namespace {
@@ -24,30 +24,6 @@ using Row = std::array<std::string, columns>;
 
 std::string shown(const Field& field) { return printable(eds::shortened(field.text, widest - 3)); }
 
-std::string type_of(const Entry& entry) {
-  const auto type = eds::data_type(entry);
-  if (!type) return shown(entry.data_type);
-  const auto* info = eds::find_type(*type);
-  return info != nullptr ? std::string(info->name) : fmt::format("type {:04X}h", *type);
-}
-
-std::string_view structure_of(const eds::Object& object) {
-  const auto code = eds::object_code(object.entry);
-  return code == eds::ObjectCode::array       ? "ARRAY"
-         : code == eds::ObjectCode::defstruct ? "DEFSTRUCT"
-                                              : "RECORD";
-}
-
-std::string_view mapping_of(const Entry& entry) {
-  switch (eds::pdo_mapping(entry)) {
-    case eds::PdoMapping::no: return "";
-    case eds::PdoMapping::yes: return "yes";
-    case eds::PdoMapping::rpdo_only: return "RPDO";
-    case eds::PdoMapping::tpdo_only: return "TPDO";
-  }
-  return "";
-}
-
 std::string limits_of(const Entry& entry) {
   if (entry.low_limit.empty() && entry.high_limit.empty()) return {};
   return shown(entry.low_limit) + ".." + shown(entry.high_limit);
@@ -57,9 +33,9 @@ Row row_of(std::string where, const Entry& entry) {
   const bool configured = !entry.parameter_value.empty();
   return {std::move(where),
           shown(entry.parameter_name),
-          type_of(entry),
+          printable(eds::shortened(type_words(entry), widest - 3)),
           shown(entry.access_type),
-          std::string(mapping_of(entry)),
+          std::string(mapping_words(entry)),
           configured ? shown(entry.parameter_value) + " (configured)" : shown(entry.default_value),
           limits_of(entry)};
 }
@@ -150,7 +126,7 @@ std::string eds_table(const eds::EdsFile& file, const std::vector<eds::Object>& 
       continue;
     }
     rows.push_back({to_string(object.index), shown(object.entry.parameter_name),
-                    std::string(structure_of(object)), "", "", "", ""});
+                    std::string(structure_words(object)), "", "", "", ""});
     for (const auto& sub : object.subs)
       rows.push_back(row_of(to_string(Multiplexer{object.index, sub.sub}), sub.entry));
   }

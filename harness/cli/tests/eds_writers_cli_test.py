@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What writes device descriptions: eds convert, eds new; and eds diff across formats.
+"""What writes device descriptions: eds convert, eds new, eds show --html; and eds diff across formats.
 Usage: eds_writers_cli_test.py BIN_FOLDER"""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -162,6 +163,42 @@ class Writers(unittest.TestCase):
                 done = run("run", "--simulate", "--eds", self.path("new.eds"), "-q", "--json", self.path("result.json"),
                            cwd=self.folder)
                 self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+
+    # ---- show --html
+
+    def test_the_page_needs_nothing_else_and_is_well_formed(self):
+        for name in ("legal-dummy-mapping.eds", "legal-xml.xdd", "bad-value-range.eds", "bad-no-file-info.eds"):
+            with self.subTest(name=name):
+                done = eds("show", fixture(name), "--html", self.path("page.html"))
+                self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+                page = self.read("page.html")
+                ElementTree.fromstring(page.replace("<!DOCTYPE html>\n", ""))
+                self.assertEqual(re.findall(r"(?:src|href)=\"(?!#)[^\"]*\"|url\((?!#)|@import", page), [])
+                self.assertIn("default-src 'none'", page)
+
+    def test_a_finding_stands_beside_its_entry(self):
+        eds("show", fixture("bad-value-range.eds"), "--html", self.path("page.html"))
+        root = ElementTree.fromstring(self.read("page.html").replace("<!DOCTYPE html>\n", ""))
+        row = root.find(".//tr[@id='o-2000-00']")
+        self.assertEqual(row.get("data-v"), "error")
+        self.assertIn("EDS070", "".join(row.itertext()))
+        self.assertEqual([each.get("id") for each in root.findall(".//tr[@data-v='error']")], ["o-2000-00"])
+
+    def test_the_page_decodes_the_mapping(self):
+        eds("new", self.path("new.eds"), "--profile", "401", *IDENTITY)
+        eds("show", self.path("new.eds"), "--html", self.path("page.html"))
+        root = ElementTree.fromstring(self.read("page.html").replace("<!DOCTYPE html>\n", ""))
+        words = " ".join(" ".join(root.find(".//section[@id='pdos']").itertext()).split())
+        self.assertIn("TPDO 1 $NODEID+0x180 0xFF 6000h:01 Read inputs 1, 8 bit", words)
+
+    def test_hostile_names_stay_text(self):
+        path = self.write("hostile.eds", "[DeviceInfo]\nVendorName=<script>alert(1)</script>\n[2000]\nParameterName=\"><img src=x>\nDataType=<b>\n"
+                          "AccessType=<i>\nDefaultValue=</td>\n")
+        eds("show", path, "--html", self.path("page.html"))
+        page = self.read("page.html")
+        ElementTree.fromstring(page.replace("<!DOCTYPE html>\n", ""))
+        for markup in ("<script>alert", "<img", "<b>\n", "<i>"):
+            self.assertNotIn(markup, page)
 
 
 if __name__ == "__main__":
