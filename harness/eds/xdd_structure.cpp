@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -107,18 +107,19 @@ class Checker {
 
   void attributes(const pugi::xml_node& node, const XddElement& element) {
     const auto name = local_name(node);
+    // The place of an attribute is looked for when there is something to tell of it: a dictionary has
+    // thousands.
     for (const auto& row : element.attributes) {
       const std::string attribute(row.name);
-      const auto field = text_.attribute(node, attribute.c_str());
-      if (!field.present) {
+      const auto given = node.attribute(attribute.c_str());
+      if (!given) {
         if (row.required && known_version_)
           remarks_.add(Deviation::xml_missing_attribute, text_.position(node),
                        fmt::format("{} of <{}>", row.name, name));
-      } else if (!has_form(field.text, row.form)) {
-        remarks_.add(
-            Deviation::xml_bad_value, field.at,
-            fmt::format("{}=\"{}\" is not {}", row.name, shortened(field.text, 20), to_string(row.form)), {},
-            200);
+      } else if (const auto value = trim(given.value()); !has_form(value, row.form)) {
+        remarks_.add(Deviation::xml_bad_value, text_.attribute(node, attribute.c_str()).at,
+                     fmt::format("{}=\"{}\" is not {}", row.name, shortened(value, 20), to_string(row.form)),
+                     {}, 200);
       }
     }
     if (!known_version_) return;
@@ -160,9 +161,10 @@ class Checker {
     }
   }
 
-  /// Told once: where it is wrong, it is wrong everywhere.
+  /// Of each kind of element the first is looked at, and told is one: where it is wrong, it is wrong
+  /// everywhere.
   void qualified(const pugi::xml_node& node, const XddElement& element) {
-    if (told_) return;
+    if (told_ || !seen_.insert(&element).second) return;
     const auto wanted = element.global ? name_space_1_1 : std::string_view();
     if (name_space(node) == wanted) return;
     told_ = true;
@@ -177,6 +179,7 @@ class Checker {
   Remarks& remarks_;
   bool known_version_;
   bool told_ = false;
+  std::set<const XddElement*> seen_;
 };
 
 }  // namespace
