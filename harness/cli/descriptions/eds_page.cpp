@@ -142,8 +142,11 @@ class Page {
                                     value_of(file_.file_info.creation_date),
                                     clipped(file_.file_info.created_by.text, widest)));
     std::string found;
-    for (const auto severity : {Severity::error, Severity::warning, Severity::note})
-      found += badge(kind_of(severity), reports::counted(report_.count(severity), to_string(severity))) + " ";
+    for (const auto severity : {Severity::error, Severity::warning, Severity::note}) {
+      const auto count = report_.count(severity);
+      found +=
+          badge(count == 0 ? "na" : kind_of(severity), reports::counted(count, to_string(severity))) + " ";
+    }
     return fmt::format("<dl class=\"facts\">\n{}{}</dl>\n", out, fact("Findings", found));
   }
 
