@@ -1,16 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer target: no bytes may crash, hang or exhaust the reader of device descriptions, the expansion or
-// the lint. The input is a file; a first byte of 0 or 1 is cut off, and 1 makes the name that of a DCF.
-// Seeds: the fixtures of the tests.
+// libFuzzer target: no bytes may crash, hang or exhaust the reader of device descriptions, the expansion, the
+// lint or the conversion. The input is a file; a first byte of 0 or 1 is cut off, and 1 makes the name that
+// of a DCF. Seeds: the fixtures of the tests.
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "base/check.hpp"
 #include "base/excerpt.hpp"
+#include "eds/compare.hpp"
+#include "eds/convert/to_ini.hpp"
+#include "eds/convert/to_xdd.hpp"
+#include "eds/convert/write_ini.hpp"
+#include "eds/convert/write_xdd.hpp"
 #include "eds/expand.hpp"
+#include "eds/ini_file.hpp"
 #include "eds/lint.hpp"
 #include "eds/read.hpp"
+
+namespace {
+
+/// In the other of the two languages, and compared with the source.
+void written_can_be_read(const conform::eds::EdsFile& file) {
+  using namespace conform;
+  std::string text;
+  if (file.is_xml()) {
+    text = eds::write_ini(eds::to_ini(file, eds::Format::dcf, "fuzz.dcf").file);
+  } else {
+    const auto converted = eds::to_xdd(file, eds::Format::xdc, "fuzz.xdc");
+    if (!converted) return;
+    text = eds::write_xdd(converted->file);
+  }
+  if (text.size() > eds::IniFile::most_bytes) return;  // a long value that a short form repeats
+  const auto again = eds::read(text, "again");
+  CONFORM_CHECK(again && again->is_xml() != file.is_xml());
+  CONFORM_CHECK(eds::compare_in_full(file, *again).has_value() || !eds::expand(file));
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace conform;
@@ -43,6 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     CONFORM_CHECK(!finding.message.empty() && finding.message.size() < 1000);
     CONFORM_CHECK(eds::find_rule(finding.rule->code) == finding.rule);
   }
+  written_can_be_read(*file);
   // A word alone, without the sections around it.
   (void)eds::parse_number(text);
   (void)eds::parse_real(text);
