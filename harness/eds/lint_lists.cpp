@@ -35,9 +35,14 @@ constexpr Rule link_count{"EDS160", Severity::error, "ObjectLinks is not the num
 constexpr Rule dead_link{"EDS161", Severity::error, "A link leads to an object that is not described",
                          "CiA 306, object links"};
 
+constexpr Rule other_list{"EDS162", Severity::warning,
+                          "An object of CiA 301 is in the list of mandatory objects, or one of those is not",
+                          lists};
+
 constexpr const Rule* all[] = {&no_mandatory_list, &no_list,         &wrong_count, &numbering,
                                &not_described,     &not_listed,      &wrong_list,  &listed_twice,
-                               &mandatory_absent,  &identity_absent, &link_count,  &dead_link};
+                               &mandatory_absent,  &identity_absent, &link_count,  &dead_link,
+                               &other_list};
 
 struct Listed {
   Index index;
@@ -98,9 +103,16 @@ class Check {
     }
   }
 
-  [[nodiscard]] const NumberedList& home(Index index) const {
-    if (is_mandatory(index)) return file_.mandatory_objects;
-    return between(index, 0x2000, 0x5FFF) ? file_.manufacturer_objects : file_.optional_objects;
+  /// 2000h to 5FFFh have a list of their own; of the others a profile may make any mandatory.
+  void in_its_list(const Listed& each) {
+    const bool is_manufacturers = between(each.index, 0x2000, 0x5FFF);
+    const bool is_mandatory_list = each.list == &file_.mandatory_objects;
+    const auto message = fmt::format("{} does not belong into [{}]", to_string(each.index), each.list->name);
+    if (is_manufacturers != (each.list == &file_.manufacturer_objects))
+      findings_.add(wrong_list, each.at, message,
+                    "2000h to 5FFFh belong into [ManufacturerObjects], others into one of the other two");
+    else if (is_mandatory(each.index) ? !is_mandatory_list : is_mandatory_list && each.index.value() < 0x2000)
+      findings_.add(other_list, each.at, message, "1000h, 1001h and 1018h belong into [MandatoryObjects]");
   }
 
   void compare() {
@@ -115,13 +127,7 @@ class Check {
       if (file_.find(each.index) == nullptr)
         findings_.add(not_described, each.at,
                       fmt::format("there is no section {}", section_name(each.index)));
-      if (&home(each.index) != each.list)
-        findings_.add(
-            wrong_list, each.at,
-            fmt::format("{} does not belong into [{}]", to_string(each.index), each.list->name),
-            is_mandatory(each.index)
-                ? "1000h, 1001h and 1018h belong into [MandatoryObjects]"
-                : "2000h to 5FFFh belong into [ManufacturerObjects], others into [OptionalObjects]");
+      in_its_list(each);
     }
     for (const auto& object : file_.objects) {
       // Below 1000h are the data types, which need no list.

@@ -47,6 +47,10 @@ constexpr Rule needless_granularity{"EDS314", Severity::warning,
 constexpr Rule number_of_pdos_object{
     "EDS315", Severity::warning, "1004h does not count the PDOs that there are", "CiA 301 version 3, 1004h"};
 
+constexpr Rule compact_mask{"EDS316", Severity::warning,
+                            "CompactPDO has unknown bits, or not those of COB-ID and transmission type",
+                            counts};
+
 constexpr const Rule* all[] = {&rpdo_count,
                                &tpdo_count,
                                &no_mapping,
@@ -62,7 +66,8 @@ constexpr const Rule* all[] = {&rpdo_count,
                                &same_cob_id,
                                &restricted_can_id,
                                &needless_granularity,
-                               &number_of_pdos_object};
+                               &number_of_pdos_object,
+                               &compact_mask};
 
 struct Direction {
   unsigned communication;  ///< first index
@@ -104,7 +109,13 @@ void check_counts(const Subject& subject, Findings& findings) {
                    fmt::format("{} says {}, but there are {} communication parameters", direction.key,
                                field.empty() ? "nothing" : std::to_string(*said), found));
   }
-  if (!some && number_of(info.compact_pdo).value_or(0) > 0)
+  // Bit 0 is sub-index 01h, and the last one, 06h, the SYNC start value.
+  const auto mask = number_of(info.compact_pdo).value_or(0);
+  if (mask != 0 && ((mask & 3U) != 3U || mask > 0x3F))
+    findings.add(compact_mask, info.compact_pdo.at,
+                 fmt::format("CompactPDO {} is not a mask of sub-indices 01h, 02h and some of 03h to 06h",
+                             shortened(info.compact_pdo.text)));
+  if (!some && mask > 0)
     findings.add(compact_without, info.compact_pdo.at, "CompactPDO is given, but the device has no PDOs");
 }
 

@@ -142,8 +142,10 @@ class Check {
 
   void integers() {
     const auto& entry = spot_.entry;
-    const auto low = integer("LowLimit", entry.low_limit, limit_range);
-    const auto high = integer("HighLimit", entry.high_limit, limit_range);
+    // What the limits of a BOOLEAN are is nobody's business: it has two values.
+    const bool has_limits = type_.kind != TypeKind::boolean;
+    const auto low = has_limits ? integer("LowLimit", entry.low_limit, limit_range) : std::nullopt;
+    const auto high = has_limits ? integer("HighLimit", entry.high_limit, limit_range) : std::nullopt;
     compare(low, high, integer("DefaultValue", entry.default_value, value_range), "DefaultValue",
             entry.default_value);
     compare(low, high, integer("ParameterValue", entry.parameter_value, value_range), "ParameterValue",
