@@ -392,20 +392,42 @@ int dispatch(int argc, char** argv) {
       ->type_name("WHEN");
 
   ScanCommand scan;
-  auto* scan_sub =
-      app.add_subcommand("scan", "Read the dictionary of a device and write a draft EDS; changes nothing");
+  auto* scan_sub = app.add_subcommand(
+      "scan", "Read the dictionary of a device: write a draft EDS, or compare with a description");
   scan_sub->add_option("-i,--interface", scan.interface, "CAN interface the device is on, for example can0")
       ->type_name("NAME");
-  scan_sub->add_flag("--simulate", scan.simulate, "Scan the reference node on a simulated bus");
+  auto* scan_simulate =
+      scan_sub->add_flag("--simulate", scan.simulate, "Scan the reference node on a simulated bus");
+  scan_sub->add_option("--eds", scan.twin, "Scan the twin of this device description in its place")
+      ->needs(scan_simulate)
+      ->type_name("FILE");
   scan_sub->add_option("-n,--node", scan.node, "Node-ID of the device, 1 to 127")
       ->check(CLI::Range(1, 127).description(""))
       ->type_name("NODE-ID");
+  scan_sub
+      ->add_option(
+          "--allow", scan.allow,
+          "Highest risk to take, to see what is read-only: read-only (default) writes nothing, config "
+          "writes back what 1000h to 1FFFh hold, motion everything")
+      ->check(CLI::IsMember({"read-only", "config", "nvm", "motion"}).description(""))
+      ->type_name("RISK");
+  auto* scan_compare = scan_sub
+                           ->add_option("--compare", scan.compare,
+                                        "Tell where the device and this description (EDS, DCF, XDD, XDC) "
+                                        "differ; exits with 1 where they do")
+                           ->type_name("FILE");
+  scan_sub->add_option("--format", scan.format, "Output of the comparison: text or json")
+      ->check(CLI::IsMember({"text", "json"}).description(""))
+      ->needs(scan_compare)
+      ->type_name("FORMAT");
   scan_sub
       ->add_option("--range", scan.ranges,
                    "Indices to look at, such as 2000h..2FFFh; repeatable (default 1000h..9FFFh)")
       ->allow_extra_args(false)
       ->type_name("RANGE");
-  scan_sub->add_option("-o,--output", scan.output, "Write the draft to this file (default: standard output)")
+  scan_sub
+      ->add_option("-o,--output", scan.output,
+                   "Write the draft to this file (default: standard output; none with --compare)")
       ->type_name("FILE");
 
   DoctorCommand doctor;

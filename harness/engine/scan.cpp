@@ -6,6 +6,8 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
+#include "device/standard_objects.hpp"
+#include "steps/tier.hpp"
 
 namespace conform::engine {
 namespace {
@@ -14,25 +16,64 @@ using Kind = steps::SdoAnswer::Kind;
 
 constexpr std::uint8_t sub_ff = 0xFF;  ///< structure of the object (CiA 301, 7.4.8.2), not one of its entries
 
+constexpr std::uint8_t last_mapped = 0x40;  ///< of a mapping (CiA 301, 7.5.2.36)
+
+bool is_mapping(Index index) {
+  const auto value = index.value();
+  return (value >= 0x1600 && value <= 0x17FF) || (value >= 0x1A00 && value <= 0x1BFF);
+}
+
+/// Whether a write does more than to keep a value.
+bool has_effect(Multiplexer mux) {
+  const auto index = mux.index.value();
+  if (index >= 0x1F50 && index <= 0x1F5F) return true;  // program control (CiA 302-3)
+  const auto known = device::standard_entry(mux);
+  return known && known->command;
+}
+
 class Scanner {
  public:
-  explicit Scanner(RunSession& session) : session_(session) {}
+  Scanner(RunSession& session, const ScanOptions& options)
+      : session_(session), allow_(options.allow), skip_(options.skip) {
+    session_.begin_case(allow_);
+  }
 
   Result<void> look_at(Index index) {
+    if (skip_.contains({index, SubIndex(0)})) return {};
     auto first = look({index, SubIndex(0)});
     if (!first) return std::unexpected(first.error());
     if (!*first) return {};
-    const auto last = last_sub(**first);
+    // What 00h counts there are mapped objects and errors; there may be more sub-indices.
+    const unsigned to_try = is_mapping(index) ? last_mapped : index == Index(0x1003) ? sub_ff - 1U : 0;
+    const auto counted = last_sub(**first);
     ScannedObject object{index, {}};
     object.entries.push_back(std::move(**first));
-    for (unsigned sub = 1; sub <= last; ++sub) {
-      auto entry = look({index, SubIndex(static_cast<std::uint8_t>(sub))});
+    for (unsigned sub = 1; sub <= std::max(counted, to_try); ++sub) {
+      const Multiplexer mux{index, SubIndex(static_cast<std::uint8_t>(sub))};
+      if (skip_.contains(mux)) continue;
+      auto entry = look(mux);
       if (!entry) return std::unexpected(entry.error());
+      if (!*entry && sub > counted) break;
       if (*entry) object.entries.push_back(std::move(**entry));
       // A VAR of one byte with a large value would cost as many requests; arrays with gaps begin early.
       if (object.entries.size() == 1 && sub == 8) break;
     }
     objects.push_back(std::move(object));
+    return {};
+  }
+
+  /// An entry that nothing has led to so far.
+  Result<void> look_also(Multiplexer mux) {
+    const auto place = std::ranges::lower_bound(objects, mux.index, {}, &ScannedObject::index);
+    const bool known = place != objects.end() && place->index == mux.index;
+    if (skip_.contains(mux)) return {};
+    if (known && std::ranges::find(place->entries, mux, &ScannedEntry::mux) != place->entries.end())
+      return {};
+    auto entry = look(mux);
+    if (!entry) return std::unexpected(entry.error());
+    if (!*entry) return {};
+    auto& entries = (known ? place : objects.insert(place, ScannedObject{mux.index, {}}))->entries;
+    entries.insert(std::ranges::lower_bound(entries, mux, {}, &ScannedEntry::mux), std::move(**entry));
     return {};
   }
 
@@ -72,24 +113,54 @@ class Scanner {
       case Kind::gave_up: break;
     }
     silent_ = false;
+    if (auto tried = write_back(out); !tried) return std::unexpected(tried.error());
     return Entry(std::move(out));
   }
 
+  Result<void> write_back(ScannedEntry& entry) {
+    const bool application = steps::is_of_application(entry.mux.index);
+    const auto needed = application ? steps::Tier::motion : steps::Tier::config;
+    if (allow_ < needed || !entry.value || entry.value->empty() || has_effect(entry.mux)) return {};
+    auto data = *entry.value;
+    const auto known = device::standard_entry(entry.mux);
+    // A value whose length is open can be written in no length that is known to be right.
+    if (entry.size_open && !(known && known->size() && *known->size() <= data.size())) return {};
+    if (entry.size_open) data.resize(*known->size());
+    if (application) {
+      device::Entry open;
+      open.mux = entry.mux;
+      session_.known().add(open);
+    }
+    auto answer = session_.download(entry.mux, data, canopen::SdoDownload::Mode::automatic, std::nullopt);
+    (void)session_.take_journal();  // nothing is to be put back
+    // A transfer that was given up says nothing, and is no reason to end the scan.
+    if (!answer && answer.error().of == Error::Of::scenario) return {};
+    if (!answer) return std::unexpected(answer.error());
+    if (answer->kind == Kind::confirmed) entry.writable = true;
+    // Any other reason is one of the moment: the state, a PDO that is valid.
+    if (answer->kind == Kind::aborted && answer->code == canopen::abort::read_only) entry.writable = false;
+    return {};
+  }
+
   RunSession& session_;
+  steps::Tier allow_;
+  const std::set<Multiplexer>& skip_;
   bool silent_ = false;
 };
 
 }  // namespace
 
-Result<std::vector<ScannedObject>> scan(RunSession& session, std::span<const IndexRange> ranges,
-                                        const std::function<void(Index)>& progress) {
-  Scanner scanner(session);
-  for (const auto& range : ranges) {
+Result<std::vector<ScannedObject>> scan(RunSession& session, const ScanOptions& options) {
+  Scanner scanner(session, options);
+  for (const auto& range : options.ranges) {
     for (unsigned index = range.first; index <= range.last; ++index) {
       const Index at(static_cast<std::uint16_t>(index));
-      if (progress && (index == range.first || index % 0x100 == 0)) progress(at);
+      if (options.progress && (index == range.first || index % 0x100 == 0)) options.progress(at);
       if (auto done = scanner.look_at(at); !done) return std::unexpected(done.error());
     }
+  }
+  for (const auto mux : options.also) {
+    if (auto done = scanner.look_also(mux); !done) return std::unexpected(done.error());
   }
   return std::move(scanner.objects);
 }

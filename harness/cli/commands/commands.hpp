@@ -125,10 +125,15 @@ struct RecoverCommand {
 struct ScanCommand {
   std::string interface;
   bool simulate = false;  ///< the reference node
+  std::string twin;       ///< device description: with `simulate` the node is its twin
   std::optional<std::uint32_t> node;
   std::vector<std::string> ranges;  ///< "2000h..2FFFh"; empty: all that devices use
-  std::string output;               ///< file; empty: standard output
+  std::string allow = "read-only";  ///< the highest tier: what it lets be written gets its own value back
+  std::string compare;              ///< description to compare with; empty: none
+  std::string format = "text";      ///< of the comparison: text or json
+  std::string output;  ///< file of the draft; empty: standard output, or none beside a comparison
 };
+/// With `compare` 1 where device and description differ, else 0.
 [[nodiscard]] int scan_command(const ScanCommand& options);
 
 struct LssScanCommand {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// `scan`: reads the dictionary of a device and writes a draft of its description.
+// `scan`: reads the dictionary of a device, and writes a draft of its description or compares it with one.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <ctime>
 #include <filesystem>
+#include <memory>
+#include <optional>
 
 #include "base/files.hpp"
 #include "base/text.hpp"
@@ -13,14 +15,18 @@
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/descriptions/draft_eds.hpp"
+#include "cli/descriptions/scan_compare.hpp"
 #include "cli/run/stop_signal.hpp"
 #include "cli/run/terminal.hpp"
+#include "device/description.hpp"
 #include "device/profile.hpp"
+#include "eds/read.hpp"
 #include "engine/discovery.hpp"
 #include "engine/recorder.hpp"
 #include "engine/run_session.hpp"
 #include "engine/scan.hpp"
 #include "node/node.hpp"
+#include "steps/tier.hpp"
 
 namespace conform::cli {
 namespace {
@@ -35,30 +41,53 @@ Result<engine::IndexRange> range_of(std::string_view text) {
   return engine::IndexRange{static_cast<std::uint16_t>(range->low), static_cast<std::uint16_t>(range->high)};
 }
 
-/// Reads through `transport` and makes the text.
-Result<std::string> draft(can::Transport& transport, const ScanCommand& options,
-                          std::span<const engine::IndexRange> ranges, const DraftInfo& info) {
-  auto profile = device::default_profile(info.node);
+/// The description to compare with.
+struct Compared {
+  eds::EdsFile file;
+  device::Description description;
+};
+
+Result<Compared> compared_with(const std::string& path) {
+  auto file = eds::read_file(path);
+  if (!file) return std::unexpected(file.error());
+  auto description = device::describe(*file);
+  if (!description) return std::unexpected(description.error());
+  return Compared{std::move(*file), std::move(*description)};
+}
+
+Result<std::vector<engine::ScannedObject>> scan(can::Transport& transport, const ScanCommand& options,
+                                                engine::ScanOptions& what, NodeId node) {
+  auto profile = device::default_profile(node);
   engine::Recorder recorder(transport, &stop_signal);
   engine::RunSession session(recorder, profile, device::dictionary_of(profile));
   const auto liveness = engine::probe(session, {});
   if (!liveness) return std::unexpected(liveness.error());
   if (!liveness->answers)
-    return fail("node " + std::to_string(info.node.value()) + " does not answer", options.interface,
+    return fail("node " + std::to_string(node.value()) + " does not answer", options.interface,
                 "node-ID, bit rate, power?");
   const bool live = ::isatty(2) != 0;
-  const auto progress = [&](Index index) {
+  what.progress = [live](Index index) {
     if (!live) return;
     fmt::print(stderr, "\r{} ...", to_string(index));
     std::fflush(stderr);
   };
-  auto objects = engine::scan(session, ranges, progress);
+  auto objects = engine::scan(session, what);
   if (live) fmt::print(stderr, "\r\x1B[K");
   if (!objects) return std::unexpected(objects.error());
   std::size_t entries = 0;
   for (const auto& object : *objects) entries += object.entries.size();
   fmt::print(stderr, "{} objects with {} entries\n", objects->size(), entries);
-  return draft_eds(*objects, info);
+  return objects;
+}
+
+Result<std::unique_ptr<refnode::Node>> simulated_node(const std::string& twin, NodeId node_id) {
+  refnode::Options options{.node_id = node_id.value()};
+  if (!twin.empty()) {
+    auto file = eds::read_file(twin);
+    if (!file) return std::unexpected(file.error());
+    options.description = std::make_shared<const eds::EdsFile>(std::move(*file));
+  }
+  return refnode::Node::create(std::move(options));
 }
 
 }  // namespace
@@ -70,24 +99,36 @@ int scan_command(const ScanCommand& options) {
         exit_usage);
   if (!options.node && !options.simulate)
     return report_error({"the node-ID of the device is missing", {}, "--node 1..127"}, exit_usage);
-  std::vector<engine::IndexRange> ranges;
+  engine::ScanOptions what;
   for (const auto& text : options.ranges) {
     const auto range = range_of(text);
     if (!range) return report_error(range.error(), exit_usage);
-    ranges.push_back(*range);
+    what.ranges.push_back(*range);
   }
-  if (ranges.empty()) ranges.assign(std::begin(usual), std::end(usual));
+  if (what.ranges.empty()) what.ranges.assign(std::begin(usual), std::end(usual));
+  what.allow = steps::parse_tier(options.allow).value_or(steps::Tier::read_only);
+
+  std::optional<Compared> compared;
+  if (!options.compare.empty()) {
+    auto read = compared_with(options.compare);
+    if (!read) return report_error(read.error(), exit_usage);
+    compared = std::move(*read);
+    what.skip = not_to_be_scanned(compared->description);
+    what.also = to_be_scanned(compared->description, what.ranges);
+  }
 
   DraftInfo info;
   info.node = NodeId(static_cast<std::uint8_t>(options.node.value_or(5)));
   info.file_name = options.output.empty() ? "" : std::filesystem::path(options.output).filename().string();
-  Result<std::string> text = std::string();
+  info.access_tried = what.allow > steps::Tier::read_only;
+  Result<std::vector<engine::ScannedObject>> objects;
   if (options.simulate) {
-    auto node = refnode::Node::create({.node_id = info.node.value()});
+    auto node = simulated_node(options.twin, info.node);
     if (!node) return report_error(node.error(), exit_usage);
     can::SimulatedBus bus(can::SimulatedBus::Options{});
     bus.attach(**node, "reference node");
-    text = draft(bus.transport(), options, ranges, info);
+    info.bit_rate = bus.transport().info().bit_rate;
+    objects = scan(bus.transport(), options, what, info.node);
   } else {
     auto transport = can::SocketCanTransport::open(options.interface);
     if (!transport) return report_error(transport.error(), exit_environment);
@@ -96,16 +137,20 @@ int scan_command(const ScanCommand& options) {
     note_stop_signals();
     info.bit_rate = (*transport)->info().bit_rate;
     info.made = std::time(nullptr);
-    text = draft(**transport, options, ranges, info);
+    objects = scan(**transport, options, what, info.node);
   }
-  if (!text) return report_end(text.error(), exit_environment);
-  if (options.output.empty()) {
-    print(*text);
-    return 0;
+  if (!objects) return report_end(objects.error(), exit_environment);
+  if (!options.output.empty()) {
+    if (auto written = write_file_atomically(options.output, draft_eds(*objects, info)); !written)
+      return report_error(written.error(), exit_environment);
+  } else if (!compared) {
+    print(draft_eds(*objects, info));
   }
-  if (auto written = write_file_atomically(options.output, *text); !written)
-    return report_error(written.error(), exit_environment);
-  return 0;
+  if (!compared) return 0;
+  const auto differences = compare_scan(*objects, what, compared->file, compared->description, info.node);
+  print(options.format == "json" ? scan_differences_json(differences, options.compare)
+                                 : scan_differences_text(differences));
+  return differences.empty() ? 0 : 1;
 }
 
 }  // namespace conform::cli

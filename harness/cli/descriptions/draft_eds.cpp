@@ -2,7 +2,7 @@
 #include "cli/descriptions/draft_eds.hpp"
 
 #include <algorithm>
-#include <set>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -10,75 +10,25 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
-#include "canopen/abort_code.hpp"
 #include "canopen/data_type.hpp"
+#include "cli/descriptions/drafted_entry.hpp"
 #include "device/standard_objects.hpp"
 
 namespace conform::cli {
 namespace {
 
 using canopen::DataType;
-using device::Access;
 using engine::ScannedEntry;
 using engine::ScannedObject;
-
-constexpr std::size_t longest_string = 255;  ///< more is taken for a DOMAIN
 
 bool is_text(ByteView bytes) {
   return std::ranges::all_of(bytes, [](std::uint8_t c) { return c >= 0x20 && c < 0x7F; });
 }
 
-DataType type_of(const ScannedEntry& entry) {
-  if (!entry.value) return DataType::octet_string;
-  const auto& value = *entry.value;
-  switch (value.size()) {
-    case 1: return DataType::unsigned8;
-    case 2: return DataType::unsigned16;
-    case 3: return DataType::unsigned24;
-    case 4: return DataType::unsigned32;
-    case 8: return is_text(value) ? DataType::visible_string : DataType::unsigned64;
-    default: break;
-  }
-  if (value.size() > longest_string) return DataType::domain;
-  return is_text(value) ? DataType::visible_string : DataType::octet_string;
-}
-
-std::string default_of(const ScannedEntry& entry, DataType type, NodeId node) {
-  if (!entry.value || !canopen::is_integer(type)) return {};
-  const auto number = load_le(*entry.value);
-  const auto index = entry.mux.index.value();
-  const bool standard = index < 0x2000;
-  if (standard && canopen::is_integer(type)) {
-    const auto known = device::standard_entry(entry.mux);
-    if (known && known->default_adds_node_id && known->default_value &&
-        number == load_le(*known->default_value) + node.value())
-      return fmt::format("$NODEID+0x{:X}", load_le(*known->default_value));
-  }
-  return fmt::format("0x{:X}", number);
-}
-
-/// Whether the value read is likely to be the default of every such device, too.
-bool is_constant(Multiplexer mux, bool structured) {
-  const auto index = mux.index.value();
-  return index == 0x1000 || (index == 0x1018 && mux.sub.value() < 4) ||
-         (structured && mux.sub.value() == 0 && index != 0x1003);
-}
-
 class Draft {
  public:
-  Draft(std::span<const ScannedObject> objects, const DraftInfo& info) : objects_(objects), info_(info) {
-    for (const auto& object : objects) {
-      const auto index = object.index.value();
-      auto* const mapped = index >= 0x1600 && index <= 0x17FF   ? &received_
-                           : index >= 0x1A00 && index <= 0x1BFF ? &transmitted_
-                                                                : nullptr;
-      if (mapped == nullptr) continue;
-      for (const auto& entry : object.entries) {
-        if (entry.mux.sub.value() == 0 || !entry.value || entry.value->size() != 4) continue;
-        mapped->insert(static_cast<std::uint32_t>(load_le(*entry.value) >> 8U));
-      }
-    }
-  }
+  Draft(std::span<const ScannedObject> objects, const DraftInfo& info)
+      : objects_(objects), info_(info), drafter_(objects, info.node) {}
 
   std::string text() {
     for (const auto& object : objects_) describe(object);
@@ -154,14 +104,30 @@ class Draft {
 
   void comments() {
     std::vector<std::string> lines = {
-        "A draft: reading shows neither access rights nor limits nor defaults.",
-        "Objects that CiA 301 does not define are rw here (ro, rww: mapped) and have the type that fits the length.",
+        "A draft: limits cannot be seen, and the defaults are the values that the device held.",
+        info_.access_tried
+            ? "Access rights are those that the device showed when it got its own values back, as far as that was tried."
+            : "Reading shows no access rights: what CiA 301 does not define is rw here (ro, rww: mapped).",
         "Complete it from the manual, then check it: canopen-conform eds lint FILE",
     };
     lines.insert(lines.end(), doubts_.begin(), doubts_.end());
+    add_lengths(lines);
     line(out_, "\r\n[Comments]\r\nLines={}", lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i) line(out_, "Line{}={}", i + 1, lines[i]);
     out_ += "\r\n";
+  }
+
+  /// Which types are no more than a length, a few objects a line.
+  void add_lengths(std::vector<std::string>& lines) const {
+    constexpr std::size_t a_line = 12;
+    if (lengths_.empty()) return;
+    lines.emplace_back("Of these numbers the length is known, but not whether they are signed or REAL:");
+    for (std::size_t i = 0; i < lengths_.size(); i += a_line) {
+      const auto end = std::min(i + a_line, lengths_.size());
+      std::string line;
+      for (auto each = i; each < end; ++each) line += (each == i ? "" : ", ") + lengths_[each];
+      lines.push_back(std::move(line));
+    }
   }
 
   void list(std::string_view section, bool (*belongs)(unsigned)) {
@@ -198,66 +164,57 @@ class Draft {
     const bool complex =
         known ? known->object == device::ObjectCode::array || known->object == device::ObjectCode::record
               : object.entries.size() > 1;
+    lengths_from_ = lengths_to_ = std::nullopt;
     if (!complex) {
       line(sections_, "[{:04X}]", index);
-      return entry(object.entries.front(), fmt::format("Object {:04X}h", index), false);
+      entry(object.entries.front(), false);
+    } else {
+      // Elements of one length make an array, as far as one can see.
+      const bool alike = std::ranges::all_of(object.entries, [&](const ScannedEntry& each) {
+        return each.mux.sub.value() == 0 ||
+               EntryDrafter::type_by_length(each) == EntryDrafter::type_by_length(object.entries.back());
+      });
+      const bool array = known ? known->object == device::ObjectCode::array : alike;
+      line(sections_, "[{:04X}]\r\nParameterName=Object {:04X}h\r\nObjectType={:#x}\r\nSubNumber={:#x}\r\n",
+           index, index, array ? 8 : 9, object.entries.size());
+      for (const auto& each : object.entries) {
+        line(sections_, "[{:04X}sub{:X}]", index, each.mux.sub.value());
+        entry(each, true);
+      }
     }
-    // Elements of one length make an array, as far as one can see.
-    const bool alike = std::ranges::all_of(object.entries, [&](const ScannedEntry& each) {
-      return each.mux.sub.value() == 0 || type_of(each) == type_of(object.entries.back());
-    });
-    const bool array = known ? known->object == device::ObjectCode::array : alike;
-    line(sections_, "[{:04X}]\r\nParameterName=Object {:04X}h\r\nObjectType={:#x}\r\nSubNumber={:#x}\r\n",
-         index, index, array ? 8 : 9, object.entries.size());
-    for (const auto& each : object.entries) {
-      line(sections_, "[{:04X}sub{:X}]", index, each.mux.sub.value());
-      entry(each,
-            each.mux.sub.value() == 0 ? "Highest sub-index supported"
-                                      : fmt::format("Sub-index {:02X}h", each.mux.sub.value()),
-            true);
-    }
+    close_lengths();
   }
 
-  void entry(const ScannedEntry& scanned, std::string name, bool structured) {
-    const auto known = device::standard_entry(scanned.mux);
-    const bool fits = known && (!scanned.value || !known->size() || *known->size() == scanned.value->size() ||
-                                (scanned.size_open && *known->size() < 4));
-    auto type = fits ? known->type : type_of(scanned);
-    auto access = known                                        ? known->access
-                  : structured && scanned.mux.sub.value() == 0 ? Access::constant
-                                                               : Access::rw;
-    if (known) name = known->name;
-    // A value that goes into a TPDO is most likely made by the device, one that comes in an RPDO is not.
-    const auto key = static_cast<std::uint32_t>(scanned.mux.index.value()) << 8U | scanned.mux.sub.value();
-    const bool received = received_.contains(key), transmitted = transmitted_.contains(key);
-    if (!known && received != transmitted) access = received ? Access::rww : Access::ro;
-    const auto at = to_string(scanned.mux);
-    if (known && !fits)
-      doubts_.push_back(fmt::format("{} has {} bytes, not those of CiA 301", at, scanned.value->size()));
-    if (!scanned.value) {
-      if (scanned.abort == canopen::abort::write_only) {
-        access = Access::wo;
-      } else {
-        doubts_.push_back(
-            fmt::format("{} could not be read{}", at,
-                        scanned.abort ? ": abort " + to_string(*scanned.abort) : std::string()));
-      }
-      if (!known) doubts_.push_back(fmt::format("the type of {} is not known", at));
-    } else if (!known && scanned.size_open) {
-      doubts_.push_back(fmt::format("{} may be shorter: the device does not tell the length", at));
+  void entry(const ScannedEntry& scanned, bool structured) {
+    const auto drafted = drafter_.draft(scanned, structured);
+    doubts_.insert(doubts_.end(), drafted.doubts.begin(), drafted.doubts.end());
+    if (drafted.length_only) {
+      if (!lengths_from_) lengths_from_ = scanned.mux;
+      lengths_to_ = scanned.mux;
+    } else {
+      close_lengths();
     }
-    line(sections_, "ParameterName={}\r\nObjectType={:#x}\r\nDataType=0x{:04X}\r\nAccessType={}", name,
-         type == DataType::domain ? 2 : 7, static_cast<unsigned>(type), device::to_string(access));
-    line(sections_, "DefaultValue={}",
-         is_constant(scanned.mux, structured) ? default_of(scanned, type, info_.node) : std::string());
-    line(sections_, "PDOMapping={}\r\n", received || transmitted ? 1 : 0);
+    line(sections_, "ParameterName={}\r\nObjectType={:#x}\r\nDataType=0x{:04X}\r\nAccessType={}",
+         drafted.name, drafted.type == DataType::domain ? 2 : 7, static_cast<unsigned>(drafted.type),
+         device::to_string(drafted.access));
+    line(sections_, "DefaultValue={}", drafted.default_value);
+    line(sections_, "PDOMapping={}\r\n", drafted.mapped ? 1 : 0);
+  }
+
+  /// Ends a run of entries of which only the length is known: "2000h:01-06".
+  void close_lengths() {
+    if (!lengths_from_) return;
+    lengths_.push_back(*lengths_from_ == *lengths_to_
+                           ? to_string(*lengths_from_)
+                           : fmt::format("{}-{:02X}", to_string(*lengths_from_), lengths_to_->sub.value()));
+    lengths_from_ = lengths_to_ = std::nullopt;
   }
 
   std::span<const ScannedObject> objects_;
   const DraftInfo& info_;
-  std::set<std::uint32_t> received_,
-      transmitted_;  ///< index and sub-index of what RPDOs and TPDOs map at present
-  std::vector<std::string> doubts_;
+  EntryDrafter drafter_;
+  std::vector<std::string> doubts_, lengths_;
+  std::optional<Multiplexer> lengths_from_, lengths_to_;
   std::string out_, sections_;
 };
 

@@ -17,11 +17,12 @@ struct DraftInfo {
   NodeId node{1};              ///< of the device: COB-IDs that hold it become formulas
   std::uint32_t bit_rate = 0;  ///< bit/s, 0: not known
   std::time_t made = 0;        ///< UTC
+  bool access_tried = false;   ///< values were written back to see what is read-only
 };
 
-/// The EDS text (CiA 306), with CRLF line ends. What reading cannot show is the widest guess and said to be
-/// one in [Comments]: entries outside CiA 301 are rw, the type follows from the length, no default but the
-/// counts, the device type and the identity.
+/// The EDS text (CiA 306), with CRLF line ends. Values are as they were read; what a scan cannot show is the
+/// widest guess and said to be one in [Comments]: entries outside CiA 301 are rw where nobody tried, their
+/// type is the UNSIGNED or the text of their length.
 [[nodiscard]] std::string draft_eds(std::span<const engine::ScannedObject> objects, const DraftInfo& info);
 
 }  // namespace conform::cli

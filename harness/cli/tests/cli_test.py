@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The command line as a user meets it: exit codes, reports, messages. Simulation only. Usage: cli_test.py PROGRAM"""
+import json
 import os
 import signal
 import subprocess
@@ -147,19 +148,19 @@ class CommandLine(unittest.TestCase):
         eds = self.path("device.eds")
         own = subprocess.run([os.path.join(os.path.dirname(PROGRAM), "canopen-refnode"), "--print-eds"],
                              capture_output=True, check=True).stdout.decode("ascii")
-        # Without heartbeat and guarding; of the mapping parameter of the RPDO only sub-index 00h is left.
+        # Without heartbeat, guarding and vendor-ID.
         sections = [section for section in ("\n" + own).split("\n[")
-                    if not section.startswith(("1017]", "100C]", "100D]", "1600sub1]", "1600sub2]"))]
+                    if not section.startswith(("1017]", "100C]", "100D]", "1018sub1]"))]
         with open(eds, "w", encoding="ascii") as file:
             file.write("\n[".join(sections).lstrip("\n"))
         with open(eds, encoding="ascii") as file:
-            mapping = file.read().splitlines().index("[1600]") + 1
-        done = run("run", "--simulate", "--eds", eds, "--quiet", "cia301/heartbeat/producer-entry", "cia301/pdo/rpdo-mapping/procedure",
-                   "cia301/dictionary/conditional-objects/error-control")
+            identity = file.read().splitlines().index("[1018]") + 1
+        done = run("run", "--simulate", "--eds", eds, "--quiet", "cia301/heartbeat/producer-entry",
+                   "cia301/dictionary/conditional-objects/mandatory-objects", "cia301/dictionary/conditional-objects/error-control")
         self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
         text = " ".join(done.stdout.replace("\n  |", " ").split())
         for described in (f"{eds}, without 1017h", f"{eds}, without 1017h; {eds}, without 100Ch; {eds}, without 100Dh",
-                          f"{eds}:{mapping}, without 1600h:01"):
+                          f"{eds}:{identity}, without 1018h:01"):
             self.assertIn(f"described {described} ", text)
 
     def test_what_the_profile_lists_itself_is_described_all_the_same(self):
@@ -214,7 +215,7 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(done.stderr, r"[0-9]+ objects with [0-9]+ entries")
         done = run("eds", "lint", draft)
         self.assertEqual(done.returncode, 0, done.stdout)
-        self.assertIn("0 errors", done.stdout)
+        self.assertIn("0 errors, 0 warnings", done.stdout)
         shown = run("eds", "show", draft).stdout
         for line in (r"2000h:06 .* UNSIGNED16 +rw", r"2001h:02 .* wo", r"6000h:01 .* UNSIGNED8 +ro +yes",
                      r"1018h:01 .* 0x5AFE", r"2008h +.* DOMAIN"):
@@ -227,6 +228,36 @@ class CommandLine(unittest.TestCase):
             done = run(*arguments)
             self.assertEqual(done.returncode, 2)
             self.assertIn(said, done.stderr)
+
+    def test_a_scan_tells_where_device_and_description_differ(self):
+        draft, changed = self.path("draft.eds"), self.path("changed.eds")
+        self.assertEqual(run("scan", "--simulate", "--range", "1000h..1018h", "-o", draft).returncode, 0)
+        compare = ["scan", "--simulate", "--range", "1000h..1018h", "--compare"]
+        done = run(*compare, draft)
+        self.assertEqual((done.returncode, done.stdout), (0, "no difference\n"))
+        with open(draft, encoding="ascii", newline="") as file:
+            text = file.read()
+        begin = text.index("[1018sub1]")
+        line = text[:begin].count("\n") + 1
+        with open(changed, "w", encoding="ascii", newline="") as file:
+            file.write(text[:begin] + text[begin:].replace("DefaultValue=0x5AFE", "DefaultValue=0x5AFF", 1))
+        done = run(*compare, changed)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, r"object +property +device +description +where\n"
+                         rf"1018h:01 +DefaultValue +0x5AFE +0x5AFF +{changed}:{line}\n1 difference\n")
+        done = run(*compare, changed, "--format", "json")
+        self.assertEqual(done.returncode, 1)
+        difference = {"object": "1018h:01", "property": "DefaultValue", "device": "0x5AFE", "described": "0x5AFF",
+                      "where": f"{changed}:{line}"}
+        self.assertEqual(json.loads(done.stdout), {"file": changed, "differences": [difference]})
+        # The twin of a file is scanned in the place of the reference node.
+        done = run(*compare, draft, "--eds", draft)
+        self.assertEqual((done.returncode, done.stdout), (0, "no difference\n"))
+        self.assertEqual(run(*compare, draft, "--eds", changed).returncode, 1)
+        for arguments in (["--compare", "/no/such/file.eds"], ["--eds", "/no/such/file.eds"]):
+            done = run("scan", "--simulate", *arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("/no/such/file.eds", done.stderr)
 
     def test_what_cannot_be_judged_exits_2_with_a_reason(self):
         good, bad = self.path("good.log"), self.path("bad.log")

@@ -286,6 +286,7 @@ TEST_CASE("A case in which no step applied says which conditions left them out")
 TEST_CASE("of a device that can map PDOs anew a PDO is fixed where its description fixes what that takes") {
   for (const auto access : {device::Access::rw, device::Access::constant}) {
     ScriptedDevice device;
+    device.entries[0x180000] = {2};
     device.entries[0x180001] = {0x81, 1, 0, 0};
     device.entries[0x1A0000] = {1};
     device.entries[0x1A0001] = {8, 0, 0, 0x60};
