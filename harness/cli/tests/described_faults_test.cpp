@@ -151,7 +151,8 @@ TEST_CASE("Entries that ObjFlags keep from being written or read leave the other
     for (const char* flags : {"1", "2", "3"})
       all += flagged(std::to_string(index++ - 0x2000 + 2100), access, flags);
   }
-  const auto run = judged(device + all + flagged("1F70", "ro", "1") + entry("1005", 7, "rw", "0x80", "ObjFlags=1\n"));
+  const auto run =
+      judged(device + all + flagged("1F70", "ro", "1") + entry("1005", 7, "rw", "0x80", "ObjFlags=1\n"));
   CHECK(blamed(run) == Blamed{});
   CHECK(verdicts(run).at("EDS-VSD-04") == Verdict::pass);
   // Program control is left alone as well.
