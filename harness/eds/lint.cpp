@@ -10,6 +10,7 @@
 
 #include "base/text.hpp"
 #include "eds/expand.hpp"
+#include "eds/lint_comments.hpp"
 #include "eds/lint_rules.hpp"
 #include "eds/value.hpp"
 
@@ -42,7 +43,7 @@ std::string_view to_string(Severity severity) {
 
 std::size_t LintReport::count(Severity severity) const {
   return static_cast<std::size_t>(std::ranges::count_if(
-      findings, [severity](const auto& finding) { return finding.rule->severity == severity; }));
+      findings, [severity](const auto& finding) { return finding.severity() == severity; }));
 }
 
 void Findings::add(const Rule& rule, Position at, std::string message, std::string hint) {
@@ -51,6 +52,7 @@ void Findings::add(const Rule& rule, Position at, std::string message, std::stri
   if (!known_.emplace(at, &rule, message).second) return;
   if (++counts_[&rule] > most_of_a_rule) {
     ++report_.left_out;
+    ++report_.left_out_of[&rule];
     return;
   }
   report_.findings.push_back({&rule, at, std::move(message), std::move(hint)});
@@ -84,8 +86,17 @@ std::span<const RuleGroup> rule_groups() {
   return all;
 }
 
+std::span<const RuleGroup> all_rule_groups() {
+  static const auto all = [] {
+    auto out = tables();
+    out.push_back(comment_rules);
+    return out;
+  }();
+  return all;
+}
+
 const Rule* find_rule(std::string_view code) {
-  for (const auto& group : rule_groups()) {
+  for (const auto& group : all_rule_groups()) {
     for (const auto* rule : group.rules) {
       if (rule->code == code) return rule;
     }
@@ -101,12 +112,14 @@ std::string lint_table_markdown() {
       "| severity | meaning |\n|---|---|\n"
       "| error | the file contradicts the standard or itself |\n"
       "| warning | legal or not, tools will disagree about it |\n"
-      "| note | worth a look |\n";
-  for (const auto& group : rule_groups()) {
+      "| note | worth a look |\n\n"
+      "`canopen-conform explain EDS254` says more about a rule. How a rule is allowed or given another severity, and how the lint is kept in CI: "
+      "[eds-lint-in-ci.md](eds-lint-in-ci.md).\n";
+  for (const auto& group : all_rule_groups()) {
     out += fmt::format("\n## {}\n\n| code | severity | mistake | source |\n|---|---|---|---|\n", group.title);
     for (const auto* rule : group.rules)
-      out += fmt::format("| {} | {} | {} | {} |\n", rule->code, to_string(rule->severity), rule->title,
-                         rule->source);
+      out += fmt::format("| <a id=\"{}\"></a>{} | {} | {} | {} |\n", lower(rule->code), rule->code,
+                         to_string(rule->severity), rule->title, rule->source);
   }
   return out;
 }

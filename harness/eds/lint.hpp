@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,11 +39,17 @@ struct Finding {
   std::string
       message;  ///< one sentence, lower case, no full stop; quotes raw bytes of the file: print it escaped
   std::string hint;  ///< what to do about it, or empty
+  /// Another severity than that of the rule, by a policy (lint_policy.hpp).
+  std::optional<Severity> decided = {};
+
+  [[nodiscard]] Severity severity() const { return decided.value_or(rule->severity); }
 };
 
 struct LintReport {
-  std::vector<Finding> findings;  ///< by position
-  std::size_t left_out = 0;       ///< beyond `most_of_a_rule` of one rule
+  std::vector<Finding> findings;                   ///< by position
+  std::size_t left_out = 0;                        ///< beyond `most_of_a_rule` of one rule
+  std::map<const Rule*, std::size_t> left_out_of;  ///< the same for each rule
+  std::size_t allowed = 0;                         ///< taken away by a policy
 
   [[nodiscard]] std::size_t count(Severity severity) const;
 };
@@ -50,7 +58,10 @@ inline constexpr std::size_t most_of_a_rule = 1000;
 
 [[nodiscard]] LintReport lint(const EdsFile& file);
 
+/// The rules of lint().
 [[nodiscard]] std::span<const RuleGroup> rule_groups();
+/// These and the ones about comments for the lint (lint_comments.hpp).
+[[nodiscard]] std::span<const RuleGroup> all_rule_groups();
 /// nullptr when there is no such code.
 [[nodiscard]] const Rule* find_rule(std::string_view code);
 /// The page of all codes, docs/eds-lint.md.

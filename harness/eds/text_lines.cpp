@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/text_lines.hpp"
+
+#include <algorithm>
+
+namespace conform::eds {
+
+TextLines::TextLines(std::string_view bytes) : bytes_(bytes) {
+  constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
+  std::size_t at = bytes.starts_with(utf8_mark) ? utf8_mark.size() : 0;
+  while (at < bytes.size()) {
+    starts_.push_back(at);
+    at = bytes.find_first_of("\r\n", at);
+    if (at == std::string_view::npos) break;
+    at += bytes.substr(at).starts_with("\r\n") ? 2U : 1U;
+  }
+}
+
+std::size_t TextLines::start(std::size_t number) const {
+  return number == 0 || number > starts_.size() ? bytes_.size() : starts_[number - 1];
+}
+
+std::string_view TextLines::line(std::size_t number) const {
+  const auto begin = start(number);
+  const auto end = std::min(bytes_.find_first_of("\r\n", begin), bytes_.size());
+  return bytes_.substr(begin, end - begin);
+}
+
+std::optional<std::size_t> TextLines::offset(Position at) const {
+  if (at.line == 0 || at.column == 0 || at.line > starts_.size()) return std::nullopt;
+  if (at.column - 1 > line(at.line).size()) return std::nullopt;
+  return starts_[at.line - 1] + at.column - 1;
+}
+
+Position TextLines::position(std::size_t offset) const {
+  const auto next = std::ranges::upper_bound(starts_, offset);
+  if (next == starts_.begin()) return {1, 1};
+  return {static_cast<std::uint32_t>(next - starts_.begin()),
+          static_cast<std::uint32_t>(offset - *(next - 1) + 1)};
+}
+
+std::string_view TextLines::line_end() const {
+  const auto end = bytes_.find_first_of("\r\n");
+  if (end == std::string_view::npos || bytes_[end] == '\n') return "\n";
+  return bytes_.substr(end).starts_with("\r\n") ? "\r\n" : "\r";
+}
+
+}  // namespace conform::eds

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lines of a file, ended as the readers of descriptions take them: LF, CR LF or CR, also mixed.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "eds/position.hpp"
+
+namespace conform::eds {
+
+class TextLines {
+ public:
+  /// `bytes` must outlive the lines. A byte order mark belongs to no line.
+  explicit TextLines(std::string_view bytes);
+
+  [[nodiscard]] std::size_t count() const { return starts_.size(); }
+  /// Without its end; empty when there is no such line. Lines count from 1.
+  [[nodiscard]] std::string_view line(std::size_t number) const;
+  /// Where the line begins; the end of the file when there is no such line.
+  [[nodiscard]] std::size_t start(std::size_t number) const;
+  /// Of the byte at a position; nullopt when it is not in the file.
+  [[nodiscard]] std::optional<std::size_t> offset(Position at) const;
+  [[nodiscard]] Position position(std::size_t offset) const;
+  /// How lines end, by the first that does; LF when none does.
+  [[nodiscard]] std::string_view line_end() const;
+
+ private:
+  std::string_view bytes_;
+  std::vector<std::size_t> starts_;
+};
+
+}  // namespace conform::eds
