@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of lint_examples.hpp, each ascending by code.
+#pragma once
+
+#include <span>
+
+#include "eds/lint_examples.hpp"
+
+namespace conform::eds {
+
+extern const std::span<const LintExample> forms_examples, objects_examples, pdos_examples;
+
+}  // namespace conform::eds
