@@ -32,15 +32,8 @@ struct EdsOptions {
           ->check(CLI::IsMember(names).description(""))
           ->type_name("FORMAT");
     };
-    lint_sub =
-        app.add_subcommand("lint", "Tell what is wrong in the files; exits with 2 where there are errors");
-    lint_sub->add_option("files", lint.files, "Device descriptions")->type_name("FILE");
+    add_lint_to(app);
     format(lint_sub, lint.format, {"text", "json", "github", "sarif"}, "Output: text, json, github or sarif");
-    lint_sub->add_flag("--strict", lint.strict, "Warnings count as errors");
-    lint_sub->add_flag("--rules", lint.rules, "Print all rules as Markdown instead");
-    lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")
-        ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
-        ->type_name("WHEN");
     show_sub = app.add_subcommand("show", "Print the object dictionary as a table");
     show_sub->add_option("file", show.file, "Device description")->required()->type_name("FILE");
     format(show_sub, show.format, {"text", "json"}, "Output: text or json");
@@ -56,6 +49,47 @@ struct EdsOptions {
     diff_sub->add_flag("--file-info", diff.file_info,
                        "What only describes the file counts, too: [FileInfo] and [Comments]");
     writers.add_to(app);
+  }
+
+  void add_lint_to(CLI::App& app) {
+    lint_sub = app.add_subcommand(
+        "lint",
+        "Tell what is wrong in the files; exits with 2 where there are errors, with 3 where only a file cannot be read");
+    lint_sub
+        ->add_option("files", lint.files,
+                     "Device descriptions, and folders in which *.eds, *.dcf, *.xdd and *.xdc are looked for")
+        ->type_name("FILE");
+    lint_sub->add_flag("--strict", lint.strict, "Warnings count as errors");
+    lint_sub->add_flag("-v,--verbose", lint.verbose, "Tell findings that are alike one by one");
+    lint_sub->add_option("--allow", lint.allow, "Switch a rule off; repeatable")
+        ->type_name("RULE")
+        ->allow_extra_args(false);
+    lint_sub
+        ->add_option("--severity", lint.severity,
+                     "Give a rule another severity, as EDS210=note (error, warning, note); repeatable")
+        ->type_name("RULE=SEVERITY")
+        ->allow_extra_args(false);
+    auto* config =
+        lint_sub
+            ->add_option("--config", lint.config,
+                         "Configuration (default: .canopen-conform.yaml beside the description or above)")
+            ->type_name("FILE");
+    lint_sub->add_flag("--no-config", lint.no_config, "Look for no configuration")->excludes(config);
+    lint_sub->add_option("--baseline", lint.baseline, "Findings that are known, which are not told again")
+        ->type_name("FILE");
+    lint_sub->add_flag("--write-baseline", lint.write_baseline, "Write what is found into the baseline");
+    auto* fix = lint_sub->add_flag(
+        "--fix", lint.fix, "Mend what is mechanical, and show it: counts, numbering, forms of writing");
+    lint_sub->add_flag("--diff,--dry-run", lint.dry_run, "Show what --fix would change, and change nothing")
+        ->excludes(fix);
+    lint_sub->add_flag("--rules", lint.rules, "Print all rules as Markdown instead");
+    lint_sub
+        ->add_option("--rules-uri", lint.rules_uri,
+                     "Where the page of the rules is published, for links in SARIF")
+        ->type_name("URI");
+    lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")
+        ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+        ->type_name("WHEN");
   }
 
   [[nodiscard]] int run() const {
@@ -491,10 +525,11 @@ int dispatch(int argc, char** argv) {
   ExplainCommand explain;
   auto* explain_sub = app.add_subcommand(
       "explain",
-      "Explain requirements, scenarios, monitors, verbs, defects or variants; list verbs, conditions, tiers or coverage");
+      "Explain requirements, scenarios, monitors, verbs, defects, variants or rules of 'eds lint'; list verbs, conditions, tiers or coverage");
   explain_sub
-      ->add_option("topic", explain.topics,
-                   "Ids such as OD-1003-06, verbs such as download, or: verbs, conditions, tiers, coverage")
+      ->add_option(
+          "topic", explain.topics,
+          "Ids such as OD-1003-06 or EDS212, verbs such as download, or: verbs, conditions, tiers, coverage")
       ->required()
       ->type_name("TOPIC");
   explain_sub->add_flag("--markdown", explain.markdown,

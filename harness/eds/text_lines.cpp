@@ -35,6 +35,9 @@ std::optional<std::size_t> TextLines::offset(Position at) const {
 Position TextLines::position(std::size_t offset) const {
   const auto next = std::ranges::upper_bound(starts_, offset);
   if (next == starts_.begin()) return {1, 1};
+  // Behind the last end of line another line could begin.
+  if (offset == bytes_.size() && (bytes_.ends_with('\n') || bytes_.ends_with('\r')))
+    return {static_cast<std::uint32_t>(starts_.size() + 1), 1};
   return {static_cast<std::uint32_t>(next - starts_.begin()),
           static_cast<std::uint32_t>(offset - *(next - 1) + 1)};
 }

@@ -192,13 +192,23 @@ struct LintCommand {
 [[nodiscard]] int lint_command(const LintCommand& options);
 
 struct EdsLintCommand {
-  std::vector<std::string> files;
+  std::vector<std::string> files;     ///< and folders
+  std::vector<std::string> allow;     ///< codes of rules that are off
+  std::vector<std::string> severity;  ///< "EDS210=note"
+  std::string config;                 ///< instead of the .canopen-conform.yaml that is found
+  bool no_config = false;
+  std::string baseline;         ///< file of findings that are known, or empty
+  bool write_baseline = false;  ///< put what is found into it
+  bool fix = false;             ///< mend what is mechanical
+  bool dry_run = false;         ///< only show what would be mended
+  bool verbose = false;         ///< findings alike one by one
+  std::string rules_uri;        ///< where docs/eds-lint.md is published
   std::string format = "text";  ///< text, json, github, sarif
   bool strict = false;          ///< warnings count as errors
   bool rules = false;           ///< print the page of all rules instead
   std::string color = "auto";
 };
-/// 0: no errors; exit_usage: errors, or a file that cannot be read.
+/// 0: no errors; 2: errors, or usage and configuration; 3: no errors, but a file cannot be read or written.
 [[nodiscard]] int eds_lint_command(const EdsLintCommand& options);
 
 struct EdsShowCommand {

@@ -7,9 +7,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
-#include "base/excerpt.hpp"
 #include "base/text.hpp"
+#include "cli/descriptions/source_lines.hpp"
 #include "reports/annotations.hpp"
 
 namespace conform::cli {
@@ -22,90 +24,102 @@ std::string counted(std::size_t count, std::string_view word) {
   return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
 }
 
-std::string totals(const std::vector<EdsLinted>& files) {
-  std::size_t errors = 0;
-  std::size_t warnings = 0;
-  std::size_t notes = 0;
-  for (const auto& file : files) {
-    errors += file.report.count(eds::Severity::error) + (file.unreadable ? 1U : 0U);
-    warnings += file.report.count(eds::Severity::warning);
-    notes += file.report.count(eds::Severity::note);
-  }
-  return fmt::format("{}, {}, {}, {}\n", counted(files.size(), "file"), counted(errors, "error"),
-                     counted(warnings, "warning"), counted(notes, "note"));
-}
-
 /// Escapes of workflow commands; in a property a colon and a comma would end it.
 std::string github_escaped(std::string_view text, bool property) {
   return reports::github_text(printable(text), property);
 }
 
-/// A relative reference or a file URI (RFC 3986); every byte that is not unreserved or a slash is escaped.
-std::string uri(std::string_view path) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
-  std::string out = path.starts_with('/') ? "file://" : "";
-  for (const char c : path) {
-    if (plain.find(c) != std::string_view::npos)
-      out += c;
-    else
-      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+using Alike = std::vector<const eds::Finding*>;
+
+/// The message without what differs between findings of one root: sections, quoted text, numbers.
+std::string shape(std::string_view message) {
+  constexpr std::string_view digits = "0123456789";
+  constexpr std::string_view number = "0123456789abcdefABCDEFxh";
+  std::string out;
+  while (!message.empty()) {
+    const char c = message.front();
+    std::size_t length = 1;
+    if (c == '[')
+      length = std::min(message.find(']'), message.size() - 1) + 1;
+    else if (c == '\'')
+      length = std::min(message.find('\'', 1), message.size() - 1) + 1;
+    else if (digits.find(c) != std::string_view::npos)
+      length = std::min(message.find_first_not_of(number), message.size());
+    out += length == 1 && c != '[' && digits.find(c) == std::string_view::npos ? c : '#';
+    message.remove_prefix(length);
   }
   return out;
 }
 
-/// The lines of a description, ended as its reader takes them: LF, CR LF or CR.
-class Lines {
- public:
-  explicit Lines(std::string_view text) {
-    while (!text.empty()) {
-      const auto end = std::min(text.find_first_of("\r\n"), text.size());
-      lines_.push_back(text.substr(0, end));
-      text.remove_prefix(std::min(end + (text.substr(end).starts_with("\r\n") ? 2U : 1U), text.size()));
-    }
+std::vector<Alike> ungrouped(const eds::LintReport& report) {
+  std::vector<Alike> out;
+  for (const auto& finding : report.findings) out.push_back({&finding});
+  return out;
+}
+
+/// A few are told one by one.
+std::vector<Alike> grouped(const eds::LintReport& report) {
+  constexpr std::size_t few = 3;
+  std::map<std::pair<const eds::Rule*, std::string>, Alike> groups;
+  for (const auto& finding : report.findings)
+    groups[{finding.rule, shape(finding.message)}].push_back(&finding);
+  std::vector<Alike> out;
+  for (auto& [root, alike] : groups) {
+    if (alike.size() > few)
+      out.push_back(std::move(alike));
+    else
+      for (const auto* finding : alike) out.push_back({finding});
   }
+  std::ranges::sort(out, [](const Alike& a, const Alike& b) {
+    return std::tie(a.front()->at, a.front()->rule->code, a.front()->message) <
+           std::tie(b.front()->at, b.front()->rule->code, b.front()->message);
+  });
+  return out;
+}
 
-  /// In code points, as editors and SARIF count; positions count bytes. Ascending positions are counted once.
-  [[nodiscard]] int column(eds::Position at) {
-    if (at.line == 0 || at.line > lines_.size()) return static_cast<int>(at.column);
-    if (at.line != counted_.line || at.column < counted_.column) {
-      counted_ = {at.line, 1};
-      counted_column_ = 1;
-    }
-    const auto line = lines_[at.line - 1];
-    const auto begin = std::min<std::size_t>(counted_.column - 1, line.size());
-    counted_column_ += code_points(line.substr(begin, at.column - counted_.column));
-    counted_ = at;
-    return counted_column_;
-  }
-
-  /// Two lines to print: the line of the place, and a caret below it.
-  [[nodiscard]] std::string excerpt_at(eds::Position at, std::string_view tint, std::string_view off) const {
-    // What is missing from the file as a whole stands at its begin.
-    const bool whole_file = at == eds::Position{1, 1};
-    if (whole_file || !at.known() || at.line > lines_.size()) return {};
-    return to_lines(excerpt(lines_[at.line - 1], at.column - 1, 1), static_cast<int>(at.line), tint, off);
-  }
-
- private:
-  std::vector<std::string_view> lines_;
-  eds::Position counted_;  ///< up to where `counted_column_` has counted
-  int counted_column_ = 1;
-};
-
-std::string with_hint(const eds::Finding& finding) {
-  return printable(finding.message) + (finding.hint.empty() ? "" : "; " + printable(finding.hint));
+std::string alike_line(const Alike& group) {
+  constexpr std::size_t most = 8;
+  std::string lines;
+  for (std::size_t i = 1; i < std::min(group.size(), most + 1); ++i)
+    lines += fmt::format("{}{}", i == 1 ? "" : ", ", group[i]->at.line);
+  return fmt::format("      = and {} alike, in lines {}{} (all with -v)\n", group.size() - 1, lines,
+                     group.size() > most + 1 ? ", ..." : "");
 }
 
 }  // namespace
 
-std::string eds_lint_text(const std::vector<EdsLinted>& files, bool colour) {
+std::string eds_lint_totals(const std::vector<EdsLinted>& files) {
+  std::size_t errors = 0;
+  std::size_t warnings = 0;
+  std::size_t notes = 0;
+  std::size_t allowed = 0;
+  std::size_t known = 0;
+  std::size_t unreadable = 0;
+  for (const auto& file : files) {
+    errors += file.report.count(eds::Severity::error);
+    warnings += file.report.count(eds::Severity::warning);
+    notes += file.report.count(eds::Severity::note);
+    allowed += file.report.allowed;
+    known += file.known;
+    unreadable += file.unreadable ? 1U : 0U;
+  }
+  auto out = fmt::format("{}, {}, {}, {}", counted(files.size(), "file"), counted(errors, "error"),
+                         counted(warnings, "warning"), counted(notes, "note"));
+  if (allowed > 0) out += fmt::format(", {} allowed", allowed);
+  if (known > 0) out += fmt::format(", {} known", known);
+  if (unreadable > 0) out += fmt::format(", {} cannot be read", counted(unreadable, "file"));
+  return out + "\n";
+}
+
+std::string eds_lint_text(const std::vector<EdsLinted>& files, bool all, bool colour) {
   const std::string_view off = colour ? "\x1b[0m" : "";
   const std::string_view bold = colour ? "\x1b[1m" : "";
   std::string out;
   for (const auto& file : files) {
-    const Lines lines(file.bytes);
-    for (const auto& finding : file.report.findings) {
-      const auto severity = finding.rule->severity;
+    const SourceLines lines(file.bytes);
+    for (const auto& group : all ? ungrouped(file.report) : grouped(file.report)) {
+      const auto& finding = *group.front();
+      const auto severity = finding.severity();
       const std::string_view tint = !colour                              ? ""
                                     : severity == eds::Severity::error   ? "\x1b[1;31m"
                                     : severity == eds::Severity::warning ? "\x1b[1;33m"
@@ -113,11 +127,14 @@ std::string eds_lint_text(const std::vector<EdsLinted>& files, bool colour) {
       out += fmt::format("{}{}:{}:{} {}{}[{}]:{} {}\n", bold, printable(file.file), to_string(finding.at),
                          off, tint, to_string(severity), finding.rule->code, off, with_hint(finding));
       out += lines.excerpt_at(finding.at, tint, off);
+      if (group.size() > 1) out += alike_line(group);
     }
+    for (const auto& gone : file.gone)
+      out += fmt::format("{}: known, but gone: {}\n", printable(file.file), printable(gone));
     if (file.report.left_out > 0)
       out += fmt::format("{}: {} more not shown\n", printable(file.file), file.report.left_out);
   }
-  return out + totals(files);
+  return out + eds_lint_totals(files);
 }
 
 std::string eds_lint_json(const std::vector<EdsLinted>& files) {
@@ -135,10 +152,14 @@ std::string eds_lint_json(const std::vector<EdsLinted>& files) {
       one["warnings"] = file.report.count(eds::Severity::warning);
       one["notes"] = file.report.count(eds::Severity::note);
       one["left_out"] = file.report.left_out;
+      one["allowed"] = file.report.allowed;
+      one["known"] = file.known;
+      one["gone"] = Json::array();
+      for (const auto& gone : file.gone) one["gone"].push_back(printable(gone));
       one["findings"] = Json::array();
       for (const auto& finding : file.report.findings) {
         one["findings"].push_back({{"code", std::string(finding.rule->code)},
-                                   {"severity", std::string(to_string(finding.rule->severity))},
+                                   {"severity", std::string(to_string(finding.severity()))},
                                    {"line", finding.at.line},
                                    {"column", finding.at.column},
                                    {"message", printable(finding.message)},
@@ -159,7 +180,7 @@ std::string eds_lint_github(const std::vector<EdsLinted>& files) {
       out += fmt::format("::error file={}::{}\n", github_escaped(file.file, true),
                          github_escaped(file.unreadable->text(), false));
     for (const auto& finding : file.report.findings) {
-      const auto severity = finding.rule->severity;
+      const auto severity = finding.severity();
       out += fmt::format("::{} file={},line={},col={},title={}::{}\n",
                          severity == eds::Severity::note ? "notice" : to_string(severity),
                          github_escaped(file.file, true), finding.at.line, finding.at.column,
@@ -167,52 +188,6 @@ std::string eds_lint_github(const std::vector<EdsLinted>& files) {
     }
   }
   return out;
-}
-
-std::string eds_lint_sarif(const std::vector<EdsLinted>& files) {
-  Json rules = Json::array();
-  std::map<std::string_view, std::size_t> places;
-  for (const auto& group : eds::rule_groups()) {
-    for (const auto* rule : group.rules) {
-      places.emplace(rule->code, rules.size());
-      rules.push_back(
-          {{"id", std::string(rule->code)},
-           {"shortDescription", {{"text", std::string(rule->title)}}},
-           {"defaultConfiguration", {{"level", std::string(to_string(rule->severity))}}},
-           {"properties", {{"source", std::string(rule->source)}, {"group", std::string(group.title)}}}});
-    }
-  }
-  Json results = Json::array();
-  Json notifications = Json::array();
-  for (const auto& file : files) {
-    if (file.unreadable)
-      notifications.push_back(
-          {{"level", "error"}, {"message", {{"text", printable(file.unreadable->text())}}}});
-    Lines lines(file.bytes);
-    for (const auto& finding : file.report.findings) {
-      Json place;
-      place["physicalLocation"]["artifactLocation"]["uri"] = uri(file.file);
-      place["physicalLocation"]["region"] = {{"startLine", finding.at.line},
-                                             {"startColumn", lines.column(finding.at)}};
-      results.push_back({{"ruleId", std::string(finding.rule->code)},
-                         {"ruleIndex", places.at(finding.rule->code)},
-                         {"level", std::string(to_string(finding.rule->severity))},
-                         {"message", {{"text", with_hint(finding)}}},
-                         {"locations", Json::array({std::move(place)})}});
-    }
-  }
-  Json run;
-  run["tool"]["driver"] = {
-      {"name", "canopen-conform"}, {"version", CONFORM_VERSION}, {"rules", std::move(rules)}};
-  run["invocations"] = Json::array(
-      {{{"executionSuccessful", notifications.empty()}, {"toolExecutionNotifications", notifications}}});
-  run["columnKind"] = "unicodeCodePoints";
-  run["results"] = std::move(results);
-  Json out;
-  out["$schema"] = "https://json.schemastore.org/sarif-2.1.0.json";
-  out["version"] = "2.1.0";
-  out["runs"] = Json::array({std::move(run)});
-  return out.dump(2) + "\n";
 }
 
 }  // namespace conform::cli

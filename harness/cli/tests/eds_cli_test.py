@@ -26,6 +26,11 @@ def fixture(name):
     return os.path.join(FIXTURES, name)
 
 
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
 class Descriptions(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -93,7 +98,7 @@ class Descriptions(unittest.TestCase):
 
     def test_sarif_is_complete(self):
         done = run("lint", "-f", "sarif", fixture("bad-octal.eds"), "/no/such file.eds")
-        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.returncode, 3)
         log = json.loads(done.stdout)
         self.assertEqual(log["version"], "2.1.0")
         (only,) = log["runs"]
@@ -126,7 +131,7 @@ class Descriptions(unittest.TestCase):
                 log = json.loads(run("lint", "-f", "sarif", path).stdout)
                 self.assertEqual([error.message for error in validator.iter_errors(log)], [])
 
-    def test_what_cannot_be_read_exits_2_and_says_why(self):
+    def test_what_cannot_be_read_has_an_exit_code_of_its_own_and_says_why(self):
         for path, said in [
             ("/no/such.eds", "/no/such.eds"),
             (self.write("empty.eds", b""), "empty.eds:1:1"),
@@ -136,9 +141,168 @@ class Descriptions(unittest.TestCase):
         ]:
             for command in (["lint", path], ["show", path], ["diff", path, path]):
                 with self.subTest(command=command):
+                    if command == ["lint", self.folder.name]:
+                        continue
                     done = run(*command)
-                    self.assertEqual(done.returncode, 2, done.stdout)
+                    self.assertEqual(done.returncode, 3 if command[0] == "lint" else 2, done.stdout)
                     self.assertIn(said, done.stderr)
+
+    def test_a_file_that_cannot_be_read_does_not_stop_the_others_and_errors_count_more(self):
+        done = run("lint", "/no/such.eds", fixture("legal-minimal.eds"))
+        self.assertEqual((done.returncode, done.stdout), (3, "2 files, 0 errors, 0 warnings, 0 notes, 1 file cannot be read\n"))
+        done = run("lint", "/no/such.eds", fixture("bad-value-range.eds"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("EDS070", done.stdout)
+        self.assertIn("/no/such.eds", done.stderr)
+
+    def test_folders_are_searched_for_descriptions(self):
+        os.makedirs(os.path.join(self.folder.name, "a/.hidden"))
+        good = content(fixture("legal-minimal.eds"))
+        for name in ("one.EDS", "a/two.xdc", "a/notes.txt", "a/.hidden/three.eds"):
+            self.write(name, good)
+        done = run("lint", ".", "one.EDS", "--allow", "EDS107", cwd=self.folder.name)
+        self.assertIn("2 files, 0 errors", done.stdout, done.stderr)
+        os.makedirs(os.path.join(self.folder.name, "empty"))
+        done = run("lint", "empty", cwd=self.folder.name)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("there is no device description", done.stderr)
+
+    def test_rules_are_allowed_and_given_another_severity_by_options(self):
+        bad = fixture("bad-value-range.eds")
+        done = run("lint", "--allow", "EDS070", bad)
+        self.assertEqual((done.returncode, done.stdout), (0, "1 file, 0 errors, 0 warnings, 0 notes, 1 allowed\n"))
+        done = run("lint", "--severity", "EDS070=note", bad)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("note[EDS070]", done.stdout)
+        self.assertEqual(run("lint", "--severity", "EDS052=error", fixture("bad-octal.eds")).returncode, 2)
+        for option, said in [("--allow=EDS70", "did you mean 'EDS070'"), ("--severity=EDS070", "write EDS210=note"),
+                             ("--severity=EDS070=off", "--allow switches a rule off"), ("--severity=X=note", "there is no rule 'X'")]:
+            with self.subTest(option=option):
+                done = run("lint", option, bad)
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertIn(said, done.stderr)
+
+    def test_a_comment_in_the_file_allows_a_rule(self):
+        bad = content(fixture("bad-value-range.eds"))
+        path = self.write("bad-value-range.eds", b"; lint: allow EDS070 our master knows\n" + bad)
+        done = run("lint", path)
+        self.assertEqual((done.returncode, done.stdout), (0, "1 file, 0 errors, 0 warnings, 0 notes, 1 allowed\n"))
+        path = self.write("bad-value-range.eds", b"; lint: allow EDS070\n" + bad)
+        done = run("lint", path)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("warning[EDS902]", done.stdout)
+
+    def test_a_configuration_above_the_file_decides(self):
+        os.makedirs(os.path.join(self.folder.name, "old"))
+        bad = content(fixture("bad-value-range.eds"))
+        new, old = self.write("bad-value-range.eds", bad), self.write("old/bad-value-range.eds", bad)
+        self.write(".canopen-conform.yaml", b"format: 1\nlint:\n  allow:\n    - {rule: EDS070, reason: series 1, files: old/*}\n  severity: {EDS070: note}\n")
+        done = run("lint", self.folder.name)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 files, 0 errors, 0 warnings, 1 note, 1 allowed", done.stdout)
+        self.assertEqual(run("lint", "--severity", "EDS070=error", old).returncode, 2)
+        self.assertEqual(run("lint", "--no-config", old).returncode, 2)
+        other = self.write("other.yaml", b"format: 1\n")
+        self.assertEqual(run("lint", "--config", other, old).returncode, 2)
+        self.assertEqual(run("lint", "--config", "/no/such.yaml", new).returncode, 2)
+
+    def test_mistakes_of_a_configuration_are_told_with_their_places(self):
+        good = self.write("a.eds", content(fixture("legal-minimal.eds")))
+        for text, said in [
+            (b"format: 1\nlint:\n  alow: []\n", ".canopen-conform.yaml:3:3: error: unknown key 'alow'"),
+            (b"format: 1\nlint:\n  allow:\n    - rule: EDS70\n      reason: x\n", ".canopen-conform.yaml:4:13: error: there is no rule 'EDS70'; did you mean 'EDS070'?"),
+            (b"format: 1\nlint:\n  allow:\n    - rule: EDS070\n", "reason"),
+            (b"format: 1\nlint:\n  severity: {EDS070: of}\n", ".canopen-conform.yaml:3:22: error: "),
+            (b"lint: {}\n", "format"),
+            (b"format: 1\nlint: [\n", ".canopen-conform.yaml:"),
+        ]:
+            with self.subTest(text=text):
+                self.write(".canopen-conform.yaml", text)
+                done = run("lint", good)
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertIn(said, done.stderr)
+
+    def test_a_baseline_knows_findings_wherever_their_lines_move(self):
+        bad = content(fixture("bad-value-range.eds"))
+        path, known = self.write("bad-value-range.eds", bad), os.path.join(self.folder.name, "known.json")
+        self.assertEqual(run("lint", "--baseline", known, path).returncode, 2)
+        self.assertEqual(run("lint", "--write-baseline", path).returncode, 2)
+        self.assertEqual(run("lint", "--baseline", known, "--write-baseline", path).returncode, 0)
+        self.write("bad-value-range.eds", b"; moved\n\n" + bad)
+        done = run("lint", "--baseline", known, path)
+        self.assertEqual((done.returncode, done.stdout), (0, "1 file, 0 errors, 0 warnings, 0 notes, 1 known\n"))
+        self.write("bad-value-range.eds", bad.replace(b"300", b"301"))
+        done = run("lint", "--baseline", known, path)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("301 is no value", done.stdout)
+        self.assertRegex(done.stdout, r"known, but gone: EDS070 \[2000\] defaultvalue: .*300")
+        (one,) = json.loads(run("lint", "-f", "json", "--baseline", known, path).stdout)["files"]
+        self.assertEqual((len(one["gone"]), one["known"]), (1, 0))
+        os.rename(path, path + ".away")
+        done = run("lint", "--baseline", known, fixture("legal-minimal.eds"))
+        self.assertIn("there is no such file any more", done.stderr)
+        run("lint", "--baseline", known, "--write-baseline", fixture("legal-minimal.eds"))
+        self.assertEqual(json.loads(content(known))["files"], {})
+        for text in (b"no JSON", b"{}", b'{"schema": "canopen-conform/eds-lint-baseline/1", "files": {"a": [1]}}'):
+            self.write("known.json", text)
+            done = run("lint", "--baseline", known, fixture("legal-minimal.eds"))
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("known.json", done.stderr)
+
+    def test_findings_that_are_alike_are_told_once(self):
+        text = b"[FileInfo]\n" + b"".join(b"[%04X]\nParameterName=x\nDataType=010\nAccessType=rw\n" % (0x2000 + i) for i in range(20))
+        path = self.write("many.eds", text)
+        done = run("lint", path)
+        self.assertEqual(done.stdout.count("[EDS052]"), 1, done.stdout)
+        self.assertIn("and 19 alike, in lines 8, 12, 16, 20, 24, 28, 32, 36, ... (all with -v)", done.stdout)
+        self.assertEqual(run("lint", "-v", path).stdout.count("[EDS052]"), 20)
+        self.assertEqual(run("lint", "-f", "github", path).stdout.count("EDS052"), 20)
+
+    def test_what_is_mechanical_is_shown_and_mended(self):
+        good = content(fixture("legal-minimal.eds")).replace(b"\n", b"\r\n") + b"; \xe4\r\n"
+        bad = good.replace(b"SupportedObjects=3", b"SupportedObjects=4").replace(b"3=0x1018", b"4=0x1018").replace(b"SubNumber=2", b"SubNumber=3")
+        path = self.write("legal-minimal.eds", bad)
+        done = run("lint", "--diff", path)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("\n-SupportedObjects=4\n+SupportedObjects=3\n", done.stdout)
+        self.assertEqual(content(path), bad)
+        done = run("lint", "--fix", path)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("\n-4=0x1018\n+3=0x1018\n", done.stdout)
+        self.assertIn("1 file, 0 errors", done.stdout)
+        self.assertEqual(content(path), good)
+        self.assertNotIn("@@", run("lint", "--fix", path).stdout)
+        allowed = self.write("legal-minimal.eds", b"; lint: allow EDS152 as it is\r\n" + bad)
+        run("lint", "--fix", allowed)
+        self.assertIn(b"SupportedObjects=4", content(allowed))
+        self.assertEqual(run("lint", "--fix", "--diff", path).returncode, 2)
+
+    def test_sarif_has_help_fingerprints_and_fixes(self):
+        bad = content(fixture("legal-minimal.eds")).replace(b"SupportedObjects=3", b"SupportedObjects=4")
+        path = self.write("legal-minimal.eds", bad)
+        first = json.loads(run("lint", "-f", "sarif", "--rules-uri", "https://example.com/rules", path).stdout)["runs"][0]
+        rules = {rule["id"]: rule for rule in first["tool"]["driver"]["rules"]}
+        self.assertEqual(rules["EDS152"]["helpUri"], "https://example.com/rules#eds152")
+        self.assertIn("Right:", rules["EDS152"]["help"]["markdown"])
+        (result,) = first["results"]
+        (replacement,) = result["fixes"][0]["artifactChanges"][0]["replacements"]
+        self.assertEqual(replacement["insertedContent"]["text"], "3")
+        region = replacement["deletedRegion"]
+        self.assertEqual((region["startLine"], region["startColumn"], region["endColumn"]), (bad.split(b"\n").index(b"SupportedObjects=4") + 1, 18, 19))
+        self.write("legal-minimal.eds", b"; moved\n" + bad)
+        (moved,) = json.loads(run("lint", "-f", "sarif", path).stdout)["runs"][0]["results"]
+        self.assertEqual(moved["partialFingerprints"], result["partialFingerprints"])
+        self.assertNotEqual(moved["locations"], result["locations"])
+
+    def test_a_rule_is_explained(self):
+        explained = lambda *topics: subprocess.run([PROGRAM, "explain", *topics], capture_output=True, text=True, timeout=60)
+        done = explained("EDS254")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for said in ("Sub-index 00h is read-only and not the highest sub-index", "CiA 301, 7.4.8", "error", "Wrong\n", "Right\n", "lint: allow EDS254 REASON"):
+            self.assertIn(said, done.stdout)
+        self.assertIn("A listed object", explained("EDS154").stdout)
+        self.assertNotIn("Wrong", explained("EDS100").stdout)
+        self.assertIn("did you mean 'EDS", explained("EDS0254").stderr)
 
     def test_usage_mistakes_exit_2(self):
         for arguments in ([], ["lint"], ["show"], ["diff", "a"], ["lint", "-f", "xml", "a"], ["mend", "a"]):
