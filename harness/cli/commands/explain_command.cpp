@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `explain`: requirements, scenarios, monitors, verbs, defects, variants, the words conditions are made of,
-// and what each tier may send.
+// `explain`: requirements, scenarios, monitors, verbs, defects, variants, rules of the lint of descriptions,
+// the words conditions are made of, and what each tier may send.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +10,13 @@
 
 #include "base/text.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/descriptions/explain_rule.hpp"
 #include "cli/pages/coverage.hpp"
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
 #include "defects/defect.hpp"
 #include "device/profile.hpp"
+#include "eds/lint.hpp"
 #include "monitor/watch.hpp"
 #include "steps/channels.hpp"
 #include "steps/condition.hpp"
@@ -258,6 +260,7 @@ std::string explain_one(const std::string& topic, const LoadedSuites& suites, co
   if (topic == "coverage") return coverage_summary(coverage(suites));
   if (const auto* requirement = suites.catalogue.find(topic))
     return explain_requirement(*requirement, suites);
+  if (const auto* rule = eds::find_rule(topic)) return explain_rule(*rule);
   if (const auto* verb = steps::find_verb(topic)) return explain_verb(*verb);
   if (topic == over.name) return explain_verb(over);
   if (topic == "verbs") return verb_list();
@@ -283,6 +286,9 @@ std::string explain_one(const std::string& topic, const LoadedSuites& suites, co
   for (const auto& verb : steps::verbs()) known.emplace_back(verb.name);
   for (const auto& defect : refnode::defects()) known.emplace_back(defect.id);
   for (const auto& variant : refnode::variants()) known.emplace_back(variant.id);
+  for (const auto& group : eds::all_rule_groups()) {
+    for (const auto* rule : group.rules) known.emplace_back(rule->code);
+  }
   return {};
 }
 
@@ -323,7 +329,7 @@ int explain_command(const ExplainCommand& options) {
         {"nothing is known about '" + topic + "'",
          {},
          near.empty()
-             ? "a requirement, scenario, monitor, verb, defect or variant; or 'verbs', 'conditions', 'tiers', 'channels', 'profile', 'coverage'"
+             ? "a requirement, scenario, monitor, verb, defect, variant or rule of 'eds lint'; or 'verbs', 'conditions', 'tiers', 'channels', 'profile', 'coverage'"
              : "did you mean '" + std::string(near) + "'?"},
         exit_usage);
   }
