@@ -150,6 +150,11 @@ class Documents(unittest.TestCase):
             file.write(block.text)
         self.succeeds(block, "canopen-conform run --simulate cia301/dictionary/1003* --waivers shown-waivers.yaml")
 
+    def accepts_lint_config(self, block):
+        with open(f"{self.folder}/shown-lint.yaml", "w", encoding="utf-8") as file:
+            file.write(block.text)
+        self.succeeds(block, "canopen-conform eds lint device.eds --config shown-lint.yaml --write-baseline")
+
     def run_steps(self, block):
         names = ", ".join(name.replace("=", ": ") for name in block.says.split())
         lines = block.text.splitlines()
@@ -213,6 +218,8 @@ class Documents(unittest.TestCase):
                     pass
                 elif block.key == "shown" and block.kind == "yaml" and "\nwaivers:" in block.text:
                     self.accepts_waivers(block)
+                elif block.key == "shown" and block.kind == "yaml" and "\nlint:" in block.text:
+                    self.accepts_lint_config(block)
                 elif block.kind == "sh":
                     typed += self.run_commands(block)
                 else:
