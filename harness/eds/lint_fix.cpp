@@ -41,7 +41,8 @@ class CountFixes {
     for (const auto& object : file_.objects) {
       const bool here = object.entry.at == finding_.at;
       const auto& number = object.sub_number;
-      if ((code == "EDS252" && number.present && number.at == finding_.at) || (code == "EDS253" && here))
+      if (((code == "EDS252" || code == "EDS263") && number.present && number.at == finding_.at) ||
+          (code == "EDS253" && here))
         return fixer_.write(number, object.entry.at, "SubNumber",
                             number_like(number.text, count_of_subs(object)));
       if (code == "EDS207" && here && has_different_elements(object))
@@ -82,7 +83,7 @@ class CountFixes {
            {&file_.mandatory_objects, &file_.optional_objects, &file_.manufacturer_objects})
         look(*list, "SupportedObjects");
     }
-    if (code == "EDS112") look(file_.comments, "Lines");
+    if (code == "EDS112" || code == "EDS120") look(file_.comments, "Lines");
     if (code == "EDS160") {
       for (const auto& object : file_.objects) look(object.lists->links, "ObjectLinks");
     }
@@ -238,8 +239,9 @@ std::optional<Fix> Fixer::fix(const Finding& finding) const {
     return std::ranges::find(codes, code) != codes.end();
   };
   const CountFixes counts(*this, finding);
-  if (is_one_of({"EDS112", "EDS152", "EDS153", "EDS160", "EDS275", "EDS425"})) return counts.of_list();
-  if (is_one_of({"EDS207", "EDS252", "EDS253", "EDS254", "EDS256"})) return counts.of_object();
+  if (is_one_of({"EDS112", "EDS120", "EDS152", "EDS153", "EDS160", "EDS275", "EDS425"}))
+    return counts.of_list();
+  if (is_one_of({"EDS207", "EDS252", "EDS253", "EDS254", "EDS256", "EDS263"})) return counts.of_object();
   if (is_one_of({"EDS300", "EDS301"})) return counts.of_pdos();
   if (is_one_of({"EDS054", "EDS055", "EDS058", "EDS059", "EDS060", "EDS062", "EDS105", "EDS106"}))
     return spelling(finding);
