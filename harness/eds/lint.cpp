@@ -12,7 +12,7 @@
 #include "eds/expand.hpp"
 #include "eds/lint_comments.hpp"
 #include "eds/lint_rules.hpp"
-#include "eds/value.hpp"
+#include "eds/same_value.hpp"
 
 namespace conform::eds {
 namespace {

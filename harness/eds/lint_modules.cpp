@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "eds/lint_rules.hpp"
-#include "eds/value.hpp"
+#include "eds/same_value.hpp"
 
 namespace conform::eds {
 namespace {
@@ -98,7 +98,7 @@ bool same_field(const Entry& a, const Entry& b, const FieldRow<Entry>& row) {
   const bool has_type = row.key == "DefaultValue" || row.key == "LowLimit" || row.key == "HighLimit";
   const bool is_text = row.key == "ParameterName" || row.key == "Denotation";
   return left.text == right.text ||
-         (!is_text && same_value(left, right, has_type ? data_type(a) : std::nullopt, {}));
+         (!is_text && may_be_same_value(left, right, has_type ? data_type(a) : std::nullopt, {}));
 }
 
 bool same_entry(const Entry& a, const Entry& b) {

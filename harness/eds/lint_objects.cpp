@@ -4,8 +4,8 @@
 
 #include "base/text.hpp"
 #include "eds/lint_rules.hpp"
+#include "eds/same_value.hpp"
 #include "eds/type_table.hpp"
-#include "eds/value.hpp"
 
 namespace conform::eds {
 namespace {
@@ -174,7 +174,7 @@ class Check {
     if (mappable) mapping(entry.pdo_mapping, allowed, info);
     // What is only read may well have another value in one device than the description says for all of them.
     if (!entry.parameter_value.empty() && allowed == Access::constant && !entry.default_value.empty() &&
-        !same_value(entry.parameter_value, entry.default_value, type, node_))
+        !may_be_same_value(entry.parameter_value, entry.default_value, type, node_))
       add(configured_constant, entry.parameter_value,
           fmt::format("ParameterValue {} is not the DefaultValue {} of a constant",
                       shortened(entry.parameter_value.text), shortened(entry.default_value.text)));

@@ -12,6 +12,8 @@
 namespace conform::eds {
 namespace {
 
+constexpr std::uint64_t lowest_node = 1, highest_node = 127;
+
 struct Integer {
   std::uint64_t bits = 0;  ///< two's complement in 64 bits
   bool node_id = false;
@@ -82,6 +84,25 @@ bool same_value(std::string_view a, std::string_view b, std::optional<std::uint1
 
 bool same_number(std::string_view a, std::string_view b) {
   return a == b || same(a, b, integer(a, 0), integer(b, 0));
+}
+
+bool may_be_same_value(const Field& a, const Field& b, std::optional<std::uint16_t> data_type,
+                       std::optional<std::uint8_t> node) {
+  if (same_value(a.text, b.text, data_type)) return true;
+  const auto* type = data_type ? find_type(*data_type) : nullptr;
+  const bool is_integer =
+      type == nullptr || type->kind == TypeKind::signed_integer || type->kind == TypeKind::unsigned_integer;
+  const auto x = integer(a.text, type == nullptr ? 0 : type->bits);
+  const auto y = integer(b.text, type == nullptr ? 0 : type->bits);
+  if (!is_integer || !x || !y || x->node_id == y->node_id) return false;
+  const auto wanted = x->node_id ? y->bits - x->bits : x->bits - y->bits;
+  return node ? wanted == *node : wanted >= lowest_node && wanted <= highest_node;
+}
+
+std::optional<std::uint8_t> configured_node(const EdsFile& file) {
+  const auto node = number_of(file.commissioning.node_id);
+  if (!node || *node < lowest_node || *node > highest_node) return std::nullopt;
+  return static_cast<std::uint8_t>(*node);
 }
 
 bool same_flag(std::string_view a, std::string_view b) { return same(a, b, flag(a), flag(b)); }

@@ -88,7 +88,7 @@ class Draft {
     line(out_, "[DeviceInfo]\r\nVendorName=unknown\r\nVendorNumber={:#x}", number(0x1018, 1));
     line(out_, "ProductName={}\r\nProductNumber={:#x}\r\nRevisionNumber={:#x}",
          product.empty() ? "unknown" : product, number(0x1018, 2), number(0x1018, 3));
-    line(out_, "OrderCode=");
+    line(out_, "OrderCode=unknown");
     for (const unsigned rate : {10U, 20U, 50U, 125U, 250U, 500U, 800U, 1000U})
       line(out_, "BaudRate_{}={}", rate, info_.bit_rate == rate * 1000U ? 1 : 0);
     const bool maps = count(0x1600, 0x17FF) + count(0x1A00, 0x1BFF) > 0;
@@ -151,7 +151,7 @@ class Draft {
       for (unsigned i = 1; i <= last; ++i) {
         line(
             out_,
-            "\r\n[M{}ModuleInfo]\r\nProductName=Module {}\r\nProductVersion=1\r\nProductRevision=0\r\nOrderCode=",
+            "\r\n[M{}ModuleInfo]\r\nProductName=Module {}\r\nProductVersion=1\r\nProductRevision=0\r\nOrderCode=unknown",
             i, i);
       }
       out_ += "\r\n";

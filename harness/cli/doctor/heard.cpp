@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/doctor/heard.hpp"
 
-#include <linux/can/error.h>
-
 #include <algorithm>
 
 #include "base/bytes.hpp"
+#include "can/error_frame.hpp"
 
 namespace conform::cli {
 namespace {
@@ -14,10 +13,11 @@ constexpr std::uint32_t nmt_id = 0x000, sync_id = 0x080, time_id = 0x100, lss_re
 constexpr std::uint8_t toggle_bit = 0x80;
 
 void note_error(Heard& heard, const can::Frame& frame) {
-  if ((frame.id & CAN_ERR_ACK) != 0) ++heard.not_acknowledged;
-  if ((frame.id & (CAN_ERR_PROT | CAN_ERR_BUSERROR)) != 0) ++heard.violated;
-  if ((frame.id & CAN_ERR_BUSOFF) != 0) ++heard.bus_off;
-  if ((frame.id & CAN_ERR_CRTL) != 0) ++heard.full_or_passive;
+  const auto told = can::read_error_frame(frame);
+  if (told.not_acknowledged) ++heard.not_acknowledged;
+  if (told.violated) ++heard.violated;
+  if (told.bus_off) ++heard.bus_off;
+  if (told.controller) ++heard.controller;
 }
 
 void note_error_control(HeardNode& node, const can::BusEvent& event) {

@@ -100,7 +100,8 @@ std::string findings_of(const eds::EdsFile& file, const eds::EdsFile* device = n
   }
   std::string out;
   for (const auto& finding : eds::lint(file).findings) {
-    if (!known.contains(finding.rule->code))
+    // Notes are about what the device chose, like a default of its own.
+    if (finding.severity() > eds::Severity::note && !known.contains(finding.rule->code))
       out += fmt::format("{} {}\n", finding.rule->code, finding.message);
   }
   return out;

@@ -23,8 +23,7 @@ const std::map<std::string, std::string, std::less<>> bases = {
     {"eds", "legal-whole.eds"},   {"dcf", "legal-whole.dcf"},
     {"min", "legal-minimal.eds"}, {"fix", "legal-fixed-mapping.eds"},
     {"mod", "legal-modules.eds"}, {"con", "legal-connected-modules.dcf"},
-    {"xdd", "legal-xml.xdd"},
-    {"xds", "legal-xml-structure.xdd"}};
+    {"xdd", "legal-xml.xdd"},     {"xds", "legal-xml-structure.xdd"}};
 
 struct Row {
   std::string code, base, found, passed;

@@ -80,7 +80,7 @@ class Schema(unittest.TestCase):
                 if not re.search("^format: 1$", block, re.MULTILINE):
                     continue
                 found += 1
-                kind = next((name for key, name in (("scenarios", "scenario"), ("requirements", "requirement"), ("waivers", "waivers"))
+                kind = next((name for key, name in (("scenarios", "scenario"), ("requirements", "requirement"), ("waivers", "waivers"), ("lint", "configuration"))
                              if re.search(f"^{key}:", block, re.MULTILINE)), "device")
                 with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
                     file.write(block)
