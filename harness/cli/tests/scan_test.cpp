@@ -155,7 +155,7 @@ TEST_CASE("Drafts of drawn devices lint clean, come back from their twins, and t
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     CAPTURE(seed);
     const auto device = read_text(cli::draw_description(seed), "drawn.eds");
-    CHECK(findings_of(*read_text(draft(scanned(device)))) == "");
+    CHECK(findings_of(*read_text(draft(scanned(device))), device.get()) == "");
     const auto file = read_text(draft(scanned(device, everything(steps::Tier::motion)), true));
     CHECK(findings_of(*file, device.get()) == "");
     CHECK(lost(file, steps::Tier::motion) == "");
