@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/text.hpp"
 #include "canopen/nmt.hpp"
@@ -82,7 +83,8 @@ std::vector<Advice> about_bus(const can::InterfaceFacts& facts, const Heard& hea
   if (heard.frames == 0 && !heard.is_disturbed()) {
     out.push_back(
         {asked ? Kind::bad : Kind::note,
-         fmt::format("nothing was heard for {}{}", to_string(heard.listened),
+         fmt::format("nothing was heard for {}{}",
+                     to_string(std::chrono::floor<std::chrono::milliseconds>(heard.listened)),
                      asked ? ", and nobody answered" : ""),
          asked ? "power, wiring, bit rate, node-ID? A device without node-ID: canopen-conform lss-scan"
                : "a device may be silent until it is asked: doctor --ask reads 1000h of every node-ID"});
