@@ -164,7 +164,7 @@ const NumberedField* first_out_of_row(const NumberedList& list) {
 }
 
 std::string Spot::name() const {
-  const auto own = section_name(object.index, sub);
+  auto own = section_name(object.index, sub);
   if (kind == Kind::of_the_device) return own;
   return fmt::format("[M{}{}{}", module, kind == Kind::fixed ? "Fixed" : "SubExt", own.substr(1));
 }

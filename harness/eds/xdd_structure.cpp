@@ -29,11 +29,12 @@ bool is_decimal(std::string_view text, std::uint64_t most) {
 
 bool is_bit_rate(std::string_view text) {
   if (text == "auto-baudRate") return true;
-  const auto blank = text.find(' ');
-  if (blank == std::string_view::npos || text.substr(blank) != " Kbps") return false;
+  constexpr std::string_view unit = " Kbps";
+  if (!text.ends_with(unit)) return false;
+  text.remove_suffix(unit.size());
   std::uint64_t rate = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + blank, rate);
-  return error == std::errc() && end == text.data() + blank && is_xml_bit_rate(rate);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rate);
+  return error == std::errc() && end == text.data() + text.size() && is_xml_bit_rate(rate);
 }
 
 bool is_dummy(std::string_view text) {

@@ -181,7 +181,7 @@ class Comparison {
     const std::array identity = {std::pair{"VendorNumber", &info.vendor_number},
                                  std::pair{"ProductNumber", &info.product_number},
                                  std::pair{"RevisionNumber", &info.revision_number}};
-    for (std::uint8_t i = 0; i < identity.size(); ++i) {
+    for (std::size_t i = 0; i < identity.size(); ++i) {
       const auto seen = seen_.find({Index(0x1018), SubIndex(static_cast<std::uint8_t>(i + 1))});
       if (seen == seen_.end() || !seen->second->value || seen->second->value->size() != 4) continue;
       compare_number(identity[i].first, *identity[i].second, load_le(*seen->second->value));
