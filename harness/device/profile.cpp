@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "canopen/program_control.hpp"
 #include "device/profile_fields.hpp"
 #include "device/standard_objects.hpp"
 
@@ -119,9 +120,9 @@ Dictionary dictionary_of(const Profile& profile) {
     dictionary.add(at_node(added, profile.node));
   }
   for (const Entry& listed : profile.objects) {
-    const auto index = listed.mux.index.value();
-    const bool program = index >= 0x1F50 && index <= 0x1F5F;  // a write may start or stop it (CiA 302-3)
-    if (index >= 0x2000 || program) dictionary.find(listed.mux)->open_to_writes = false;
+    const auto index = listed.mux.index;
+    if (index.value() >= 0x2000 || canopen::is_program_control(index))
+      dictionary.find(listed.mux)->open_to_writes = false;
   }
   for (const Multiplexer mux : profile.safe_objects) {
     Entry* entry = dictionary.find(mux);

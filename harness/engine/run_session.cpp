@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/program_control.hpp"
 #include "canopen/sdo_initiate.hpp"
 
 namespace conform::engine {
@@ -95,7 +96,7 @@ Result<void> RunSession::will_change(Multiplexer object) {
   if (found != nullptr && !found->readable()) return {};
   // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is
   // all commands.
-  const bool program = object.index.value() >= 0x1F50 && object.index.value() <= 0x1F5F;
+  const bool program = canopen::is_program_control(object.index);
   if (found == nullptr && (program || channel_.is_open())) return {};
   // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
   if (channel_.is_open() && before_write_.contains(object)) return {};

@@ -6,6 +6,8 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
+#include "canopen/pdo.hpp"
+#include "canopen/program_control.hpp"
 #include "device/standard_objects.hpp"
 #include "steps/tier.hpp"
 
@@ -19,14 +21,13 @@ constexpr std::uint8_t sub_ff = 0xFF;  ///< structure of the object (CiA 301, 7.
 constexpr std::uint8_t last_mapped = 0x40;  ///< of a mapping (CiA 301, 7.5.2.36)
 
 bool is_mapping(Index index) {
-  const auto value = index.value();
-  return (value >= 0x1600 && value <= 0x17FF) || (value >= 0x1A00 && value <= 0x1BFF);
+  const auto communication = canopen::pdo_communication(index);
+  return communication && *communication != index;
 }
 
 /// Whether a write does more than to keep a value.
 bool has_effect(Multiplexer mux) {
-  const auto index = mux.index.value();
-  if (index >= 0x1F50 && index <= 0x1F5F) return true;  // program control (CiA 302-3)
+  if (canopen::is_program_control(mux.index)) return true;
   const auto known = device::standard_entry(mux);
   return known && known->command;
 }

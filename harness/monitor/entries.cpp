@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "canopen/cob_id.hpp"
+#include "canopen/program_control.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -27,7 +28,7 @@ void Entries::asked(Multiplexer object, std::optional<std::uint32_t> value, BusT
   if (value) note_can_id(object, *value, false);
   const auto index = object.index.value();
   // Restored defaults may be in force at once, and a program that starts has its own.
-  if (object.index == restore || (index >= 0x1F50 && index <= 0x1F5F)) {
+  if (object.index == restore || canopen::is_program_control(object.index)) {
     restoring_ = true;
     return forget_values();
   }

@@ -6,6 +6,7 @@
 
 #include "canopen/cob_id.hpp"
 #include "canopen/lss.hpp"
+#include "canopen/program_control.hpp"
 
 namespace conform::steps {
 namespace {
@@ -117,7 +118,7 @@ Need need_of_download(Multiplexer object) {
   // Sub-index 00h is only a count.
   if ((value == 0x1010 || value == 0x1011) && object.sub != SubIndex(0))
     return {Tier::nvm, "store or restore parameters"};
-  if (value >= 0x1F50 && value <= 0x1F5F) return {Tier::motion, "write to program control"};
+  if (canopen::is_program_control(object.index)) return {Tier::motion, "write to program control"};
   return {Tier::config, "write to the device"};
 }
 
