@@ -14,91 +14,6 @@
 
 namespace {
 
-/// The sub-commands of `eds`.
-struct EdsOptions {
-  conform::cli::EdsLintCommand lint;
-  conform::cli::EdsShowCommand show;
-  conform::cli::EdsDiffCommand diff;
-  conform::cli::EdsWriters writers;
-  CLI::App* lint_sub = nullptr;
-  CLI::App* show_sub = nullptr;
-  CLI::App* diff_sub = nullptr;
-
-  void add_to(CLI::App& app) {
-    app.require_subcommand(1);
-    const auto format = [](CLI::App* sub, std::string& into, const std::vector<std::string>& names,
-                           const char* help) {
-      sub->add_option("-f,--format", into, help)
-          ->check(CLI::IsMember(names).description(""))
-          ->type_name("FORMAT");
-    };
-    add_lint_to(app);
-    format(lint_sub, lint.format, {"text", "json", "github", "sarif"}, "Output: text, json, github or sarif");
-    show_sub = app.add_subcommand("show", "Print the object dictionary as a table");
-    show_sub->add_option("file", show.file, "Device description")->required()->type_name("FILE");
-    format(show_sub, show.format, {"text", "json"}, "Output: text or json");
-    show_sub->add_option("--html", show.html, "Write a page for a browser instead, with what lint finds")
-        ->type_name("PAGE");
-    diff_sub =
-        app.add_subcommand("diff", "Tell what changed between two files; exits with 1 where they differ");
-    diff_sub->add_option("before", diff.before, "Device description of before")
-        ->required()
-        ->type_name("BEFORE");
-    diff_sub->add_option("after", diff.after, "Device description of after")->required()->type_name("AFTER");
-    format(diff_sub, diff.format, {"text", "json"}, "Output: text or json");
-    diff_sub->add_flag("--file-info", diff.file_info,
-                       "What only describes the file counts, too: [FileInfo] and [Comments]");
-    writers.add_to(app);
-  }
-
-  void add_lint_to(CLI::App& app) {
-    lint_sub = app.add_subcommand(
-        "lint",
-        "Tell what is wrong in the files; exits with 2 where there are errors, with 3 where only a file cannot be read");
-    lint_sub
-        ->add_option("files", lint.files,
-                     "Device descriptions, and folders in which *.eds, *.dcf, *.xdd and *.xdc are looked for")
-        ->type_name("FILE");
-    lint_sub->add_flag("--strict", lint.strict, "Warnings count as errors");
-    lint_sub->add_flag("-v,--verbose", lint.verbose, "Tell findings that are alike one by one");
-    lint_sub->add_option("--allow", lint.allow, "Switch a rule off; repeatable")
-        ->type_name("RULE")
-        ->allow_extra_args(false);
-    lint_sub
-        ->add_option("--severity", lint.severity,
-                     "Give a rule another severity, as EDS210=note (error, warning, note); repeatable")
-        ->type_name("RULE=SEVERITY")
-        ->allow_extra_args(false);
-    auto* config =
-        lint_sub
-            ->add_option("--config", lint.config,
-                         "Configuration (default: .canopen-conform.yaml beside the description or above)")
-            ->type_name("FILE");
-    lint_sub->add_flag("--no-config", lint.no_config, "Look for no configuration")->excludes(config);
-    lint_sub->add_option("--baseline", lint.baseline, "Findings that are known, which are not told again")
-        ->type_name("FILE");
-    lint_sub->add_flag("--write-baseline", lint.write_baseline, "Write what is found into the baseline");
-    auto* fix = lint_sub->add_flag(
-        "--fix", lint.fix, "Mend what is mechanical, and show it: counts, numbering, forms of writing");
-    lint_sub->add_flag("--diff,--dry-run", lint.dry_run, "Show what --fix would change, and change nothing")
-        ->excludes(fix);
-    lint_sub->add_flag("--rules", lint.rules, "Print all rules as Markdown instead");
-    lint_sub
-        ->add_option("--rules-uri", lint.rules_uri,
-                     "Where the page of the rules is published, for links in SARIF")
-        ->type_name("URI");
-    lint_sub->add_option("--color", lint.color, "Colours: auto, always or never")
-        ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
-        ->type_name("WHEN");
-  }
-
-  [[nodiscard]] int run() const {
-    if (const auto code = writers.run()) return *code;
-    if (lint_sub->parsed()) return conform::cli::eds_lint_command(lint);
-    return show_sub->parsed() ? conform::cli::eds_show_command(show) : conform::cli::eds_diff_command(diff);
-  }
-};
-
 void add_waivers(CLI::App& app, std::vector<std::string>& into) {
   app.add_option("--waivers", into,
                  "File of accepted failures; repeatable (default: waivers.yaml beside the device profile)")
@@ -507,7 +422,7 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
 
-  EdsOptions eds;
+  conform::cli::EdsOptions eds;
   auto* eds_sub =
       app.add_subcommand("eds", "Look into device descriptions (EDS, DCF, XDD, XDC), without a device");
   eds.add_to(*eds_sub);

@@ -46,4 +46,78 @@ std::optional<int> EdsWriters::run() const {
   return std::nullopt;
 }
 
+void EdsOptions::add_to(CLI::App& app) {
+  app.require_subcommand(1);
+  const auto format = [](CLI::App* sub, std::string& into, const std::vector<std::string>& names,
+                         const char* help) {
+    sub->add_option("-f,--format", into, help)
+        ->check(CLI::IsMember(names).description(""))
+        ->type_name("FORMAT");
+  };
+  add_lint_to(app);
+  format(lint_sub_, lint_.format, {"text", "json", "github", "sarif"}, "Output: text, json, github or sarif");
+  show_sub_ = app.add_subcommand("show", "Print the object dictionary as a table");
+  show_sub_->add_option("file", show_.file, "Device description")->required()->type_name("FILE");
+  format(show_sub_, show_.format, {"text", "json"}, "Output: text or json");
+  show_sub_->add_option("--html", show_.html, "Write a page for a browser instead, with what lint finds")
+      ->type_name("PAGE");
+  diff_sub_ =
+      app.add_subcommand("diff", "Tell what changed between two files; exits with 1 where they differ");
+  diff_sub_->add_option("before", diff_.before, "Device description of before")
+      ->required()
+      ->type_name("BEFORE");
+  diff_sub_->add_option("after", diff_.after, "Device description of after")->required()->type_name("AFTER");
+  format(diff_sub_, diff_.format, {"text", "json"}, "Output: text or json");
+  diff_sub_->add_flag("--file-info", diff_.file_info,
+                      "What only describes the file counts, too: [FileInfo] and [Comments]");
+  writers_.add_to(app);
+}
+
+void EdsOptions::add_lint_to(CLI::App& app) {
+  lint_sub_ = app.add_subcommand(
+      "lint",
+      "Tell what is wrong in the files; exits with 2 where there are errors, with 3 where only a file cannot be read");
+  lint_sub_
+      ->add_option("files", lint_.files,
+                   "Device descriptions, and folders in which *.eds, *.dcf, *.xdd and *.xdc are looked for")
+      ->type_name("FILE");
+  lint_sub_->add_flag("--strict", lint_.strict, "Warnings count as errors");
+  lint_sub_->add_flag("-v,--verbose", lint_.verbose, "Tell findings that are alike one by one");
+  lint_sub_->add_option("--allow", lint_.allow, "Switch a rule off; repeatable")
+      ->type_name("RULE")
+      ->allow_extra_args(false);
+  lint_sub_
+      ->add_option("--severity", lint_.severity,
+                   "Give a rule another severity, as EDS210=note (error, warning, note); repeatable")
+      ->type_name("RULE=SEVERITY")
+      ->allow_extra_args(false);
+  auto* config =
+      lint_sub_
+          ->add_option("--config", lint_.config,
+                       "Configuration (default: .canopen-conform.yaml beside the description or above)")
+          ->type_name("FILE");
+  lint_sub_->add_flag("--no-config", lint_.no_config, "Look for no configuration")->excludes(config);
+  lint_sub_->add_option("--baseline", lint_.baseline, "Findings that are known, which are not told again")
+      ->type_name("FILE");
+  lint_sub_->add_flag("--write-baseline", lint_.write_baseline, "Write what is found into the baseline");
+  auto* fix = lint_sub_->add_flag(
+      "--fix", lint_.fix, "Mend what is mechanical, and show it: counts, numbering, forms of writing");
+  lint_sub_->add_flag("--diff,--dry-run", lint_.dry_run, "Show what --fix would change, and change nothing")
+      ->excludes(fix);
+  lint_sub_->add_flag("--rules", lint_.rules, "Print all rules as Markdown instead");
+  lint_sub_
+      ->add_option("--rules-uri", lint_.rules_uri,
+                   "Where the page of the rules is published, for links in SARIF")
+      ->type_name("URI");
+  lint_sub_->add_option("--color", lint_.color, "Colours: auto, always or never")
+      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
+      ->type_name("WHEN");
+}
+
+int EdsOptions::run() const {
+  if (const auto code = writers_.run()) return *code;
+  if (lint_sub_->parsed()) return eds_lint_command(lint_);
+  return show_sub_->parsed() ? eds_show_command(show_) : eds_diff_command(diff_);
+}
+
 }  // namespace conform::cli

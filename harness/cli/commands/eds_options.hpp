@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// `eds convert` and `eds new` on the command line.
+// The sub-commands of `eds` on the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
+
+#include "cli/commands/commands.hpp"
 
 namespace conform::cli {
 
@@ -29,7 +31,7 @@ struct EdsNewCommand {
 };
 [[nodiscard]] int eds_new_command(const EdsNewCommand& options);
 
-/// The sub-commands themselves.
+/// `eds convert` and `eds new`.
 class EdsWriters {
  public:
   void add_to(CLI::App& app);
@@ -41,6 +43,25 @@ class EdsWriters {
   EdsNewCommand new_;
   CLI::App* convert_sub_ = nullptr;
   CLI::App* new_sub_ = nullptr;
+};
+
+/// All sub-commands.
+class EdsOptions {
+ public:
+  void add_to(CLI::App& app);
+  /// The exit code of the one that was called.
+  [[nodiscard]] int run() const;
+
+ private:
+  void add_lint_to(CLI::App& app);
+
+  EdsLintCommand lint_;
+  EdsShowCommand show_;
+  EdsDiffCommand diff_;
+  EdsWriters writers_;
+  CLI::App* lint_sub_ = nullptr;
+  CLI::App* show_sub_ = nullptr;
+  CLI::App* diff_sub_ = nullptr;
 };
 
 }  // namespace conform::cli
