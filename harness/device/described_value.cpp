@@ -91,4 +91,16 @@ Result<DescribedValue> read_described_value(DataType type, std::string_view text
   }
 }
 
+Access access_of(eds::Access access) {
+  switch (access) {
+    case eds::Access::ro: return Access::ro;
+    case eds::Access::wo: return Access::wo;
+    case eds::Access::rw: return Access::rw;
+    case eds::Access::rwr: return Access::rwr;
+    case eds::Access::rww: return Access::rww;
+    case eds::Access::constant: break;
+  }
+  return Access::constant;
+}
+
 }  // namespace conform::device

@@ -41,18 +41,6 @@ constexpr ShownBy shown_by[] = {
     {"program download", 0x1F50, 0x1F50},
 };
 
-Access access_of(eds::Access access) {
-  switch (access) {
-    case eds::Access::ro: return Access::ro;
-    case eds::Access::wo: return Access::wo;
-    case eds::Access::rw: return Access::rw;
-    case eds::Access::rwr: return Access::rwr;
-    case eds::Access::rww: return Access::rww;
-    case eds::Access::constant: break;
-  }
-  return Access::constant;
-}
-
 std::optional<ObjectCode> code_of(eds::ObjectCode code) {
   switch (code) {
     case eds::ObjectCode::domain: return ObjectCode::domain;

@@ -2,6 +2,7 @@
 #include "device/standard_objects.hpp"
 
 #include "base/check.hpp"
+#include "device/described_value.hpp"
 #include "eds/standard_table.hpp"
 
 namespace conform::device {
@@ -14,18 +15,6 @@ canopen::DataType type_of(const Row& row) {
   const auto type = canopen::data_type_at(row.type);
   CONFORM_CHECK(type.has_value());
   return *type;
-}
-
-Access access_of(eds::Access access) {
-  switch (access) {
-    case eds::Access::ro: return Access::ro;
-    case eds::Access::wo: return Access::wo;
-    case eds::Access::rw: return Access::rw;
-    case eds::Access::rwr: return Access::rwr;
-    case eds::Access::rww: return Access::rww;
-    case eds::Access::constant: break;
-  }
-  return Access::constant;
 }
 
 Category category_of(eds::Category category) {
