@@ -163,6 +163,15 @@ const NumberedField* first_out_of_row(const NumberedList& list) {
   return nullptr;
 }
 
+std::string RemarkRow::text_of(const Remark& remark) const {
+  return fmt::format(fmt::runtime(message), remark.detail);
+}
+
+const RemarkRow* row_of(std::span<const RemarkRow> rows, const Remark& remark) {
+  const auto found = std::ranges::find(rows, remark.what, &RemarkRow::what);
+  return found == rows.end() ? nullptr : &*found;
+}
+
 std::string Spot::name() const {
   auto own = section_name(object.index, sub);
   if (kind == Kind::of_the_device) return own;

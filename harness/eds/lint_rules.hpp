@@ -6,7 +6,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -33,6 +35,18 @@ class Findings {
   std::map<const Rule*, std::size_t> counts_;
   std::set<std::tuple<Position, const Rule*, std::string>> known_;
 };
+
+/// What a rule makes of something that the reader remarked.
+struct RemarkRow {
+  Deviation what;
+  const Rule* rule;
+  std::string_view message;  ///< {} is the text in question
+  std::string_view hint;
+
+  [[nodiscard]] std::string text_of(const Remark& remark) const;
+};
+/// nullptr: no row is about it.
+[[nodiscard]] const RemarkRow* row_of(std::span<const RemarkRow> rows, const Remark& remark);
 
 struct Group {
   RuleGroup table;

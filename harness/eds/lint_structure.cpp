@@ -2,8 +2,6 @@
 // Structure: what the reader had to pass over or to put right.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,14 +68,7 @@ constexpr const Rule* all[] = {
     &xml_mapping,
 };
 
-struct Row {
-  Deviation what;
-  const Rule* rule;
-  std::string_view message;  ///< {} is the text in question
-  std::string_view hint;
-};
-
-constexpr Row rows[] = {
+constexpr RemarkRow rows[] = {
     {Deviation::byte_order_mark, &byte_order_mark, "the file begins with a byte order mark",
      "save it without BOM"},
     {Deviation::mixed_line_ends,
@@ -137,16 +128,15 @@ std::vector<std::string_view> known_keys() {
 void check(const Subject& subject, Findings& findings) {
   const auto keys = known_keys();
   for (const auto& remark : subject.file.remarks.all()) {
-    const auto* row = std::ranges::find(rows, remark.what, &Row::what);
-    if (row == std::end(rows)) continue;
+    const auto* row = row_of(rows, remark);
+    if (row == nullptr) continue;
     auto hint = std::string(row->hint);
     if (remark.first.known()) hint = fmt::format("the first one, in line {}, counts", remark.first.line);
     if (remark.what == Deviation::unknown_entry) {
       const auto meant = did_you_mean(remark.detail, keys);
       if (!meant.empty() && !same_word(meant, remark.detail)) hint = fmt::format("did you mean {}?", meant);
     }
-    findings.add(*row->rule, remark.at, fmt::format(fmt::runtime(row->message), remark.detail),
-                 std::move(hint));
+    findings.add(*row->rule, remark.at, row->text_of(remark), std::move(hint));
   }
 }
 

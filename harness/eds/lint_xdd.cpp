@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // XDD and XDC: whether they are built as CiA 311 says.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -30,13 +26,7 @@ constexpr Rule qualified{"EDS707", Severity::warning,
 constexpr const Rule* all[] = {&unknown_element,   &order,     &missing_element, &unknown_attribute,
                                &missing_attribute, &bad_value, &no_name_space,   &qualified};
 
-struct Row {
-  Deviation what;
-  const Rule* rule;
-  std::string_view message;  ///< {} is the text in question
-  std::string_view hint;
-};
-constexpr Row rows[] = {
+constexpr RemarkRow rows[] = {
     {Deviation::xml_unknown_element, &unknown_element, "{} is not known",
      "tools that validate refuse the file"},
     {Deviation::xml_order, &order, "{} stands in the wrong place, or there is one too many", {}},
@@ -51,10 +41,8 @@ constexpr Row rows[] = {
 
 void check(const Subject& subject, Findings& findings) {
   for (const auto& remark : subject.file.remarks.all()) {
-    const auto* row = std::ranges::find(rows, remark.what, &Row::what);
-    if (row != std::end(rows))
-      findings.add(*row->rule, remark.at, fmt::format(fmt::runtime(row->message), remark.detail),
-                   std::string(row->hint));
+    if (const auto* row = row_of(rows, remark))
+      findings.add(*row->rule, remark.at, row->text_of(remark), std::string(row->hint));
   }
 }
 
