@@ -8,8 +8,7 @@ namespace conform::can {
 ErrorFrame read_error_frame(const Frame& frame) {
   return {.not_acknowledged = (frame.id & CAN_ERR_ACK) != 0,
           .violated = (frame.id & (CAN_ERR_PROT | CAN_ERR_BUSERROR)) != 0,
-          .bus_off = (frame.id & CAN_ERR_BUSOFF) != 0,
-          .controller = (frame.id & CAN_ERR_CRTL) != 0};
+          .bus_off = (frame.id & CAN_ERR_BUSOFF) != 0};
 }
 
 }  // namespace conform::can

@@ -12,7 +12,6 @@ struct ErrorFrame {
   bool not_acknowledged = false;  ///< nobody took a frame of ours
   bool violated = false;          ///< a frame was no frame by ISO 11898-1
   bool bus_off = false;
-  bool controller = false;  ///< a buffer ran over, or an error counter passed a limit
 };
 
 /// Of a frame that is an error frame.

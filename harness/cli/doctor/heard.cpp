@@ -17,7 +17,6 @@ void note_error(Heard& heard, const can::Frame& frame) {
   if (told.not_acknowledged) ++heard.not_acknowledged;
   if (told.violated) ++heard.violated;
   if (told.bus_off) ++heard.bus_off;
-  if (told.controller) ++heard.controller;
 }
 
 void note_error_control(HeardNode& node, const can::BusEvent& event) {

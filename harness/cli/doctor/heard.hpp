@@ -35,7 +35,7 @@ struct Heard {
   std::size_t syncs = 0, times = 0;
   std::size_t others = 0;  ///< extended identifiers, and CAN-IDs of no service
   // Error frames of the controller, by what they tell; one may tell several things.
-  std::size_t not_acknowledged = 0, violated = 0, bus_off = 0, controller = 0;
+  std::size_t not_acknowledged = 0, violated = 0, bus_off = 0;
 
   [[nodiscard]] bool is_disturbed() const { return violated + not_acknowledged + bus_off > 0; }
 };
