@@ -119,7 +119,9 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"OD-1003-04", "NMT-BOOT-02"},
     {"EC-EB-* OD-1800-11 OD-1800-09 OD-1400-11 PDO-* SYNC-CON-*", "NMT-BOOT-10"},
     {"EC-HBP-*", "OD-1017-03"},
-    {"EC-HBP-10 NMT-BOOT-06", "NMT-BOOT-10"},
+    {"EC-HBP-10 NMT-BOOT-06 NMT-FSA-01 NMT-FSA-02 NMT-FSA-03 NMT-FSA-04 NMT-FSA-05 NMT-FSA-06 NMT-FSA-14 NMT-FSA-20 "
+     "NMT-FSA-21 NMT-FSA-22 NMT-FSA-23 NMT-FSA-28",
+     "NMT-BOOT-10"},
     {"EC-NG-02 EC-NG-16", "EC-HBP-04"},
     {"EC-NG-02 EC-NG-15", "EC-NG-16"},
     {"PDO-TX-02", "EC-HBP-02 EC-HBP-08"},
