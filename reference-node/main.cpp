@@ -86,6 +86,12 @@ void print_remarks(const refnode::TwinRemarks& remarks, const std::string& file)
   if (total > most_lines) fmt::print(stderr, "{}: {} more warnings\n", file, total - most_lines);
 }
 
+/// A device stays switched on when its cable is pulled.
+void say_outage(const std::optional<conform::Error>& outage) {
+  fmt::print(stderr, "canopen-refnode: {}\n",
+             outage ? outage->text() + "; waiting for it" : "the bus is back");
+}
+
 int complain(const conform::Error& error, int code) {
   fmt::print(stderr, "canopen-refnode: {}\n", error.text());
   return code;
@@ -185,7 +191,7 @@ int main(int argc, char** argv) {
   std::signal(SIGUSR1, on_power_signal);
   Announced announced(**node,
                       fmt::format("canopen-refnode: node {} on {}, {}", node_id, interface_name, behaviour));
-  const auto done = conform::can::run_on_interface(announced, interface_name, stop);
+  const auto done = conform::can::run_on_interface(announced, interface_name, stop, say_outage);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGUSR1, SIG_IGN);

@@ -47,8 +47,10 @@ void StopFlag::heard() const noexcept {
   [[maybe_unused]] const auto count = ::read(descriptor_.get(), &rings, sizeof rings);
 }
 
-Result<LoopStatistics> run_participant(Participant& participant, Transport& transport, const StopFlag& stop) {
+Result<LoopStatistics> run_participant(Participant& participant, Transport& transport, const StopFlag& stop,
+                                       const OnOutage& on_outage) {
   LoopStatistics statistics;
+  std::optional<Error> outage;  // as long as it lasts
   BusTime current = transport.now();
   std::uint64_t unconfirmed = 0;
   participant.attach(
@@ -88,8 +90,20 @@ Result<LoopStatistics> run_participant(Participant& participant, Transport& tran
     }
     BusTime deadline = std::min(wakeup.value_or(BusTime::max()), current + longest_wait);
     if (unconfirmed > 0) deadline = current;
+    if (outage) {
+      // A device does not end with its bus, and its timers do not stand still.
+      const auto back = transport.come_back(deadline);
+      if (!back) return std::unexpected(*outage);
+      if (!*back) continue;
+      outage.reset();
+      if (on_outage) on_outage(std::nullopt);
+    }
     const auto received = transport.receive(deadline);
-    if (!received) return std::unexpected(received.error());
+    if (!received) {
+      if (!outage && on_outage) on_outage(received.error());
+      outage = received.error();
+      continue;
+    }
     const std::optional<BusEvent>& event = *received;
     if (!event || event->direction == Direction::transmitted || event->frame.error) continue;
     current = std::max(current, event->time);
@@ -101,14 +115,14 @@ Result<LoopStatistics> run_participant(Participant& participant, Transport& tran
 }
 
 Result<LoopStatistics> run_on_interface(Participant& participant, const std::string& interface_name,
-                                        const StopFlag& stop) {
+                                        const StopFlag& stop, const OnOutage& on_outage) {
   SocketCanOptions options;
   options.receive_own = false;
   options.wake_descriptor = stop.descriptor();
   options.send_bound = std::chrono::milliseconds(100);
   const auto transport = SocketCanTransport::open(interface_name, options);
   if (!transport) return std::unexpected(transport.error());
-  return run_participant(participant, **transport, stop);
+  return run_participant(participant, **transport, stop, on_outage);
 }
 
 }  // namespace conform::can

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "base/error.hpp"
@@ -42,15 +44,19 @@ struct LoopStatistics {
   std::uint64_t not_sent = 0;  ///< the transmit queue stayed full or the bus was not there
 };
 
-/// Feeds the participant from `transport` until stopped (no error) or the interface fails. The transport
-/// should have been opened with the flag's descriptor as wake descriptor, else stopping waits for the next
-/// frame or timer. Time never goes back for the participant; frames carry their stamps.
+/// Told when the bus goes away (the fault), and when it is back (nothing).
+using OnOutage = std::function<void(const std::optional<Error>&)>;
+
+/// Feeds the participant from `transport` until stopped (no error). A bus that goes away is waited for, while
+/// the participant's timers go on; one that cannot come back is the error. The transport should have been
+/// opened with the flag's descriptor as wake descriptor, else stopping waits for the next frame or timer.
+/// Time never goes back for the participant; frames carry their stamps.
 [[nodiscard]] Result<LoopStatistics> run_participant(Participant& participant, Transport& transport,
-                                                     const StopFlag& stop);
+                                                     const StopFlag& stop, const OnOutage& on_outage = {});
 
 /// Opens the interface and runs the participant on it.
 [[nodiscard]] Result<LoopStatistics> run_on_interface(Participant& participant,
-                                                      const std::string& interface_name,
-                                                      const StopFlag& stop);
+                                                      const std::string& interface_name, const StopFlag& stop,
+                                                      const OnOutage& on_outage = {});
 
 }  // namespace conform::can

@@ -190,11 +190,11 @@ Error SocketCanTransport::fault(int error) {
     case ENODEV:
     case ENXIO:
       // The kernel has dropped this socket's filters: even if the interface comes back, it would stay deaf.
-      dead_ = Error{"the interface has vanished", facts_.name, "reconnect the adapter and start again"};
+      dead_ = Error{"the interface has vanished", facts_.name, "reconnect the adapter"};
       return *dead_;
     case EPIPE:
     case ECONNRESET: dead_ = Error{"the other end has been closed", facts_.name, ""}; return *dead_;
-    default: return {"the socket failed: " + reason(error), facts_.name, ""};
+    default: dead_ = Error{"the socket failed: " + reason(error), facts_.name, ""}; return *dead_;
   }
 }
 
@@ -221,6 +221,55 @@ std::optional<Error> SocketCanTransport::not_usable() {
     }
   }
   return std::nullopt;
+}
+
+bool SocketCanTransport::usable_again() {
+  // Another interface with the same name has taken the place of ours.
+  if (link_down_ && !dead_ && !link_is_up()) {
+    const auto facts = interface_facts(facts_.name);
+    if (facts && facts->index != facts_.index) (void)fault(ENODEV);
+  }
+  return dead_ ? reopen() : !not_usable();
+}
+
+bool SocketCanTransport::reopen() {
+  auto facts = preflight(facts_.name);
+  if (!facts) return false;
+  Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
+  if (!socket.valid()) return false;
+  dropped_before_ = health().frames_dropped - controller_overflows_;
+  overflow_count_ = 0;
+  socket_ = std::move(socket);
+  facts_ = std::move(*facts);
+  backlog_drops_at_start_ = backlog_drops();
+  if (!configure()) return false;
+  link_down_ = bus_off_now_ = false;
+  dead_.reset();
+  return true;
+}
+
+Result<bool> SocketCanTransport::come_back(BusTime deadline) {
+  constexpr Duration between_looks = std::chrono::milliseconds(20);
+  if (!is_can_) return std::unexpected(dead_.value_or(Error{"the socket failed", facts_.name, ""}));
+  const bool was_away = dead_ || link_down_ || bus_off_now_;
+  while (!usable_again()) {
+    const auto current = now();
+    if (current >= deadline) return false;
+    const timespec pause = to_timespec(std::min(between_looks, deadline - current));
+    pollfd entry{.fd = options_.wake_descriptor, .events = POLLIN, .revents = 0};
+    if (::ppoll(&entry, 1, &pause, nullptr) > 0) return false;
+  }
+  // The kernel tells the socket of an outage once, also when it has ended.
+  int told = 0;
+  socklen_t length = sizeof told;
+  (void)::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &told, &length);
+  if (was_away || told != 0) {
+    ++health_.outages;
+    events_.clear();
+    next_event_ = 0;
+    echo_expected_ = false;
+  }
+  return true;
 }
 
 Result<bool> SocketCanTransport::wait_for_room(int error, BusTime give_up) {
@@ -408,7 +457,7 @@ BusHealth SocketCanTransport::health() {
     const std::uint64_t backlog = backlog_drops();
     if (backlog > backlog_drops_at_start_) dropped += backlog - backlog_drops_at_start_;
   }
-  health_.frames_dropped = dropped + controller_overflows_;
+  health_.frames_dropped = dropped_before_ + dropped + controller_overflows_;
   clock_.check_clock();
   health_.clock_stepped = clock_.stepped();
   health_.clock_steps = clock_.steps();

@@ -41,6 +41,9 @@ class SocketCanTransport final : public Transport {
   [[nodiscard]] BusTime now() const override { return last_now_ = clock_.now(); }
   [[nodiscard]] Result<void> send(const Frame& frame) override;
   [[nodiscard]] Result<std::optional<BusEvent>> receive(BusTime deadline) override;
+  /// An interface that was deleted, as that of an adapter which is plugged out, is opened anew by its name.
+  /// Returns early when the wake descriptor is readable.
+  [[nodiscard]] Result<bool> come_back(BusTime deadline) override;
   [[nodiscard]] BusHealth health() override;
   [[nodiscard]] TransportInfo info() const override { return info_; }
 
@@ -56,6 +59,9 @@ class SocketCanTransport final : public Transport {
   [[nodiscard]] std::optional<Error> not_usable();
   [[nodiscard]] Error fault(int error);
   [[nodiscard]] bool link_is_up() const;
+  /// One look whether the bus can be used; an interface that is another one now is opened.
+  [[nodiscard]] bool usable_again();
+  [[nodiscard]] bool reopen();
   /// False when the deadline has passed or the wake descriptor is readable.
   [[nodiscard]] Result<bool> wait_until(BusTime deadline);
   [[nodiscard]] Result<bool> wait_for_room(int error, BusTime give_up);
@@ -75,7 +81,8 @@ class SocketCanTransport final : public Transport {
   bool may_block_ = false;      // the socket has a time limit of its own
   bool echo_expected_ = false;  // something was sent, so a look at the socket is worth while before waiting
   BusHealth health_;
-  std::uint32_t overflow_count_ = 0;        // SO_RXQ_OVFL as of the last frame
+  std::uint32_t overflow_count_ = 0;  // SO_RXQ_OVFL as of the last frame
+  std::uint64_t dropped_before_ = 0;  // by sockets that were closed because their interface had vanished
   std::uint64_t controller_overflows_ = 0;  // error frames that say so
   std::uint64_t backlog_drops_at_start_ = 0;
   bool link_down_ = false;

@@ -42,7 +42,8 @@ struct BusHealth {
   bool clock_stepped = false;  ///< the stamps' clock was set while we ran
   Duration worst_lateness{};   ///< longest time a received frame waited for us, own measurement
   // Counters, so that two snapshots tell what happened between them.
-  std::uint64_t bus_offs = 0;     ///< times the controller went bus-off
+  std::uint64_t bus_offs = 0;  ///< times the controller went bus-off
+  std::uint64_t outages = 0;   ///< times the bus was away and came back: nobody heard what passed meanwhile
   std::uint64_t clock_steps = 0;  ///< times the stamps' clock was set
   std::uint64_t late_frames = 0;  ///< received frames that waited for us longer than host_is_late
 };
@@ -74,6 +75,13 @@ class Transport {
   [[nodiscard]] virtual Result<void> send(const Frame& frame) = 0;
   /// The next event stamped not after `deadline`, or nullopt when the deadline has passed without one.
   [[nodiscard]] virtual Result<std::optional<BusEvent>> receive(BusTime deadline) = 0;
+  /// After a failed send() or receive(): waits until the bus can be used again, as when a link is up again,
+  /// an adapter is plugged in again or a controller was restarted, which somebody else does. True: it can.
+  /// False: not until `deadline`. Error: it never will, whoever waits.
+  [[nodiscard]] virtual Result<bool> come_back(BusTime deadline) {
+    (void)deadline;
+    return fail("the bus does not come back", info().name);
+  }
   [[nodiscard]] virtual BusHealth health() = 0;
   [[nodiscard]] virtual TransportInfo info() const = 0;
 };

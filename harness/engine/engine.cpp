@@ -14,6 +14,7 @@
 #include "engine/lasting_errors.hpp"
 #include "engine/life.hpp"
 #include "engine/monitor_cases.hpp"
+#include "engine/outage.hpp"
 #include "engine/putting_back.hpp"
 #include "engine/run_context.hpp"
 #include "engine/tries.hpp"
@@ -27,6 +28,9 @@ namespace {
 using result::CaseResult;
 using result::Verdict;
 
+/// A link that never stays up ends the run.
+constexpr int most_outages_before_a_case = 20;
+
 /// The phases, in their order; what each of them does stands in a file of its own.
 class Run {
  public:
@@ -35,6 +39,7 @@ class Run {
       : run_(transport, profile, catalogue, options),
         suite_(suite),
         life_(run_),
+        outage_(run_, life_),
         putting_back_(run_),
         errors_(run_),
         runner_(run_.session, catalogue, run_.live, options.strict, run_.may(scenario::Risk::config)) {
@@ -63,6 +68,7 @@ class Run {
     }
     life_.tell_restarts();
     life_.tell_tries();
+    outage_.tell();
     judge_monitors();
     life_.tell_losses();
     out_.waivers = run_.waivers.uses(
@@ -238,11 +244,14 @@ class Run {
     auto& recorder = run_.recorder;
     begin_part(result, can::CasePart::preparation);
     auto ready = reach_start(*planned.scenario);
+    // The case has not begun: an outage takes nothing from it.
+    for (int i = 0; !ready && i < most_outages_before_a_case && come_back_after_fault({}); ++i)
+      ready = reach_start(*planned.scenario);
     recorder.end_part();
     if (!ready) {
       result.reason = "not run: " + ready.error().text();
       // A reset may have brought back what cases before this one wrote.
-      putting_back_.after_fault({});
+      putting_back_.after_fault({}, false);
       return std::unexpected(ready.error());
     }
     result.begin = recorder.now();
@@ -265,9 +274,12 @@ class Run {
           ran.error().what == stopped ? "stopped by the user before the case ended" : ran.error().text();
       std::function<Result<void>()> clean_up;
       if (entered) clean_up = [&] { return runner_.clean_up(*planned.scenario); };
-      putting_back_.after_fault(clean_up);
+      const bool goes_on = !vanished_ && come_back_after_fault(clean_up);
+      if (!goes_on) putting_back_.after_fault(clean_up, false);
       recorder.end_part();
-      return std::unexpected(ran.error());
+      if (!goes_on) return std::unexpected(ran.error());
+      result.finished = true;
+      return std::nullopt;
     }
     recorder.end_part();
     result.finished = true;
@@ -276,6 +288,16 @@ class Run {
     if (auto trouble = trouble_of(health, recorder.transport().health(), lateness, other_client))
       return trouble;
     return machine_trouble(recorder.transport().info(), recorder.latest_late_waking(), result.begin);
+  }
+
+  /// After a fault that ended a case: waits for a bus that went away, and puts back what the case has
+  /// changed. True: the run goes on with the next case.
+  bool come_back_after_fault(const std::function<Result<void>()>& clean_up) {
+    while (outage_.is_over()) {
+      putting_back_.after_fault(clean_up, true);
+      if (!run_.recorder.fault()) return true;
+    }
+    return false;
   }
 
   /// Makes sure that the device is still there and the same, and puts everything back.
@@ -340,6 +362,7 @@ class Run {
   const scenario::Suite& suite_;
   result::RunResult& out_ = run_.out;
   Life life_;
+  Outage outage_;
   PuttingBack putting_back_;
   LastingErrors errors_;
   CaseRunner runner_;

@@ -34,6 +34,9 @@ struct RunOptions {
   Duration power_away{};
   /// false: only where a scenario wants it. A simulated device that is dead is to be seen so.
   bool power_revives = true;
+  /// How long a run waits for a bus that went away in the middle of it: link down, adapter unplugged,
+  /// bus-off.
+  Duration bus_patience = std::chrono::seconds(10);
   const std::atomic<int>* stop = nullptr;  ///< a signal number ends the run in good order
   Observer* observer = nullptr;            ///< who is told what happens; lives longer than the run
 };

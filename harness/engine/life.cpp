@@ -82,7 +82,7 @@ void Life::note_losses() {
   const auto& frames = run_.recorder.capture().frames();
   const auto now = run_.recorder.transport().health();
   if (now.frames_dropped > health_.frames_dropped || now.bus_offs > health_.bus_offs ||
-      now.clock_steps > health_.clock_steps) {
+      now.outages > health_.outages || now.clock_steps > health_.clock_steps) {
     losses_.push_back({trusted_frames_, frames.size()});
     run_.live.follow(frames);
     run_.live.lose_track();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/putting_back.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/text.hpp"
@@ -57,6 +58,7 @@ Result<void> PuttingBack::end_life_guarding() {
 Result<void> PuttingBack::put_back(const result::CaseResult& result) {
   auto changes = take_changes();
   if (changes.empty()) return {};
+  pending_ = changes;
   // A stop request waits until everything is back: half a restore is the worst of all.
   const StopHeld held(run_.recorder);
   if (auto ready = enter_pre_operational(run_); !ready) return ready;
@@ -70,13 +72,14 @@ Result<void> PuttingBack::put_back(const result::CaseResult& result) {
     report = restore(run_.session, std::move(changes));
     if (!report) return std::unexpected(report.error());
   }
+  pending_.clear();
   for (const auto& left : report->left) run_.note(result.name() + ": could not be put back: " + left);
   if (!report->left.empty()) run_.session.note_left_changed();
   return {};
 }
 
 void PuttingBack::give_up(const std::string& why) {
-  for (const auto& change : run_.session.take_journal()) {
+  for (const auto& change : take_changes()) {
     run_.note("not put back, " + why + ": " + to_string(change.object) + " was " + hex_bytes(change.before));
   }
 }
@@ -92,34 +95,35 @@ void PuttingBack::after_resets() {
   note_left(what_returned(restored ? Among::all : Among::written));
 }
 
-void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up) {
+void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up, bool bus_is_back) {
   auto& recorder = run_.recorder;
   recorder.stop_producing("");
   const bool usable =
-      recorder.fault() && (recorder.fault()->what == stopped || recorder.fault()->what == flooded);
+      bus_is_back ||
+      (recorder.fault() && (recorder.fault()->what == stopped || recorder.fault()->what == flooded));
   if (!usable) return give_up("the bus or the device is gone");
   recorder.clear_fault();
   const StopHeld held(recorder);
   // An open transfer is ended, also where nothing was changed.
   run_.session.sdo_channel_dirty();
+  const auto note = [&](const std::string& what, const Error& error) {
+    if (!bus_is_back) run_.note(what + ": " + error.text());  // else there is another call
+  };
   if (auto idle = run_.session.channel().make_idle(); !idle)
-    run_.note("the SDO channel may not be idle: " + idle.error().text());
+    note("the SDO channel may not be idle", idle.error());
   // What is stored in the device only the scenario can put back.
   if (clean_up) {
-    if (auto done = clean_up(); !done)
-      run_.note("the cleanup of the stopped case did not end: " + done.error().text());
+    if (auto done = clean_up(); !done) note("the cleanup of the stopped case did not end", done.error());
   }
   // First the state: in Stopped no SDO would be answered.
-  leave_in_pre_operational();
-  auto report = restore(run_.session, take_changes());
-  if (!report) {
-    run_.note("values may not have been put back: " + report.error().text());
-    return;
-  }
+  if (!bus_is_back || !recorder.fault()) leave_in_pre_operational();
+  pending_ = take_changes();
+  auto report = restore(run_.session, pending_);
+  if (!report) return note("values may not have been put back", report.error());
+  pending_.clear();
   note_left(report->left);
   note_left(what_returned());
-  if (auto ended = end_life_guarding(); !ended)
-    run_.note("life guarding may still watch: " + ended.error().text());
+  if (auto ended = end_life_guarding(); !ended) note("life guarding may still watch", ended.error());
 }
 
 void PuttingBack::finish() {
@@ -145,8 +149,13 @@ void PuttingBack::finish() {
 /// The journal of a case; that its entries were written is remembered: a reset may bring back what was
 /// written.
 std::vector<Change> PuttingBack::take_changes() {
-  auto changes = run_.session.take_journal();
-  for (const auto& change : changes) written_.insert(change.object);
+  auto changes = std::exchange(pending_, {});
+  for (auto& change : run_.session.take_journal()) {
+    written_.insert(change.object);
+    // What it held before the first of its changes.
+    if (std::ranges::find(changes, change.object, &Change::object) == changes.end())
+      changes.push_back(std::move(change));
+  }
   return changes;
 }
 

@@ -29,8 +29,9 @@ class PuttingBack {
   /// had.
   void after_resets();
   /// The bus broke or the user stopped: values are put back if that is still possible. `clean_up`: of the
-  /// case that was stopped.
-  void after_fault(const std::function<Result<void>()>& clean_up);
+  /// case that was stopped. Where the bus came back and goes away again meanwhile, the recorder tells the
+  /// fault, and the next call puts back what this one could not.
+  void after_fault(const std::function<Result<void>()>& clean_up, bool bus_is_back);
   /// At the end of the run; then compares with what was taken down.
   void finish();
 
@@ -46,6 +47,7 @@ class PuttingBack {
 
   RunContext& run_;
   std::map<Multiplexer, Bytes> snapshot_;
+  std::vector<Change> pending_;    ///< what a bus that went away has kept from being put back
   std::set<Multiplexer> written_;  ///< by cases, at any time of the run
   std::set<std::string> left_;     ///< what the notes say of values that a reset brought back
   bool stores_by_itself_ = false;

@@ -109,6 +109,7 @@ class Recorder {
   /// scenario.
   [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
   void clear_fault() { fault_.reset(); }
+  void set_fault(Error fault) { fault_ = std::move(fault); }
   [[nodiscard]] bool stop_requested() const {
     return stop_ != nullptr && stop_->load() != 0 && !ignore_stop_;
   }

@@ -291,6 +291,52 @@ TEST_CASE("a deleted interface is an error that stays, even if one of the same n
   CHECK_FALSE(transport->send(data_frame(CanId(1), {})).has_value());
 }
 
+TEST_CASE("a bus that went away is waited for, counted, and used again when its link is up") {
+  interface_under_test();
+  const OwnInterface own;
+  if (!own.usable()) return;
+  const auto transport = must_open(own.name());
+  CHECK(transport->come_back(transport->now()).value());
+  CHECK(transport->health().outages == 0);
+  for (std::uint64_t round = 1; round <= 3; ++round) {
+    REQUIRE(run("ip link set " + own.name() + " down"));
+    REQUIRE_FALSE(transport->receive(transport->now() + 10s).has_value());
+    const auto begin = transport->now();
+    CHECK_FALSE(transport->come_back(begin + 50ms).value());
+    CHECK(transport->now() - begin >= 50ms);
+    REQUIRE(run("ip link set " + own.name() + " up"));
+    REQUIRE(transport->come_back(transport->now() + 10s).value());
+    CHECK(transport->health().outages == round);
+    // Nothing is left of the outage, neither for the next wait nor for the next frame.
+    CHECK_FALSE(transport->receive(transport->now() + 1ms).value().has_value());
+    REQUIRE(transport->send(data_frame(CanId(1), {})));
+    CHECK(receive_ok(*transport, transport->now() + 10s).has_value());
+  }
+}
+
+TEST_CASE("an interface that was deleted is opened anew when one of its name is there") {
+  interface_under_test();
+  const OwnInterface own;
+  if (!own.usable()) return;
+  const auto transport = must_open(own.name());
+  const auto before = transport->now();
+  for (std::uint64_t round = 1; round <= 3; ++round) {
+    REQUIRE(run("ip link del " + own.name()));
+    // Noticed at once, or when the new one is there already.
+    if (round != 2) REQUIRE_FALSE(transport->receive(transport->now() + 10s).has_value());
+    if (round != 2) CHECK_FALSE(transport->come_back(transport->now() + 50ms).value());
+    REQUIRE(run("ip link add dev " + own.name() + " type vcan"));
+    REQUIRE(run("ip link set " + own.name() + " up"));
+    if (round == 2) REQUIRE_FALSE(transport->receive(transport->now() + 10s).has_value());
+    REQUIRE(transport->come_back(transport->now() + 10s).value());
+    CHECK(transport->health().outages == round);
+    REQUIRE(transport->send(data_frame(CanId(1), {})));
+    const auto echo = receive_ok(*transport, transport->now() + 10s);
+    REQUIRE(echo.has_value());
+    CHECK(echo->time > before);
+  }
+}
+
 TEST_CASE("a slow interface makes sends wait for room instead of failing") {
   interface_under_test();
   const OwnInterface own;
