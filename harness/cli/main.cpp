@@ -148,6 +148,11 @@ int dispatch(int argc, char** argv) {
       ->excludes(cct);
   add_choice(*run_sub, run.choice);
   run_sub->add_flag("--annotate", run.annotate, "Print the causes as annotations for GitHub Actions, too");
+  run_sub
+      ->add_option(
+          "--wait-for-bus", run.wait_for_bus,
+          "How long to wait for a bus that goes away in the middle of the run, before giving up (default 10 s)")
+      ->type_name("TIME");
   run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
   run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
       ->type_name("NUMBER");

@@ -46,6 +46,7 @@ struct RunCommand {
   bool all_objects = false;
   bool cct = false;  ///< the cases of CiA's tool, in its order
   Choice choice;
+  std::string wait_for_bus = "10 s";  ///< how long a run waits for a bus that went away
   bool slow = false;
   bool dry_run = false;
   bool annotate = false;  ///< workflow commands of GitHub Actions

@@ -187,6 +187,10 @@ int run(const RunCommand& options, RunReports& reports) {
   if (options.cct) run_options.plan.order = cct_order(suites->suite, suites->catalogue);
   run_options.plan.all_objects = options.all_objects;
   run_options.plan.slow = options.slow || options.simulate;
+  const auto patience = parse_duration(options.wait_for_bus);
+  if (!patience)
+    return refuse({"'" + options.wait_for_bus + "' is no time", {}, "--wait-for-bus '30 s'"}, exit_usage);
+  run_options.bus_patience = *patience;
   if (auto chosen = choose(options.choice, run_options); !chosen) return refuse(chosen.error(), exit_usage);
   if (run_options.plan.only && run_options.plan.only->empty()) {
     reports.not_begun(Facts::tool, {"every case of " + options.choice.rerun_failed + " passed", {}, {}});
