@@ -109,10 +109,7 @@ static bool download_segment(const uint8_t request[8], uint8_t response[8]) {
   if (!(request[0] & 0x01)) return true;
   const uint32_t wrong = size_indicated && position < length ? (uint32_t)ABORT_TOO_SHORT
                                                              : dictionary_write(entry, buffer, position);
-  if (wrong != ABORT_NONE) {
-    memset(response, 0, 8);
-    return abort_with(wrong, response);
-  }
+  if (wrong != ABORT_NONE) return abort_with(wrong, response);
   state = IDLE;
   return true;
 }
