@@ -1,7 +1,7 @@
 # What `cmake --install` leaves beside the programs and the suites.
 
 install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform PATTERN man EXCLUDE)
 install(DIRECTORY docs/wireshark DESTINATION ${CMAKE_INSTALL_DATADIR}/canopen-conform)
 # What the pages link to.
 foreach(file reference-node/README.md reports/junit.xsd reports/schema/result.schema.json reports/schema/comparison.schema.json harness/bundle/manifest.schema.json scripts/install-packages suites/patterns/reference-node.json suites/requirements/README.md
@@ -22,3 +22,7 @@ install(FILES ${CMAKE_BINARY_DIR}/package/canopen-conform-config.cmake ${CMAKE_B
               cmake/package/canopen-conform-add-test.cmake DESTINATION ${package})
 install(PROGRAMS cmake/package/run-test scripts/with-vcan DESTINATION ${CONFORM_HELPERS})
 install(FILES scripts/uml-xstate.c DESTINATION ${CONFORM_HELPERS})
+
+install(FILES docs/man/canopen-conform.1 docs/man/canopen-refnode.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+
+include(cmake/deb.cmake)
