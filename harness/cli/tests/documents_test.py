@@ -214,7 +214,7 @@ class Documents(unittest.TestCase):
                     self.run_steps(block)
                 elif block.key == "shows":
                     self.compare(block)
-                elif block.key == "shown" and block.kind in ("", "text") and block.says:
+                elif block.key == "shown" and block.kind in ("", "text", "cmake") and block.says:
                     pass
                 elif block.key == "shown" and block.kind == "yaml" and "\nwaivers:" in block.text:
                     self.accepts_waivers(block)
