@@ -6,7 +6,7 @@ install(DIRECTORY docs/wireshark DESTINATION ${CMAKE_INSTALL_DATADIR}/canopen-co
 # What the pages link to.
 foreach(file reference-node/README.md reports/junit.xsd reports/schema/result.schema.json reports/schema/comparison.schema.json harness/bundle/manifest.schema.json scripts/install-packages suites/patterns/reference-node.json suites/requirements/README.md
         harness/cli/tests/interop/device.js harness/cli/tests/interop/device.yaml
-        action.yml templates/canopen-conform.yml Dockerfile .devcontainer/devcontainer.json)
+        action.yml Dockerfile)
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform/${folder})
 endforeach()
