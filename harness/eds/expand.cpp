@@ -43,6 +43,16 @@ Entry sub_zero(std::string value, Position by) {
   return out;
 }
 
+/// Sub-index 00h of CompactSubObj is ro and counts the others (CiA 306). That of 1003h counts errors, of
+/// which there are none at power-on, and writing to it clears the history (CiA 301, 7.5.2.4).
+Entry compact_sub_zero(Index index, std::uint64_t count, Position by) {
+  constexpr Index error_history(0x1003);
+  if (index != error_history) return sub_zero(std::to_string(count), by);
+  auto out = sub_zero("0", by);
+  out.access_type = implied("rw", by);
+  return out;
+}
+
 struct CommunicationEntry {
   const char* name;
   const char* data_type;
@@ -95,7 +105,7 @@ class Expander {
       if (object.find(index) != nullptr) continue;
       ++count_;
       if (sub == 0) {
-        subs.push_back({index, sub_zero(std::to_string(count), by)});
+        subs.push_back({index, compact_sub_zero(object.index, count, by)});
         continue;
       }
       Entry entry = object.entry;

@@ -231,10 +231,12 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
   const bool outermost = book_.value().empty();
   std::size_t tried = 0;
   const auto done = witness_.done();
+  const auto walked = witness_.walked();
   const auto outer = outermost ? std::string() : book_.value() + ", ";
   for (const auto& value : values) {
     book_.set_value(outer + (value.number ? hex(*value.number, digits_of(*value.number)) : value.text()));
     session_.set(walk.name, value);
+    if (value.object) witness_.set_walked(value.object);
     witness_.forget(done);
     const auto before = book_.passes();
     const auto offences_before = book_.offences();
@@ -260,6 +262,7 @@ Result<CaseRunner::Flow> CaseRunner::run_walk(const Step& step) {
       return flow;
     }
   }
+  witness_.set_walked(walked);
   if (outermost) {
     book_.end_walk(walk_end_);
   } else {

@@ -142,6 +142,7 @@ std::string Witness::declared_at(const Step& step, const Actual& actual) const {
   if (about.empty()) {
     for (const auto& reference : step.action->concerns()) add(reference);
   }
+  if (about.empty() && walked_) about.push_back(*walked_);
   if (about.empty() && about_) about.push_back(*about_);
   std::vector<std::string> places;
   for (const auto mux : about) {
@@ -152,6 +153,16 @@ std::string Witness::declared_at(const Step& step, const Actual& actual) const {
     const auto words = step.action->words(session_);
     for (const auto& [asked, place] : session_.profile().described_places.info) {
       if (words.contains(asked)) places.push_back(place);
+    }
+  }
+  if (places.empty()) {
+    // What is awaited on the bus follows what was written before.
+    const auto written = std::ranges::find_if(done_.rbegin(), done_.rend(), [](const Step* each) {
+      return each->verb == "download" && each->action->object() != nullptr;
+    });
+    if (written != done_.rend()) {
+      if (const auto mux = (*written)->action->object()->resolve(session_))
+        places.push_back(session_.profile().place_of(*mux));
     }
   }
   return join(places, "; ");

@@ -28,6 +28,7 @@ class Witness {
   void begin_case(const result::CaseResult& result, std::optional<Multiplexer> about) {
     result_ = &result;
     about_ = about;
+    walked_.reset();
     timed_ = false;
     done_.clear();
   }
@@ -42,6 +43,9 @@ class Witness {
   }
   [[nodiscard]] std::size_t done() const { return done_.size(); }
   void forget(std::size_t from) { done_.resize(std::min(from, done_.size())); }
+  /// The object that an `over` has come to.
+  void set_walked(std::optional<Multiplexer> object) { walked_ = object; }
+  [[nodiscard]] std::optional<Multiplexer> walked() const { return walked_; }
   /// From here on what the case finds has rested on time or on silence.
   void note_time() { timed_ = true; }
 
@@ -69,7 +73,7 @@ class Witness {
   RunSession& session_;
   LiveMonitors& attribution_;
   const result::CaseResult* result_ = nullptr;
-  std::optional<Multiplexer> about_;
+  std::optional<Multiplexer> about_, walked_;
   std::size_t step_begin_ = 0;
   BusTime step_began_at_{};
   bool timed_ = false;

@@ -185,3 +185,36 @@ TEST_CASE("A finding about DeviceInfo names its line, and a twin is on a bus of 
   CHECK(blamed(judged("[DeviceInfo]\nBaudRate_500=1\nNrOfRXPDO=3\n" + device)) ==
         Blamed{"EDS-VSD-10 device.eds:3"});
 }
+
+TEST_CASE("A compact error history is cleared as one that is written out") {
+  const std::string history =
+      "[1003]\nParameterName=Errors\nObjectType=8\nDataType=7\nAccessType=ro\nCompactSubObj=4\n\n";
+  const auto run = judged(type + error_register + history + entry("1014", 7, "rw", "$NODEID+0x80") +
+                          identity + heartbeat + signals);
+  CHECK(blamed(run) == Blamed{});
+  CHECK(verdicts(run).at("OD-1003-05") == Verdict::pass);
+}
+
+TEST_CASE("What is found with one of many objects, or behind what was written, names the line of it") {
+  const auto tpdo = [](const std::string& number, const std::string& cob_id, const std::string& mapped) {
+    return record("18" + number) + entry("18" + number + "sub0", 5, "const", "5") +
+           entry("18" + number + "sub1", 7, "rw", cob_id) + entry("18" + number + "sub2", 5, "rw", "1") +
+           entry("18" + number + "sub5", 6, "rw", "0") + record("1A" + number) +
+           entry("1A" + number + "sub0", 5, "const", "1") + entry("1A" + number + "sub1", 7, "const", mapped);
+  };
+  const std::string device = type + error_register + identity + heartbeat + signals;
+  const std::string two =
+      tpdo("00", "$NODEID+0x180", "0x60000008") + tpdo("01", "$NODEID+0x180", "0x60010008");
+  const auto names_a_line = [](const std::string& line) {
+    return line.starts_with("inconclusive ") || line.find(" device.eds") != std::string::npos;
+  };
+  const auto shared = blamed(judged(device + entry("1005", 7, "rw", "0x80") + two));
+  CHECK(std::ranges::any_of(shared,
+                            [](const auto& line) { return line.starts_with("PDO-TX-27 device.eds:"); }));
+  CHECK(std::ranges::all_of(shared, names_a_line));
+  const std::string period = entry("1006", 7, "rw", "100000", "LowLimit=10000\n");
+  const auto limited = blamed(judged(device + entry("1005", 7, "rw", "0x80") + period));
+  CHECK(std::ranges::any_of(limited,
+                            [](const auto& line) { return line.starts_with("SYNC-PRO-03 device.eds:"); }));
+  CHECK(std::ranges::all_of(limited, names_a_line));
+}

@@ -114,6 +114,20 @@ TEST_CASE("CompactSubObj is written out and what is implied says by what") {
   CHECK(file.objects[0].subs.empty());
 }
 
+TEST_CASE("Sub-index 00h of a compact error history counts errors, and writing to it clears them") {
+  const auto objects = expand(good("[1003]\nObjectType=8\nDataType=7\nAccessType=ro\nCompactSubObj=8\n"
+                                   "[1010]\nObjectType=8\nDataType=7\nAccessType=rw\nCompactSubObj=2\n"));
+  REQUIRE(objects);
+  const auto& history = find_object(*objects, Index(0x1003))->subs;
+  REQUIRE(history.size() == 9);
+  CHECK(access(history[0].entry) == Access::rw);
+  CHECK(history[0].entry.default_value.text == "0");
+  CHECK(access(history[8].entry) == Access::ro);
+  const auto& store = find_object(*objects, Index(0x1010))->subs;
+  CHECK(access(store[0].entry) == Access::ro);
+  CHECK(store[0].entry.default_value.text == "2");
+}
+
 TEST_CASE("CompactPDO implies the PDOs that are not described, at the lowest free indices") {
   const auto file = good(
       "[DeviceInfo]\nNrOfRXPDO=2\nNrOfTXPDO=0\nCompactPDO=0x13\n[1400]\nParameterName=RPDO\nObjectType=9\n");
