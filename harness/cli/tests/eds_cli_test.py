@@ -46,6 +46,16 @@ class Descriptions(unittest.TestCase):
         done = run("lint", fixture("legal-minimal.eds"))
         self.assertEqual((done.returncode, done.stdout), (0, "1 file, 0 errors, 0 warnings, 0 notes\n"), done.stderr)
 
+    def test_a_run_of_a_twin_says_what_the_twin_had_to_assume(self):
+        text = content(fixture("legal-minimal.eds")) + b"[2FF0]\nParameterName=Odd\nDataType=0x7\nAccessType=rw\nDefaultValue=many\n"
+        path = self.write("assumed.eds", text)
+        done = subprocess.run([PROGRAM, "run", "--simulate", "--eds", path, "cia301/dictionary/1000-device-type/present"],
+                              capture_output=True, text=True, timeout=60)
+        line = text.count(b"\n")
+        told = " ".join(done.stdout.split())
+        self.assertIn(f"the twin: {path}:{line}:14: ", told.replace("assumed.eds: ", "assumed.eds:"))
+        self.assertIn("'many' is no value of", told)
+
     def test_an_error_exits_2_and_is_told_with_its_place(self):
         done = run("lint", "bad-value-range.eds", "legal-minimal.eds", cwd=FIXTURES)
         self.assertEqual(done.returncode, 2, done.stdout)
