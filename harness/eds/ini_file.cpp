@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t longest_line = 255;  // CiA 306: characters of a line
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 constexpr std::string_view blanks = " \t\v\f";
+constexpr char dos_end = '\x1A';  ///< what programs of DOS put behind the text
 
 char lower_ascii(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -32,6 +33,14 @@ std::string_view without_blanks(std::string_view text) {
 
 Position at(std::size_t line, std::size_t offset) {
   return {static_cast<std::uint32_t>(line), static_cast<std::uint32_t>(offset + 1)};
+}
+
+/// Without the end-of-file mark of DOS and the line ends around it, when it is the last of the text.
+std::string_view without_end_mark(std::string_view text) {
+  const auto last = text.find_last_not_of("\r\n");
+  if (last == std::string_view::npos || text[last] != dos_end) return text;
+  const auto end = text.find_last_not_of(dos_end, last);
+  return text.substr(0, end == std::string_view::npos ? 0 : end + 1);
 }
 
 bool is_control(char c) {
@@ -70,7 +79,7 @@ class IniParser {
           place({1, 1}));
     }
     file_.text_ = std::make_shared<const std::string>(bytes_);
-    bytes_ = *file_.text_;
+    bytes_ = without_end_mark(*file_.text_);
     // Of most files one look is enough.
     only_plain_ = std::ranges::none_of(bytes_, [](char c) {
       return static_cast<unsigned char>(c) >= 0x80 || (is_control(c) && c != '\r' && c != '\n');

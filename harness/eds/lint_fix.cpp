@@ -226,10 +226,14 @@ std::optional<Fix> Fixer::absent_list(const Finding& finding) const {
       return std::nullopt;
   }
   const auto end = lines_.line_end();
-  const bool open = !bytes_.ends_with('\n') && !bytes_.ends_with('\r');
+  // Behind the end-of-file mark of DOS nothing is read.
+  auto text = bytes_;
+  if (const auto last = text.find_last_not_of("\r\n"); last != std::string_view::npos && text[last] == '\x1A')
+    text = text.substr(0, last);
+  const bool open = !text.ends_with('\n') && !text.ends_with('\r');
   return Fix{
       fmt::format("add an empty [{}]", name),
-      {{bytes_.size(), 0, fmt::format("{0}{1}[{2}]{1}SupportedObjects=0{1}", open ? end : "", end, name)}}};
+      {{text.size(), 0, fmt::format("{0}{1}[{2}]{1}SupportedObjects=0{1}", open ? end : "", end, name)}}};
 }
 
 std::optional<Fix> Fixer::fix(const Finding& finding) const {

@@ -130,7 +130,10 @@ class Check {
 
   void mapping(const Field& field, std::optional<Access> allowed, const TypeInfo* info) {
     if (info != nullptr && info->kind != TypeKind::domain && (info->bits == 0 || info->bits > 64))
-      add(open_length, field, fmt::format("{} does not fit into a PDO", info->name));
+      add(open_length, field,
+          fmt::format(
+              "{} {}", info->name,
+              info->bits == 0 ? "has no fixed length, as what is mapped must have" : "is longer than a PDO"));
     if (allowed == Access::constant) add(constant_mapped, field, "a constant can be mapped");
   }
 

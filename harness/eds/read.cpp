@@ -32,7 +32,8 @@ Result<EdsFile> read(std::string_view bytes, std::string file_name) {
     return fail("the file has " + std::to_string(bytes.size()) + " bytes", start,
                 "at most " + std::to_string(IniFile::most_bytes) + " are read");
   if (is_wide_text(bytes))
-    return fail("the file is UTF-16 text", start, "CiA 306 wants ASCII: save it again as plain text");
+    return fail("the file is UTF-16 text", start,
+                "save it again as plain text: an EDS or DCF as ASCII, an XDD or XDC as UTF-8");
   if (looks_like_xml(bytes)) return read_xdd(bytes, std::move(file_name));
   auto ini = IniFile::parse(bytes, file_name);
   if (!ini) return std::unexpected(ini.error());
