@@ -11,8 +11,10 @@ namespace conform::eds {
 std::span<const LintExample> lint_examples() {
   static const auto all = [] {
     std::vector<LintExample> out;
-    for (const auto& table : {forms_examples, objects_examples, pdos_examples})
+    for (const auto& table : {forms_examples, objects_examples, pdos_examples, values_examples,
+                              parameters_examples, mapping_examples, modules_examples, services_examples})
       out.insert(out.end(), table.begin(), table.end());
+    std::ranges::sort(out, {}, &LintExample::code);
     return out;
   }();
   return all;

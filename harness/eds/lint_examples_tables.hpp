@@ -8,6 +8,7 @@
 
 namespace conform::eds {
 
-extern const std::span<const LintExample> forms_examples, objects_examples, pdos_examples;
+extern const std::span<const LintExample> forms_examples, objects_examples, pdos_examples, values_examples,
+    parameters_examples, mapping_examples, modules_examples, services_examples;
 
 }  // namespace conform::eds
