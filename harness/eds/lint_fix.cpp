@@ -155,6 +155,13 @@ Fixer::Fixer(std::string_view bytes, const EdsFile& file) : bytes_(bytes), file_
 
 std::string_view Fixer::value_at(Position at) const {
   const auto line = lines_.line(at.line);
+  if (file_.is_xml()) {
+    if (at.column < 2 || at.column > line.size()) return {};
+    const char quote = line[at.column - 2];
+    if (quote != '"' && quote != '\'') return {};
+    const auto rest = line.substr(at.column - 1);
+    return rest.substr(0, rest.find(quote));
+  }
   return at.column == 0 || at.column - 1 > line.size() ? std::string_view()
                                                        : trim(line.substr(at.column - 1));
 }
@@ -168,6 +175,8 @@ std::optional<Fix> Fixer::replace(Position at, std::size_t length, std::string t
 std::optional<Fix> Fixer::write(const Field& field, Position section, std::string_view key,
                                 const std::string& value) const {
   auto what = fmt::format("write {}={}", key, value);
+  // In XML only the values of attributes that are there are rewritten.
+  if (file_.is_xml() && (!field.present || value_at(field.at) != field.text)) return std::nullopt;
   if (field.present) return replace(field.at, field.text.size(), value, std::move(what));
   if (!section.known()) return std::nullopt;
   const auto end = lines_.line_end();
@@ -237,7 +246,6 @@ std::optional<Fix> Fixer::absent_list(const Finding& finding) const {
 }
 
 std::optional<Fix> Fixer::fix(const Finding& finding) const {
-  if (file_.is_xml()) return std::nullopt;
   const auto code = finding.rule->code;
   const auto is_one_of = [code](std::initializer_list<std::string_view> codes) {
     return std::ranges::find(codes, code) != codes.end();
@@ -247,8 +255,9 @@ std::optional<Fix> Fixer::fix(const Finding& finding) const {
     return counts.of_list();
   if (is_one_of({"EDS207", "EDS252", "EDS253", "EDS254", "EDS256", "EDS263"})) return counts.of_object();
   if (is_one_of({"EDS300", "EDS301"})) return counts.of_pdos();
-  if (is_one_of({"EDS054", "EDS055", "EDS058", "EDS059", "EDS060", "EDS062", "EDS105", "EDS106"}))
-    return spelling(finding);
+  if (is_one_of({"EDS054", "EDS055", "EDS058", "EDS059", "EDS060", "EDS062"})) return spelling(finding);
+  if (file_.is_xml()) return std::nullopt;
+  if (is_one_of({"EDS105", "EDS106"})) return spelling(finding);
   const auto before = [&] { return Position{finding.at.line, 1}; };
   if (code == "EDS009" && value_at(finding.at).starts_with('#'))
     return replace(finding.at, 1, ";", "begin the comment with ;");

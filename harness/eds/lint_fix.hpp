@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be put right without knowing the device: counts, numbering, forms of writing. Only EDS and DCF.
+// What can be put right without knowing the device: counts, numbering, forms of writing. In XDD and XDC only
+// counts and numbers that an attribute says.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +46,8 @@ class Fixer {
   /// Writes an entry with this value: over the one that is there, or as the first of the section.
   [[nodiscard]] std::optional<Fix> write(const Field& field, Position section, std::string_view key,
                                          const std::string& value) const;
-  /// From a position to the end of the line, without blanks at the end.
+  /// From a position to the end of the line, without blanks at the end; in XML up to the closing quote, and
+  /// empty outside of quotes.
   [[nodiscard]] std::string_view value_at(Position at) const;
 
   std::string_view bytes_;

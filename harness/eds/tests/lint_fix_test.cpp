@@ -136,4 +136,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Counts and formulas in attributes of an XDD are put right, and every other byte stays") {
+  std::ifstream file(fs::path(CONFORM_SOURCE_DIR) / "harness/eds/tests/fixtures/legal-xml.xdd",
+                     std::ios::binary);
+  const std::string right{std::istreambuf_iterator<char>(file), {}};
+  const auto with = [&right](const std::string& from, const std::string& to) {
+    auto text = right;
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+  };
+  const std::string identity = "name=\"Identity\" objectType=\"9\" subNumber=\"2\"";
+  CHECK(fixed(with(identity, "name=\"Identity\" objectType=\"9\" subNumber=\"0x4\""), "legal-xml.xdd") ==
+        with(identity, "name=\"Identity\" objectType=\"9\" subNumber=\"0x2\""));
+  const std::string gain = "<defaultValue value=\"0x10\"/>";
+  CHECK(fixed(with(gain, "<defaultValue value='0x10+$NODEID'/>"), "legal-xml.xdd") ==
+        with(gain, "<defaultValue value='$NODEID+0x10'/>"));
+  // Where an attribute is missing nothing is written.
+  const auto without = with(identity, "name=\"Identity\" objectType=\"9\"");
+  CHECK(fixed(without, "legal-xml.xdd") == without);
+}
+
 }  // namespace
