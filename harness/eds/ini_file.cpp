@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "eds/text_lines.hpp"
 
 namespace conform::eds {
 namespace {
@@ -94,7 +95,7 @@ class IniParser {
       begin = utf8_mark.size();
     }
     while (begin < bytes_.size() && !refused_) {
-      const auto end = std::min(bytes_.find_first_of("\r\n", begin), bytes_.size());
+      const auto end = end_of_line(bytes_, begin);
       line(bytes_.substr(begin, end - begin));
       begin = end;
       if (begin == bytes_.size()) break;

@@ -156,8 +156,7 @@ class Pile {
   }
 
   std::vector<Object> finish(Remarks& remarks) {
-    if (!std::ranges::is_sorted(objects_, {}, &Object::index))
-      std::ranges::sort(objects_, {}, &Object::index);
+    if (!std::ranges::is_sorted(objects_, {}, &Object::index)) sort();
     for (const auto& object : objects_) {
       if (!object.described)
         remarks.add(Deviation::sub_without_object, object.entry.at, to_string(object.index));
@@ -167,6 +166,18 @@ class Pile {
   }
 
  private:
+  /// An object is large: each is moved once.
+  void sort() {
+    std::vector<std::pair<Index, std::size_t>> order;
+    order.reserve(objects_.size());
+    for (std::size_t i = 0; i < objects_.size(); ++i) order.emplace_back(objects_[i].index, i);
+    std::ranges::sort(order);
+    std::vector<Object> sorted;
+    sorted.reserve(objects_.size());
+    for (const auto& [index, place] : order) sorted.push_back(std::move(objects_[place]));
+    objects_ = std::move(sorted);
+  }
+
   std::vector<Object> objects_;
   std::map<Index, std::size_t> places_;  ///< empty as long as the indices come in their order
 };

@@ -146,7 +146,9 @@ class Check {
     number("Lines", file.comments.count, 0xFFFF);
     for (const auto* list : {&file.mandatory_objects, &file.optional_objects, &file.manufacturer_objects}) {
       number("SupportedObjects", list->count, 0xFFFF);
-      for (const auto& entry : list->entries) number(fmt::format("{}", entry.number), entry.field, 0xFFFF);
+      for (const auto& entry : list->entries) {
+        if (!is_plain(entry.field, 0xFFFF)) number(fmt::format("{}", entry.number), entry.field, 0xFFFF);
+      }
     }
     each_described(subject_, [&](const Spot& spot) {
       // A dictionary has thousands of entries, nearly all of them right: a name is made only for the others.

@@ -120,6 +120,25 @@ std::expected<Number, NumberFault> formula(std::string_view text) {
   return out;
 }
 
+/// As the standard writes numbers, and most files: 17 or 0x11 of at most 64 bits, and nothing around it. All
+/// else is looked at more closely.
+std::optional<Number> plain_number(std::string_view text) {
+  constexpr std::size_t most_decimal = 19, most_hexadecimal = 16;
+  const bool hexadecimal = has_hex_prefix(text);
+  if (hexadecimal) text.remove_prefix(2);
+  if (text.empty() || text.size() > (hexadecimal ? most_hexadecimal : most_decimal)) return std::nullopt;
+  if (!hexadecimal && text.size() > 1 && text.front() == '0') return std::nullopt;
+  Number out;
+  if (hexadecimal) out.base = NumberBase::hexadecimal;
+  for (const char c : text) {
+    const bool letter = (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+    if (!is_digit(c) && !(letter && hexadecimal)) return std::nullopt;
+    const auto digit = static_cast<std::uint64_t>(is_digit(c) ? c - '0' : (c | 0x20) - 'a' + 10);
+    out.magnitude = out.magnitude * (hexadecimal ? 16U : 10U) + digit;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string_view without_comment(std::string_view text) {
@@ -127,6 +146,7 @@ std::string_view without_comment(std::string_view text) {
 }
 
 std::expected<Number, NumberFault> parse_number(std::string_view text) {
+  if (const auto plain = plain_number(text)) return *plain;
   text = trim(text);
   if (text.empty()) return std::unexpected(NumberFault::empty);
   const auto value = without_comment(text);

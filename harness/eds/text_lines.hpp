@@ -11,6 +11,9 @@
 
 namespace conform::eds {
 
+/// Where the line that `from` is in ends; the size of the text when nothing ends it.
+[[nodiscard]] std::size_t end_of_line(std::string_view bytes, std::size_t from);
+
 class TextLines {
  public:
   /// `bytes` must outlive the lines. A byte order mark belongs to no line.
