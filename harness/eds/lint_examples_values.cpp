@@ -11,12 +11,6 @@ constexpr LintExample examples[] = {
     {"EDS012",
      "[2000]\nParameterName=Speed of the motor, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, measured behind the gear, \nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n",
      "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n"},
-    {"EDS013",
-     "[2000]\nParameterName=Vitesse r\xC3\xA9gl\xC3\xA9""e\nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n",
-     "[2000]\nParameterName=Vitesse reglee\nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n"},
-    {"EDS014",
-     "[2000]\nParameterName=Speed\x01\nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n",
-     "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n"},
     {"EDS021",
      "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=rw\nDefaultValue=100\n"
      "[]\n",
