@@ -11,6 +11,7 @@
 #include "base/text.hpp"
 #include "eds/expand.hpp"
 #include "eds/lint_comments.hpp"
+#include "eds/lint_roots.hpp"
 #include "eds/lint_rules.hpp"
 #include "eds/same_value.hpp"
 
@@ -78,7 +79,9 @@ LintReport lint(const EdsFile& file) {
   }
   Findings findings;
   for (const auto* group : groups) group->check(subject, findings);
-  return findings.finish();
+  auto report = findings.finish();
+  mark_roots(file, report);
+  return report;
 }
 
 std::span<const RuleGroup> rule_groups() {

@@ -41,6 +41,8 @@ struct Finding {
   std::string hint;  ///< what to do about it, or empty
   /// Another severity than that of the rule, by a policy (lint_policy.hpp).
   std::optional<Severity> decided = {};
+  unsigned number = 0;   ///< from 1 on, in the order of the file; 0: not numbered
+  unsigned because = 0;  ///< the number of the finding that this one is a consequence of (lint_roots.hpp)
 
   [[nodiscard]] Severity severity() const { return decided.value_or(rule->severity); }
 };

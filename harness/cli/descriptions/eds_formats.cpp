@@ -12,6 +12,7 @@
 
 #include "base/text.hpp"
 #include "cli/descriptions/source_lines.hpp"
+#include "eds/lint_roots.hpp"
 #include "reports/annotations.hpp"
 
 namespace conform::cli {
@@ -51,18 +52,54 @@ std::string shape(std::string_view message) {
   return out;
 }
 
-std::vector<Alike> ungrouped(const eds::LintReport& report) {
+std::vector<Alike> ungrouped(const eds::LintReport& report, const eds::Roots& roots) {
   std::vector<Alike> out;
-  for (const auto& finding : report.findings) out.push_back({&finding});
+  for (const auto& finding : report.findings) {
+    if (roots.of(finding) == nullptr) out.push_back({&finding});
+  }
   return out;
 }
 
-/// A few are told one by one.
-std::vector<Alike> grouped(const eds::LintReport& report) {
+using Consequences = std::map<const eds::Finding*, Alike>;  ///< by root
+
+Consequences consequences_of(const eds::LintReport& report, const eds::Roots& roots) {
+  Consequences out;
+  for (const auto& finding : report.findings) {
+    if (const auto* root = roots.of(finding)) out[root].push_back(&finding);
+  }
+  return out;
+}
+
+/// What follows from the findings of a group: each on a line, or more than a few of a rule in one.
+std::string consequence_lines(const Alike& group, const Consequences& consequences, bool all) {
+  constexpr std::size_t few = 3;
+  std::map<std::string_view, Alike> by_code;
+  for (const auto* root : group) {
+    const auto found = consequences.find(root);
+    if (found == consequences.end()) continue;
+    for (const auto* finding : found->second) by_code[finding->rule->code].push_back(finding);
+  }
+  std::string out;
+  for (const auto& [code, findings] : by_code) {
+    const auto shown = all || findings.size() <= few ? findings.size() : 1;
+    for (std::size_t i = 0; i < shown; ++i) {
+      const auto& finding = *findings[i];
+      out += fmt::format("      = and so {}[{}] in line {}: {}\n", to_string(finding.severity()), code,
+                         finding.at.line, with_hint(finding));
+    }
+    if (shown < findings.size())
+      out += fmt::format("      = and so {} more {} (all with -v)\n", findings.size() - shown, code);
+  }
+  return out;
+}
+
+/// A few are told one by one. Consequences are told with their roots.
+std::vector<Alike> grouped(const eds::LintReport& report, const eds::Roots& roots) {
   constexpr std::size_t few = 3;
   std::map<std::pair<const eds::Rule*, std::string>, Alike> groups;
-  for (const auto& finding : report.findings)
-    groups[{finding.rule, shape(finding.message)}].push_back(&finding);
+  for (const auto& finding : report.findings) {
+    if (roots.of(finding) == nullptr) groups[{finding.rule, shape(finding.message)}].push_back(&finding);
+  }
   std::vector<Alike> out;
   for (auto& [root, alike] : groups) {
     if (alike.size() > few)
@@ -116,8 +153,11 @@ std::string eds_lint_text(const std::vector<EdsLinted>& files, bool all, bool co
   const std::string_view bold = colour ? "\x1b[1m" : "";
   std::string out;
   for (const auto& file : files) {
-    const SourceLines lines(file.bytes);
-    for (const auto& group : all ? ungrouped(file.report) : grouped(file.report)) {
+    // Of a right file nobody asks for lines.
+    const SourceLines lines(file.report.findings.empty() ? std::string_view() : file.bytes);
+    const eds::Roots roots(file.report);
+    const auto consequences = consequences_of(file.report, roots);
+    for (const auto& group : all ? ungrouped(file.report, roots) : grouped(file.report, roots)) {
       const auto& finding = *group.front();
       const auto severity = finding.severity();
       const std::string_view tint = !colour                              ? ""
@@ -128,6 +168,7 @@ std::string eds_lint_text(const std::vector<EdsLinted>& files, bool all, bool co
                          off, tint, to_string(severity), finding.rule->code, off, with_hint(finding));
       out += lines.excerpt_at(finding.at, tint, off);
       if (group.size() > 1) out += alike_line(group);
+      out += consequence_lines(group, consequences, all);
     }
     for (const auto& gone : file.gone)
       out += fmt::format("{}: known, but gone: {}\n", printable(file.file), printable(gone));
@@ -157,6 +198,7 @@ std::string eds_lint_json(const std::vector<EdsLinted>& files) {
       one["gone"] = Json::array();
       for (const auto& gone : file.gone) one["gone"].push_back(printable(gone));
       one["findings"] = Json::array();
+      const eds::Roots roots(file.report);
       for (const auto& finding : file.report.findings) {
         one["findings"].push_back({{"code", std::string(finding.rule->code)},
                                    {"severity", std::string(to_string(finding.severity()))},
@@ -166,6 +208,9 @@ std::string eds_lint_json(const std::vector<EdsLinted>& files) {
                                    {"hint", printable(finding.hint)},
                                    {"rule", std::string(finding.rule->title)},
                                    {"source", std::string(finding.rule->source)}});
+        if (const auto* root = roots.of(finding))
+          one["findings"].back()["because"] = {
+              {"code", std::string(root->rule->code)}, {"line", root->at.line}, {"column", root->at.column}};
       }
     }
     out["files"].push_back(std::move(one));
@@ -179,12 +224,16 @@ std::string eds_lint_github(const std::vector<EdsLinted>& files) {
     if (file.unreadable)
       out += fmt::format("::error file={}::{}\n", github_escaped(file.file, true),
                          github_escaped(file.unreadable->text(), false));
+    const eds::Roots roots(file.report);
     for (const auto& finding : file.report.findings) {
       const auto severity = finding.severity();
+      const auto* root = roots.of(finding);
+      const auto because =
+          root == nullptr ? "" : fmt::format(" (because of {} in line {})", root->rule->code, root->at.line);
       out += fmt::format("::{} file={},line={},col={},title={}::{}\n",
                          severity == eds::Severity::note ? "notice" : to_string(severity),
                          github_escaped(file.file, true), finding.at.line, finding.at.column,
-                         finding.rule->code, github_escaped(with_hint(finding), false));
+                         finding.rule->code, github_escaped(with_hint(finding) + because, false));
     }
   }
   return out;

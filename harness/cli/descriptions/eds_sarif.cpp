@@ -11,6 +11,7 @@
 #include "cli/descriptions/fingerprint.hpp"
 #include "cli/descriptions/source_lines.hpp"
 #include "eds/lint_examples.hpp"
+#include "eds/lint_roots.hpp"
 #include "eds/text_lines.hpp"
 
 namespace conform::cli {
@@ -57,23 +58,33 @@ Json fix_json(const EdsLinted& file, const eds::Fix& fix, const eds::TextLines& 
   return {{"description", {{"text", printable(fix.what)}}}, {"artifactChanges", Json::array({change})}};
 }
 
+Json location_of(const EdsLinted& file, const eds::Finding& finding, SourceLines& columns) {
+  Json place;
+  place["physicalLocation"]["artifactLocation"]["uri"] = file_uri(file.file);
+  place["physicalLocation"]["region"] = {{"startLine", finding.at.line},
+                                         {"startColumn", columns.column(finding.at)}};
+  return place;
+}
+
 void add_results(const EdsLinted& file, const std::map<std::string_view, std::size_t>& places,
                  Json& results) {
   SourceLines columns(file.bytes);
   const eds::TextLines lines(file.bytes);
+  const eds::Roots roots(file.report);
   const auto prints = fingerprints(file.report, FindingPlaces(file.bytes, file.xml));
   for (std::size_t i = 0; i < file.report.findings.size(); ++i) {
     const auto& finding = file.report.findings[i];
-    Json place;
-    place["physicalLocation"]["artifactLocation"]["uri"] = file_uri(file.file);
-    place["physicalLocation"]["region"] = {{"startLine", finding.at.line},
-                                           {"startColumn", columns.column(finding.at)}};
     Json result = {{"ruleId", std::string(finding.rule->code)},
                    {"ruleIndex", places.at(finding.rule->code)},
                    {"level", std::string(to_string(finding.severity()))},
                    {"message", {{"text", with_hint(finding)}}},
-                   {"locations", Json::array({std::move(place)})},
+                   {"locations", Json::array({location_of(file, finding, columns)})},
                    {"partialFingerprints", {{"canopenConformFinding/v1", prints[i]}}}};
+    if (const auto* root = roots.of(finding)) {
+      auto place = location_of(file, *root, columns);
+      place["message"]["text"] = fmt::format("because of {}: {}", root->rule->code, with_hint(*root));
+      result["relatedLocations"] = Json::array({std::move(place)});
+    }
     if (i < file.fixes.size() && file.fixes[i])
       result["fixes"] = Json::array({fix_json(file, *file.fixes[i], lines)});
     results.push_back(std::move(result));

@@ -268,6 +268,23 @@ class Descriptions(unittest.TestCase):
         self.assertEqual(run("lint", "-v", path).stdout.count("[EDS052]"), 20)
         self.assertEqual(run("lint", "-f", "github", path).stdout.count("EDS052"), 20)
 
+    def test_what_follows_from_another_finding_is_told_with_it(self):
+        path = self.write("root.eds", content(fixture("legal-minimal.eds")).replace(b"DataType=0x0005", b"DataType=0x0007"))
+        text = run("lint", path).stdout
+        self.assertRegex(text, r"error\[EDS230\]: \[1018sub0\][^\n]*\n(?: [^\n]*\n)*      = and so error\[EDS257\] in line \d+: \[1018sub0\]")
+        self.assertNotIn(": error[EDS257]", text)
+        found = {each["code"]: each for each in json.loads(run("lint", "-f", "json", path).stdout)["files"][0]["findings"]}
+        root = next(each for each in json.loads(run("lint", "-f", "json", path).stdout)["files"][0]["findings"]
+                    if each["code"] == "EDS230" and "[1018sub0]" in each["message"])
+        self.assertEqual(found["EDS257"]["because"], {"code": "EDS230", "line": root["line"], "column": root["column"]})
+        self.assertNotIn("because", root)
+        results = json.loads(run("lint", "-f", "sarif", path).stdout)["runs"][0]["results"]
+        (related,) = next(each for each in results if each["ruleId"] == "EDS257")["relatedLocations"]
+        self.assertEqual(related["physicalLocation"]["region"]["startLine"], root["line"])
+        self.assertIn("because of EDS230", related["message"]["text"])
+        self.assertIn("(because of EDS230 in line", run("lint", "-f", "github", path).stdout)
+        self.assertIn(": error[EDS257]", run("lint", "--allow", "EDS230", path).stdout)
+
     def test_what_is_mechanical_is_shown_and_mended(self):
         good = content(fixture("legal-minimal.eds")).replace(b"\n", b"\r\n") + b"; \xe4\r\n"
         bad = good.replace(b"SupportedObjects=3", b"SupportedObjects=4").replace(b"3=0x1018", b"4=0x1018").replace(b"SubNumber=2", b"SubNumber=3")
