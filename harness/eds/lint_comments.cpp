@@ -71,7 +71,7 @@ std::vector<const Rule*> allowed_rules(std::string_view text, Position at, std::
     return tell(not_understood, fmt::format("'{}' is not understood", said));
   std::vector<const Rule*> out;
   bool named = false;
-  while (out.size() < LintComments::most) {
+  while (out.size() < LintComments::most && findings.size() < LintComments::most) {
     auto rest = text;
     const auto word = take_word(rest);
     if (!looks_like_code(word)) break;
@@ -80,7 +80,7 @@ std::vector<const Rule*> allowed_rules(std::string_view text, Position at, std::
     if (const auto* rule = find_rule(upper(word)))
       out.push_back(rule);
     else
-      (void)tell(no_such_rule, fmt::format("there is no rule {}", upper(word)));
+      (void)tell(no_such_rule, fmt::format("there is no rule {}", shortened(upper(word))));
   }
   if (!named) return tell(not_understood, fmt::format("'{}' names no rule", said));
   if (trim(text).find_first_not_of(" \t-:.") == std::string_view::npos)
