@@ -42,8 +42,8 @@ Result<NewDescription> wanted(const EdsNewCommand& options, eds::Format format) 
   out.profile = options.profile;
   out.rpdos = options.rpdos;
   out.tpdos = options.tpdos;
-  // By CiA 401 a device has inputs or outputs.
-  if (out.profile == 401 && out.rpdos == 0 && out.tpdos == 0) out.rpdos = out.tpdos = 1;
+  // By CiA 401 a device has inputs or outputs, by CiA 402 a controlword and a statusword.
+  if (out.profile != 301 && out.rpdos == 0 && out.tpdos == 0) out.rpdos = out.tpdos = 1;
   out.file_name = file_name_for(options.out, "new.eds", format);
   const auto vendor_name = line(options.vendor_name, "--vendor-name");
   const auto product_name = line(options.product_name, "--product-name");

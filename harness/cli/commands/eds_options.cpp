@@ -22,8 +22,10 @@ void EdsWriters::add_to(CLI::App& app) {
   new_sub_->add_option("out", new_.out, "File to write (default: standard output)")->type_name("OUT");
   one_of(new_sub_->add_option("--to", new_.to, "Format: eds or xdd (default: by the extension of OUT)"),
          {"eds", "xdd"});
-  new_sub_->add_option("--profile", new_.profile, "301: communication alone; 401: digital inputs and outputs")
-      ->check(CLI::IsMember({301, 401}).description(""))
+  new_sub_
+      ->add_option("--profile", new_.profile,
+                   "301: communication alone; 401: digital inputs and outputs; 402: servo drive")
+      ->check(CLI::IsMember({301, 401, 402}).description(""))
       ->type_name("PROFILE");
   new_sub_->add_option("--vendor-name", new_.vendor_name, "Name of the vendor")->type_name("TEXT");
   new_sub_->add_option("--vendor", new_.vendor, "Vendor-ID (1018h:01)")->type_name("NUMBER");

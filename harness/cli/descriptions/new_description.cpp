@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ using eds::Field;
 using eds::Object;
 
 constexpr unsigned cia401 = 401;
+constexpr unsigned cia402 = 402;
 constexpr unsigned predefined_pdos = 4;  ///< CiA 301, 7.3.5: for these the connection set has COB-IDs
 
 Field said(std::string text) { return {std::move(text), {}, {}, true}; }
@@ -31,6 +33,33 @@ constexpr Mapped outputs{0x2100, "Outputs", "Output", "rww", 0x07, 32};
 /// CiA 401: eight lines each.
 constexpr Mapped digital_inputs{0x6000, "Read input 8-bit", "Read inputs", "ro", 0x05, 8};
 constexpr Mapped digital_outputs{0x6200, "Write output 8-bit", "Write outputs", "rww", 0x05, 8};
+
+struct DriveObject {
+  unsigned index;
+  const char* name;
+  unsigned data_type;
+  const char* access;  ///< ro, or rw: rww where an RPDO could hold it
+  const char* value;
+  bool mappable = true;
+};
+/// CiA 402-2: a servo drive with profile position and profile velocity mode (6502h, bits 0 and 2).
+constexpr DriveObject drive[] = {
+    {0x6040, "Controlword", 0x06, "rw", "0"},
+    {0x6041, "Statusword", 0x06, "ro", ""},
+    {0x6060, "Modes of operation", 0x02, "rw", "0"},
+    {0x6061, "Modes of operation display", 0x02, "ro", ""},
+    {0x6064, "Position actual value", 0x04, "ro", ""},
+    {0x606C, "Velocity actual value", 0x04, "ro", ""},
+    {0x607A, "Target position", 0x04, "rw", "0"},
+    {0x6081, "Profile velocity", 0x07, "rw", "0"},
+    {0x6083, "Profile acceleration", 0x07, "rw", "0"},
+    {0x6086, "Motion profile type", 0x03, "rw", "0"},
+    {0x60FF, "Target velocity", 0x04, "rw", "0"},
+    {0x6502, "Supported drive modes", 0x07, "ro", "0x00000005", false},
+};
+/// CiA 402-3: the PDOs of a drive hold the control- or statusword, and from the second one on that.
+constexpr unsigned beside_controlword[] = {0x60600008, 0x607A0020, 0x60FF0020};
+constexpr unsigned beside_statusword[] = {0x60610008, 0x60640020, 0x606C0020};
 
 Entry entry(std::string name, unsigned data_type, const char* access, std::string value,
             bool mappable = false) {
@@ -51,9 +80,15 @@ class Maker {
   eds::EdsFile make() {
     information();
     communication();
-    const bool digital = wanted_.profile == cia401;
-    pdos(wanted_.rpdos, 0x1400, digital ? digital_outputs : outputs, "RPDO", 0x200);
-    pdos(wanted_.tpdos, 0x1800, digital ? digital_inputs : inputs, "TPDO", 0x180);
+    if (wanted_.profile == cia402) {
+      drive_objects();
+      drive_pdos(wanted_.rpdos, 0x1400, 0x60400010, beside_controlword, "RPDO", 0x200);
+      drive_pdos(wanted_.tpdos, 0x1800, 0x60410010, beside_statusword, "TPDO", 0x180);
+    } else {
+      const bool digital = wanted_.profile == cia401;
+      pdos(wanted_.rpdos, 0x1400, digital ? digital_outputs : outputs, "RPDO", 0x200);
+      pdos(wanted_.tpdos, 0x1800, digital ? digital_inputs : inputs, "TPDO", 0x180);
+    }
     std::ranges::sort(out_.objects, {}, &Object::index);
     comments();
     return std::move(out_);
@@ -120,7 +155,9 @@ class Maker {
   }
 
   /// CiA 401: bit 16 is set where there are digital inputs, bit 17 where there are digital outputs.
+  /// CiA 402: bit 17 is that of a servo drive.
   [[nodiscard]] std::uint32_t device_type() const {
+    if (wanted_.profile == cia402) return cia402 | 1U << 17U;
     if (wanted_.profile != cia401) return 0;
     return cia401 | (wanted_.tpdos > 0 ? 1U << 16U : 0U) | (wanted_.rpdos > 0 ? 1U << 17U : 0U);
   }
@@ -137,20 +174,47 @@ class Maker {
                entry("Serial number", 0x07, "ro", "")});
   }
 
+  /// The `number`-th of its direction, from 0 on.
+  void pdo(unsigned number, unsigned first, const char* word, unsigned base,
+           const std::vector<std::string>& mapped) {
+    // Beyond the fourth PDO of a direction no COB-ID is predefined: the PDO is not valid before it has one.
+    const auto cob_id =
+        number < predefined_pdos ? fmt::format("$NODEID+0x{:X}", base + 0x100 * number) : "0x80000000";
+    structure(first + number, fmt::format("{} {} communication parameter", word, number + 1), false,
+              {entry("COB-ID", 0x07, "rw", cob_id), entry("Transmission type", 0x05, "rw", "0xFF")});
+    std::vector<Entry> entries;
+    for (const auto& value : mapped)
+      entries.push_back(entry(fmt::format("Mapped object {}", entries.size() + 1), 0x07, "const", value));
+    structure(first + 0x200 + number, fmt::format("{} {} mapping parameter", word, number + 1), false,
+              std::move(entries));
+  }
+
+  void drive_objects() {
+    for (const auto& each : drive) {
+      const bool written = each.access == std::string_view("rw");
+      const bool mapped = each.mappable && (written ? wanted_.rpdos : wanted_.tpdos) > 0;
+      variable(each.index,
+               entry(each.name, each.data_type, written && mapped ? "rww" : each.access, each.value, mapped));
+    }
+  }
+
+  void drive_pdos(unsigned count, unsigned first, unsigned word_of_drive, std::span<const unsigned> beside,
+                  const char* word, unsigned base) {
+    for (unsigned i = 0; i < count; ++i) {
+      std::vector<std::string> mapped{fmt::format("0x{:08X}", word_of_drive)};
+      if (i > 0 && i <= beside.size()) mapped.push_back(fmt::format("0x{:08X}", beside[i - 1]));
+      pdo(i, first, word, base, mapped);
+    }
+  }
+
   void pdos(unsigned count, unsigned first, const Mapped& mapped, const char* word, unsigned base) {
     if (count == 0) return;
     std::vector<Entry> elements;
     for (unsigned i = 0; i < count; ++i) {
       elements.push_back(entry(fmt::format("{} {}", mapped.element, i + 1), mapped.data_type, mapped.access,
                                mapped.access == std::string_view("rww") ? "0" : "", true));
-      // Beyond the fourth PDO of a direction no COB-ID is predefined: the PDO is not valid before it has one.
-      const auto cob_id =
-          i < predefined_pdos ? fmt::format("$NODEID+0x{:X}", base + 0x100 * i) : "0x80000000";
-      structure(first + i, fmt::format("{} {} communication parameter", word, i + 1), false,
-                {entry("COB-ID", 0x07, "rw", cob_id), entry("Transmission type", 0x05, "rw", "0xFF")});
-      structure(first + 0x200 + i, fmt::format("{} {} mapping parameter", word, i + 1), false,
-                {entry("Mapped object 1", 0x07, "const",
-                       fmt::format("0x{:04X}{:02X}{:02X}", mapped.first_index, i + 1, mapped.bits))});
+      pdo(i, first, word, base,
+          {fmt::format("0x{:04X}{:02X}{:02X}", mapped.first_index, i + 1, mapped.bits)});
     }
     structure(mapped.first_index, mapped.name, true, std::move(elements));
   }

@@ -10,7 +10,7 @@
 namespace conform::cli {
 
 struct NewDescription {
-  unsigned profile = 301;  ///< 301, 401
+  unsigned profile = 301;  ///< 301, 401, 402
   std::string file_name;
   std::string vendor_name, product_name;  ///< empty: a placeholder
   std::uint32_t vendor = 0, product = 0, revision = 0;
@@ -18,8 +18,8 @@ struct NewDescription {
   std::string date;  ///< mm-dd-yyyy
 };
 
-/// In the words of CiA 306. The objects that CiA 301 (and CiA 401) want, the heartbeat producer, and as many
-/// PDOs as asked for: each with one object mapped, which cannot be changed. What only the vendor knows is a
+/// In the words of CiA 306. The objects that CiA 301 (and CiA 401 or 402) want, the heartbeat producer, and
+/// as many PDOs as asked for, with a mapping that cannot be changed. What only the vendor knows is a
 /// placeholder and named in [Comments].
 [[nodiscard]] eds::EdsFile new_description(const NewDescription& wanted);
 

@@ -125,13 +125,26 @@ class Writers(unittest.TestCase):
     # ---- new
 
     def test_a_new_description_lints_clean_when_its_identity_is_given(self):
-        for profile, pdos in [("301", ()), ("301", ("--rpdos", "1", "--tpdos", "6")), ("401", ()), ("401", ("--tpdos", "2"))]:
+        for profile, pdos in [("301", ()), ("301", ("--rpdos", "1", "--tpdos", "6")), ("401", ()), ("401", ("--tpdos", "2")),
+                              ("402", ()), ("402", ("--tpdos", "2")), ("402", ("--rpdos", "5", "--tpdos", "5"))]:
             for name in ("new.eds", "new.xdd"):
                 with self.subTest(profile=profile, pdos=pdos, name=name):
                     done = eds("new", self.path(name), "--profile", profile, *IDENTITY, *pdos)
                     self.assertEqual(done.returncode, 0, done.stderr)
                     lint = eds("lint", self.path(name))
                     self.assertEqual(lint.stdout, "1 file, 0 errors, 0 warnings, 0 notes\n")
+
+    def test_a_new_drive_has_the_pdos_of_its_profile(self):
+        text = eds("new", "--profile", "402", "--rpdos", "2", "--tpdos", "2", *IDENTITY).stdout
+        sections = dict(part.split("]", 1) for part in text.split("[")[1:])
+        self.assertIn("DefaultValue=0x00020192\n", sections["1000"])
+        self.assertIn("DefaultValue=0x60400010\n", sections["1600sub1"])
+        self.assertIn("DefaultValue=0x60600008\n", sections["1601sub2"])
+        self.assertIn("DefaultValue=0x60610008\n", sections["1A01sub2"])
+        self.assertIn("AccessType=rww\n", sections["6060"])
+        self.assertIn("PDOMapping=0\n", sections["6502"])
+        self.assertIn("AccessType=rw\n", dict(part.split("]", 1) for part in eds(
+            "new", "--profile", "402", "--tpdos", "1", *IDENTITY).stdout.split("[")[1:])["6040"])
 
     def test_placeholders_are_named(self):
         text = eds("new").stdout
@@ -152,14 +165,14 @@ class Writers(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_usage_mistakes_exit_2(self):
-        for arguments in (["--profile", "402"], ["--vendor", "x"], ["--date", "2023-02-29"], ["--rpdos", "65"], ["a.dcf"],
+        for arguments in (["--profile", "403"], ["--vendor", "x"], ["--date", "2023-02-29"], ["--rpdos", "65"], ["a.dcf"],
                           ["--vendor-name", "two\nlines"]):
             with self.subTest(arguments=arguments):
                 self.assertEqual(eds("new", *arguments, cwd=self.folder).returncode, 2)
                 self.assertEqual(os.listdir(self.folder), [])
 
     def test_its_twin_passes_the_suite(self):
-        for profile in ("301", "401"):
+        for profile in ("301", "401", "402"):
             with self.subTest(profile=profile):
                 eds("new", self.path("new.eds"), "--profile", profile, *IDENTITY, "--rpdos", "1", "--tpdos", "1")
                 done = run("run", "--simulate", "--eds", self.path("new.eds"), "-q", "--json", self.path("result.json"),
