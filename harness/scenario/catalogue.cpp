@@ -115,28 +115,29 @@ Result<void> Catalogue::add_folder(const std::string& folder, const std::string&
   if (!files) return std::unexpected(files.error());
   std::vector<yaml::NamedFile> named;
   for (const auto& below : *files) named.push_back({.path = folder + "/" + below, .name = prefix + below});
-  auto documents = yaml::load_files(named);
+  std::vector<std::vector<Requirement>> loaded(named.size());
+  auto documents =
+      yaml::load_files(named, [&](std::size_t i, const yaml::Node& root, yaml::Diagnostics& diagnostics) {
+        loaded[i] = load_requirements(root, diagnostics, named[i].name);
+      });
   for (std::size_t i = 0; i < named.size(); ++i) {
-    const auto& file = named[i].name;
     const auto first_of_file = requirements_.size();
     auto& document = documents[i];
     if (!document) return std::unexpected(document.error());
     auto& diagnostics = document->diagnostics;
-    if (document->root) {
-      for (auto& requirement : load_requirements(*document->root, diagnostics, file)) {
-        std::vector<std::string> names = requirement.same_as;
-        names.push_back(requirement.id);
-        for (const auto& name : names) {
-          const auto [known, fresh] = index_.emplace(name, requirements_.size());
-          // One that this file gives twice was reported by load_requirements.
-          if (fresh || known->second >= first_of_file) continue;
-          const auto& other = requirements_[known->second];
-          diagnostics.error({requirement.line, 1}, 1, "requirement id '" + name + "' is given twice",
-                            "also in " + other.file + ":" + std::to_string(other.line));
-        }
-        requirement.path = named[i].path;
-        requirements_.push_back(std::move(requirement));
+    for (auto& requirement : loaded[i]) {
+      std::vector<std::string> names = requirement.same_as;
+      names.push_back(requirement.id);
+      for (const auto& name : names) {
+        const auto [known, fresh] = index_.emplace(name, requirements_.size());
+        // One that this file gives twice was reported by load_requirements.
+        if (fresh || known->second >= first_of_file) continue;
+        const auto& other = requirements_[known->second];
+        diagnostics.error({requirement.line, 1}, 1, "requirement id '" + name + "' is given twice",
+                          "also in " + other.file + ":" + std::to_string(other.line));
       }
+      requirement.path = named[i].path;
+      requirements_.push_back(std::move(requirement));
     }
     if (!diagnostics.empty()) problems.push_back(diagnostics.render(colour));
   }

@@ -2,6 +2,7 @@
 #include "scenario/loader.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "base/text.hpp"
@@ -298,20 +299,21 @@ Result<void> add_to_suite(Suite& suite, const Folder& folder, const std::vector<
     named.push_back({.path = file.starts_with('/') || folder.path.empty() ? file : folder.path + "/" + file,
                      .name = folder.shown.empty() ? file : folder.shown + "/" + file});
   }
-  auto documents = yaml::load_files(named);
+  std::vector<std::optional<ScenarioFile>> loaded(files.size());
+  auto documents =
+      yaml::load_files(named, [&](std::size_t i, const yaml::Node& root, yaml::Diagnostics& diagnostics) {
+        loaded[i] = load_scenarios(root, diagnostics, files[i], catalogue);
+        loaded[i]->shown = named[i].name;
+        for (auto& each : loaded[i]->scenarios) each.position.file = named[i].name;
+      });
   for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto& file = files[i];
-    const auto& shown = named[i].name;
     auto& document = documents[i];
     if (!document) return std::unexpected(document.error());
-    if (document->root) {
-      auto loaded = load_scenarios(*document->root, document->diagnostics, file, catalogue);
-      for (auto& each : loaded.scenarios) each.position.file = shown;
+    if (loaded[i]) {
       for (const auto& known : suite.files) {
-        if (known.path == file) refuse_same_name(loaded, document->diagnostics, known.shown);
+        if (known.path == files[i]) refuse_same_name(*loaded[i], document->diagnostics, known.shown);
       }
-      loaded.shown = shown;
-      suite.files.push_back(std::move(loaded));
+      suite.files.push_back(*std::move(loaded[i]));
     }
     suite.errors += document->diagnostics.error_count();
     if (!document->diagnostics.empty()) suite.problems.push_back(document->diagnostics.render(colour));

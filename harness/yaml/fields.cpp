@@ -20,6 +20,25 @@ std::string alternatives(const std::vector<std::string_view>& words) {
   return out;
 }
 
+/// A key as messages name it. Every read makes one, and few are ever told.
+std::string in_quotes(std::string_view key) {
+  std::string out;
+  out.reserve(key.size() + 2);
+  out += '\'';
+  out += key;
+  out += '\'';
+  return out;
+}
+
+/// In the order of their first place.
+std::vector<std::string_view> each_once(const std::vector<std::string>& words) {
+  std::vector<std::string_view> out;
+  for (const std::string_view word : words) {
+    if (std::ranges::find(out, word) == out.end()) out.push_back(word);
+  }
+  return out;
+}
+
 /// "key:value" as one word: YAML wants a space behind the colon.
 bool lacks_space(const Node& node) {
   const auto colon = node.text().find(':');
@@ -186,7 +205,7 @@ Fields::Fields(Diagnostics& diagnostics, std::string what)
 Fields::~Fields() { finish(); }
 
 const Node* Fields::look_up(std::string_view key) {
-  if (std::ranges::find(asked_, key) == asked_.end()) asked_.emplace_back(key);
+  asked_.emplace_back(key);
   return node_ == nullptr ? nullptr : node_->find(key);
 }
 
@@ -196,12 +215,10 @@ Field Fields::required(std::string_view key) {
     missing_.push_back(
         {.message = fmt::format("the {} needs a key '{}'", what_, key), .keys = {std::string(key)}});
   }
-  return {node, *diagnostics_, fmt::format("'{}'", key)};
+  return {node, *diagnostics_, in_quotes(key)};
 }
 
-Field Fields::optional(std::string_view key) {
-  return {look_up(key), *diagnostics_, fmt::format("'{}'", key)};
-}
+Field Fields::optional(std::string_view key) { return {look_up(key), *diagnostics_, in_quotes(key)}; }
 
 bool Fields::has(std::string_view key) { return look_up(key) != nullptr; }
 
@@ -239,11 +256,10 @@ void Fields::finish() {
   if (finished_) return;
   finished_ = true;
   if (node_ == nullptr) return;
-  const std::vector<std::string_view> known(asked_.begin(), asked_.end());
   for (const auto& entry : node_->entries()) {
     const auto& key = entry.key;
-    if (key.faulty() || std::ranges::find(known, key.text()) != known.end()) continue;
-    if (others_allowed_) continue;
+    if (others_allowed_ || key.faulty() || std::ranges::find(asked_, key.text()) != asked_.end()) continue;
+    const auto known = each_once(asked_);
     std::string hint;
     if (const auto near = did_you_mean(key.text(), known); !near.empty()) {
       hint = fmt::format("did you mean '{}'?", near);

@@ -381,10 +381,14 @@ Result<Document> load_file(const std::string& path, std::string name) {
   return document;
 }
 
-std::vector<Result<Document>> load_files(const std::vector<NamedFile>& files) {
+std::vector<Result<Document>> load_files(const std::vector<NamedFile>& files, const UseTree& use) {
   std::vector<std::optional<Result<Document>>> loaded(files.size());
-  in_parallel(files.size(), 0,
-              [&](std::size_t i) { loaded[i].emplace(load_file(files[i].path, files[i].name)); });
+  in_parallel(files.size(), 0, [&](std::size_t i) {
+    auto& document = loaded[i].emplace(load_file(files[i].path, files[i].name));
+    if (!document || !document->root) return;
+    use(i, *document->root, document->diagnostics);
+    document->root.reset();
+  });
   std::vector<Result<Document>> out;
   for (auto& each : loaded) out.push_back(std::move(*each));
   return out;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,8 +44,12 @@ struct Document {
 struct NamedFile {
   std::string path, name;
 };
-/// The same for many, which are read on all cores.
-[[nodiscard]] std::vector<Result<Document>> load_files(const std::vector<NamedFile>& files);
+/// Takes what it needs from the tree of the file with this number.
+using UseTree = std::function<void(std::size_t number, const Node& root, Diagnostics& diagnostics)>;
+/// The same for many, which are read on all cores. `use` is called there, for several files at once, and the
+/// trees are gone then.
+[[nodiscard]] std::vector<Result<Document>> load_files(const std::vector<NamedFile>& files,
+                                                       const UseTree& use);
 
 /// Reports a plain scalar on which YAML readers disagree (yes, 010, 12:30, 2.10, ...); true when it is
 /// harmless. load() has applied it to every key and value.

@@ -118,34 +118,36 @@ bool check_plain(const Node& scalar, Diagnostics& diagnostics) {
     diagnostics.error(scalar, fmt::format("'{}' is ambiguous in YAML: {}", text, meaning), std::move(hint));
     return false;
   };
-  const std::string quote = fmt::format("quote it: \"{}\"", text);
+  // Of most scalars nothing is said.
+  const auto quote = [&text] { return fmt::format("quote it: \"{}\"", text); };
 
   if (is_one_of(text, words)) {
-    return ambiguous("some readers take it for a boolean", quote + ", or write true or false");
+    return ambiguous("some readers take it for a boolean", quote() + ", or write true or false");
   }
   if (is_one_of(text, booleans))
-    return ambiguous("only some readers take it for a boolean", "write it in lower case, or " + quote);
-  if (is_one_of(text, not_finite)) return ambiguous("readers take it for a floating-point number", quote);
+    return ambiguous("only some readers take it for a boolean", "write it in lower case, or " + quote());
+  if (is_one_of(text, not_finite)) return ambiguous("readers take it for a floating-point number", quote());
   if (text.empty() || !(is_digit(text.front()) || std::string_view("+-.").contains(text.front())))
     return true;
 
   if (has_leading_zero(text)) {
     return ambiguous("with its leading zero some readers take it for octal",
-                     fmt::format("drop the zero, write hex as {}h, or {}", text, quote));
+                     fmt::format("drop the zero, write hex as {}h, or {}", text, quote()));
   }
   if (is_octal(text))
     return ambiguous("only some readers take it for an octal number",
-                     "write it in decimal or hex, or " + quote);
+                     "write it in decimal or hex, or " + quote());
   if (is_binary(text))
     return ambiguous("only some readers take it for a binary number",
-                     "write it in decimal or hex, or " + quote);
-  if (has_underscore(text)) return ambiguous("some readers skip the underscore", "leave it out, or " + quote);
+                     "write it in decimal or hex, or " + quote());
+  if (has_underscore(text))
+    return ambiguous("some readers skip the underscore", "leave it out, or " + quote());
   if (is_sexagesimal(text)) {
     return ambiguous("some readers take it for a number to base 60",
-                     "write the index as hex (1003h:00), or " + quote);
+                     "write the index as hex (1003h:00), or " + quote());
   }
-  if (is_float(text)) return ambiguous("readers take it for a floating-point number", quote);
-  if (is_date(text)) return ambiguous("some readers take it for a date", quote);
+  if (is_float(text)) return ambiguous("readers take it for a floating-point number", quote());
+  if (is_date(text)) return ambiguous("some readers take it for a date", quote());
   return true;
 }
 
