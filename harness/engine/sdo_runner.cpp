@@ -51,10 +51,10 @@ class Runner {
       if (std::ranges::all_of(runs_, &SdoRun::over)) return {};
       for (const auto& run : runs_) {
         const auto taken = run.since - begin;
+        if (run.over || taken < patience) continue;
         const auto pace = std::max(per_answer, run.slowest + run.slowest / 4);
         const auto granted = patience + run.heard * per_answer;
-        if (run.over || taken < std::max(granted, std::min(patience + run.heard * pace, longest_patience)))
-          continue;
+        if (taken < std::max(granted, std::min(patience + run.heard * pace, longest_patience))) continue;
         return fail_scenario("the transfer of " + to_string(run.object) + " was given up after " +
                                  to_string(std::chrono::floor<std::chrono::seconds>(taken)) + " and " +
                                  std::to_string(run.heard) + " answers",

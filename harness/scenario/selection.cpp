@@ -62,8 +62,9 @@ bool Selection::takes_monitor(std::string_view id, const std::vector<std::string
 bool Selection::wants_one_of(const std::vector<std::string>& decides, const Catalogue& catalogue) const {
   if (requirements.empty()) return true;
   return std::ranges::any_of(requirements, [&](const std::string& wanted) {
-    const auto canonical = catalogue.canonical(wanted).value_or(wanted);
-    return std::ranges::any_of(decides, [&](const std::string& id) { return glob(canonical, id); });
+    const auto* known = catalogue.find(wanted);
+    const std::string& pattern = known != nullptr ? known->id : wanted;
+    return std::ranges::any_of(decides, [&](const std::string& id) { return glob(pattern, id); });
   });
 }
 

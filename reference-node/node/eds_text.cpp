@@ -107,38 +107,41 @@ unsigned flags(std::uint16_t index, std::uint8_t sub, const Entry& entry) {
   return entry.command ? 1 : 0;
 }
 
-std::string entry_text(std::uint16_t index, std::uint8_t sub, const Entry& entry, std::uint8_t node_id) {
+void add_entry(std::string& text, std::uint16_t index, std::uint8_t sub, const Entry& entry,
+               std::uint8_t node_id) {
   constexpr unsigned variable = 0x7;
   constexpr unsigned domain = 0x2;
   const bool changes = entry.read != nullptr;  // what is read is not what was configured
-  std::string text = fmt::format("ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n",
-                                 entry.name, entry.type == DataType::domain ? domain : variable,
-                                 static_cast<unsigned>(entry.type), access_name(entry));
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n", entry.name,
+                 entry.type == DataType::domain ? domain : variable, static_cast<unsigned>(entry.type),
+                 access_name(entry));
   // What CiA 306 says of a key that is not there is left out: 1021h is as long as this text.
   const auto value = changes ? std::string() : default_text(entry, node_id);
-  if (!value.empty()) text += fmt::format("DefaultValue={}\n", value);
+  if (!value.empty()) fmt::format_to(out, "DefaultValue={}\n", value);
   if (entry.rx_mappable || entry.tx_mappable) text += "PDOMapping=1\n";
   if (entry.type != DataType::boolean) {
-    if (entry.low) text += fmt::format("LowLimit={}\n", *entry.low);
-    if (entry.high) text += fmt::format("HighLimit={}\n", *entry.high);
+    if (entry.low) fmt::format_to(out, "LowLimit={}\n", *entry.low);
+    if (entry.high) fmt::format_to(out, "HighLimit={}\n", *entry.high);
   }
   if (const unsigned bits = flags(index, sub, entry); bits != 0)
-    text += fmt::format("ObjFlags={:#x}\n", bits);
-  return text + "\n";
+    fmt::format_to(out, "ObjFlags={:#x}\n", bits);
+  text += "\n";
 }
 
-std::string object_text(std::uint16_t index, const Object& object, std::uint8_t node_id) {
+void add_object(std::string& text, std::uint16_t index, const Object& object, std::uint8_t node_id) {
+  const auto out = std::back_inserter(text);
   if (object.kind == ObjectKind::variable) {
-    if (!object.entries.contains(0)) return {};
-    return fmt::format("[{:04X}]\n", index) + entry_text(index, 0, object.entries.at(0), node_id);
+    if (!object.entries.contains(0)) return;
+    fmt::format_to(out, "[{:04X}]\n", index);
+    return add_entry(text, index, 0, object.entries.at(0), node_id);
   }
-  std::string text =
-      fmt::format("[{:04X}]\nParameterName={}\nObjectType={:#x}\nSubNumber={:#x}\n\n", index, object.name,
-                  object.kind == ObjectKind::array ? 0x8U : 0x9U, object.entries.size());
+  fmt::format_to(out, "[{:04X}]\nParameterName={}\nObjectType={:#x}\nSubNumber={:#x}\n\n", index, object.name,
+                 object.kind == ObjectKind::array ? 0x8U : 0x9U, object.entries.size());
   for (const auto& [sub, entry] : object.entries) {
-    text += fmt::format("[{:04X}sub{:X}]\n", index, sub) + entry_text(index, sub, entry, node_id);
+    fmt::format_to(out, "[{:04X}sub{:X}]\n", index, sub);
+    add_entry(text, index, sub, entry, node_id);
   }
-  return text;
 }
 
 std::string list_text(std::string_view section, const std::vector<std::uint16_t>& indices) {
@@ -174,7 +177,7 @@ std::string eds_text(const ObjectDictionary& dictionary, std::uint8_t node_id) {
     const bool required = index == 0x1000 || index == 0x1001 || index == 0x1018;
     const bool own = index >= 0x2000 && index <= 0x5FFF;
     (required ? mandatory : own ? manufacturer : optional).push_back(index);
-    objects += object_text(index, object, node_id);
+    add_object(objects, index, object, node_id);
   }
   const auto pdos = [&dictionary](std::uint16_t first, std::uint16_t last) {
     const auto& all = dictionary.objects();
