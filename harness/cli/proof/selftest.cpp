@@ -132,6 +132,14 @@ std::vector<const refnode::Defect*> chosen_rows(const std::vector<std::string>& 
   return rows;
 }
 
+/// The rules around these: SDO-ERR-04 is one of SDO-ERR-*, and with the whole service one of SDO-*.
+std::vector<std::string> rules_around(const std::vector<std::string>& rules, bool of_service) {
+  std::set<std::string> out;
+  for (const auto& rule : rules)
+    out.insert(rule.substr(0, of_service ? rule.find('-') : rule.rfind('-')) + "-*");
+  return {out.begin(), out.end()};
+}
+
 Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row, bool whole) {
   auto defect = said_of(row, bench.catalogue);
   if (!whole) {
@@ -142,7 +150,13 @@ Result<DefectVerdict> verdict_of(const Bench& bench, const refnode::Defect& row,
       if (auto done = expose(bench, defect, defect.violates, slow); !done)
         return std::unexpected(done.error());
     }
-    // What one scenario leaves behind may show in the next.
+    // What one scenario leaves behind may show in the next, and a monitor may need its traffic: mostly the
+    // one is about the same as the other, and few of all scenarios are.
+    for (const bool of_service : {false, true}) {
+      if (!defect.killed_by.empty()) break;
+      if (auto done = expose(bench, defect, rules_around(defect.violates, of_service), false); !done)
+        return std::unexpected(done.error());
+    }
     whole = defect.killed_by.empty();
   }
   for (const bool slow : {false, true}) {
