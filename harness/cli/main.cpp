@@ -401,6 +401,34 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
       ->type_name("WHEN");
 
+  InitCommand init;
+  auto* init_sub =
+      app.add_subcommand("init", "Look at a device, and write a device profile with comments to begin with");
+  init_sub->add_option("-i,--interface", init.interface, "CAN interface the device is on, for example can0")
+      ->type_name("NAME");
+  init_sub->add_flag("--simulate", init.simulate, "Look at the reference node on a simulated bus");
+  init_sub
+      ->add_option("-n,--node", init.node,
+                   "Node-ID of the device, 1 to 127 (default: the only one that answers)")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  init_sub
+      ->add_option("-o,--output", init.output, "File to write, - for standard output (default: device.yaml)")
+      ->type_name("FILE");
+  init_sub->add_flag("--force", init.force, "Write over a file that is there");
+  init_sub
+      ->add_option(
+          "--allow", init.allow,
+          "Highest risk to take: read-only (default) writes nothing, config also resets the device twice, to "
+          "measure its start, and tries guarding, LSS and a block download that is given up")
+      ->check(CLI::IsMember({"read-only", "config", "nvm", "motion"}).description(""))
+      ->type_name("RISK");
+  init_sub
+      ->add_option("--range", init.ranges,
+                   "Indices to look at, such as 1000h..1FFFh; repeatable (default 1000h..9FFFh)")
+      ->allow_extra_args(false)
+      ->type_name("RANGE");
+
   LssScanCommand lss_scan;
   auto* lss_scan_sub = app.add_subcommand(
       "lss-scan", "Find LSS slaves without node-ID by fastscan (CiA 305), and give them node-IDs");
@@ -557,6 +585,7 @@ int dispatch(int argc, char** argv) {
   if (list_sub->parsed()) return list_command(list);
   if (scan_sub->parsed()) return scan_command(scan);
   if (doctor_sub->parsed()) return doctor_command(doctor);
+  if (init_sub->parsed()) return init_command(init);
   if (lss_scan_sub->parsed()) return lss_scan_command(lss_scan);
   if (explain_sub->parsed()) return explain_command(explain);
   if (selftest_sub->parsed()) return selftest_command(selftest);

@@ -73,6 +73,18 @@ struct DoctorCommand {
 /// 0: the bus can be used; 3: it cannot, and why was told.
 [[nodiscard]] int doctor_command(const DoctorCommand& options);
 
+struct InitCommand {
+  std::string interface;
+  bool simulate = false;               ///< the reference node
+  std::optional<std::uint32_t> node;   ///< absent: the only one that answers; in the simulation 5
+  std::string output = "device.yaml";  ///< "-": standard output
+  bool force = false;                  ///< write over a file that is there
+  std::string allow = "read-only";     ///< the highest tier; from config on the device is reset
+  std::vector<std::string> ranges;     ///< as ScanCommand::ranges
+};
+/// 0: the profile is written; exit_environment: the bus, or no device answers.
+[[nodiscard]] int init_command(const InitCommand& options);
+
 struct ReportCommand {
   std::string source;  ///< result.json or journal
   Reports reports;     ///< all empty, and no capture and bundle: those that the run was asked for

@@ -16,6 +16,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/descriptions/draft_eds.hpp"
 #include "cli/descriptions/scan_compare.hpp"
+#include "cli/first_contact/scan_ranges.hpp"
 #include "cli/run/stop_signal.hpp"
 #include "cli/run/terminal.hpp"
 #include "device/description.hpp"
@@ -30,16 +31,6 @@
 
 namespace conform::cli {
 namespace {
-
-/// Communication, manufacturer and standardised profile area; the rest is reserved or of network variables.
-constexpr engine::IndexRange usual[] = {{0x1000, 0x1FFF}, {0x2000, 0x5FFF}, {0x6000, 0x9FFF}};
-
-Result<engine::IndexRange> range_of(std::string_view text) {
-  const auto range = parse_number_range(text);
-  if (!range || range->high > 0xFFFF || range->low == 0)
-    return fail("'" + std::string(text) + "' is no range of indices", {}, "--range 2000h..2FFFh");
-  return engine::IndexRange{static_cast<std::uint16_t>(range->low), static_cast<std::uint16_t>(range->high)};
-}
 
 /// The description to compare with.
 struct Compared {
@@ -100,12 +91,9 @@ int scan_command(const ScanCommand& options) {
   if (!options.node && !options.simulate)
     return report_error({"the node-ID of the device is missing", {}, "--node 1..127"}, exit_usage);
   engine::ScanOptions what;
-  for (const auto& text : options.ranges) {
-    const auto range = range_of(text);
-    if (!range) return report_error(range.error(), exit_usage);
-    what.ranges.push_back(*range);
-  }
-  if (what.ranges.empty()) what.ranges.assign(std::begin(usual), std::end(usual));
+  auto ranges = scan_ranges(options.ranges);
+  if (!ranges) return report_error(ranges.error(), exit_usage);
+  what.ranges = std::move(*ranges);
   what.allow = steps::parse_tier(options.allow).value_or(steps::Tier::read_only);
 
   std::optional<Compared> compared;

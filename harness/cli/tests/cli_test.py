@@ -53,6 +53,27 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(missing.returncode, 3)
         self.assertEqual(run("doctor", "--simulate", "-i", "can0").returncode, 2)
 
+    def test_a_profile_to_begin_with_is_taken_by_a_run_and_not_written_over(self):
+        path = self.path("first.yaml")
+        done = run("init", "--simulate", "-o", path, "--range", "1000h..1FFFh", "--allow", "config")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn(f"canopen-conform run --simulate --device {path} --allow read-only", done.stdout)
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("  - lss ", text)
+        self.assertIn("boot_time: 500 ms", text)
+        self.assertEqual(run("lint", path).returncode, 0)
+        used = run("run", "--simulate", "--device", path, "cia301/sdo/upload")
+        self.assertEqual(used.returncode, 0, used.stdout + used.stderr)
+        again = run("init", "--simulate", "-o", path)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("--force", again.stderr)
+        self.assertEqual(run("init", "--simulate", "-o", path, "--force", "--range", "1000h..1FFFh").returncode, 0)
+        self.assertEqual(run("init", "--simulate", "--range", "x").returncode, 2)
+        self.assertEqual(run("init").returncode, 2)
+        shown = run("init", "--simulate", "-o", "-", "--range", "1000h..1000h")
+        self.assertTrue(shown.stdout.startswith("# Device profile"))
+
     def test_what_failed_is_run_again_alone_and_nothing_when_nothing_failed(self):
         first = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "--json", self.path("r.json"),
                     "cia301/dictionary*")
