@@ -107,8 +107,14 @@ class Claims {
     } else if (device_.block_upload) {
       open("block sdo", "an upload was begun; a download was not tried");
     }
-    if (device_.node_guarding) {
+    // Who guards without life guarding has 100Ch and 100Dh read-only: the two are claimed together.
+    const auto is_open = [this](std::string_view feature) {
+      return std::ranges::find(out_.open, feature, &FoundClaim::feature) != out_.open.end();
+    };
+    if (device_.node_guarding && !is_open("life guarding")) {
       shown("node guarding", "a guard request was answered");
+    } else if (device_.node_guarding) {
+      open("node guarding", "a guard request was answered; say life guarding, too, if it has it");
     } else {
       open("node guarding", "a guard request was not tried, or not answered");
     }
