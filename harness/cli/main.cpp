@@ -8,6 +8,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/eds_options.hpp"
+#include "cli/commands/explore_command.hpp"
 #include "cli/run/command_line.hpp"
 #include "cli/run/guardian.hpp"
 #include "reports/formats.hpp"
@@ -484,6 +485,45 @@ int dispatch(int argc, char** argv) {
                         "With 'verbs' and 'coverage': the whole page as Markdown");
 
   SelftestCommand selftest;
+  ExploreCommand explore;
+  auto* explore_sub = app.add_subcommand(
+      "explore",
+      "Look for what no scenario asks for: random conversations, held against a conformant model; in simulation only");
+  explore_sub->add_flag("--simulate", explore.simulate, "Explore the reference node on a simulated bus");
+  explore_sub
+      ->add_option("--defect", explore.defects,
+                   "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  explore_sub
+      ->add_option("--variant", explore.variants,
+                   "Legal variant of the simulated node, and of its model; repeatable (canopen-refnode --list-variants)")
+      ->allow_extra_args(false)
+      ->type_name("ID");
+  explore_sub->add_option("-n,--node", explore.node, "Node-ID of the device, 1 to 127")
+      ->check(CLI::Range(1, 127).description(""))
+      ->type_name("NODE-ID");
+  explore_sub->add_option("-d,--device", explore.device, "Device profile (YAML): claims, error triggers")->type_name("FILE");
+  explore_sub->add_option("--eds", explore.eds, "Description of the device: node and model are its twins")->type_name("FILE");
+  explore_sub->add_option("--seed", explore.seed, "Seed of the conversations (default 1)")->type_name("NUMBER");
+  explore_sub->add_option("--for", explore.time, "End after this time, 10s or 2 min (default 10s)")->type_name("TIME");
+  explore_sub
+      ->add_option("--actions", explore.actions,
+                   "End after so many actions: the same on every machine, also with what --for would cut off")
+      ->type_name("NUMBER");
+  explore_sub->add_option("--findings", explore.most_findings, "End after so many findings (default 20)")->type_name("NUMBER");
+  explore_sub->add_option("--write", explore.write, "Write the findings as scenarios")->type_name("FILE");
+  explore_sub->add_flag("--strict", explore.strict, "Exit with 3 for what is tolerated or has no known rule, too");
+  explore_sub->add_flag("-q,--quiet", explore.quiet, "Print only the summary");
+  auto* prove = explore_sub->add_flag("--prove", explore.prove,
+                                      "What is found of each defect of the reference node (or those of --defect), and "
+                                      "whether legal variants are blamed; --actions for each (default 20000)");
+  explore_sub->add_flag("-v,--verbose", explore.verbose, "With --prove: what was named instead")->needs(prove);
+  explore_sub->add_option("-j,--jobs", explore.jobs, "With --prove: threads (default: the machine's cores)")
+      ->check(CLI::Range(1, 256))
+      ->needs(prove)
+      ->type_name("NUMBER");
+
   auto* selftest_sub =
       app.add_subcommand("selftest", "Prove the suite: every defect of the reference node must be caught");
   selftest_sub->add_flag("-v,--verbose", selftest.verbose, "Show what killed each defect");
@@ -557,7 +597,7 @@ int dispatch(int argc, char** argv) {
   bench_sub->add_option("--bytes", bench.bytes)->check(CLI::Range(10, 1 << 20));
 
   std::vector<std::string> suites;
-  for (auto* sub : {run_sub, judge_sub, lint_sub, list_sub, explain_sub, selftest_sub}) {
+  for (auto* sub : {run_sub, judge_sub, lint_sub, list_sub, explain_sub, explore_sub, selftest_sub}) {
     sub->add_option(
            "--suites", suites,
            "Folder of own scenarios and requirements, beside those that came with the program; repeatable")
@@ -569,7 +609,8 @@ int dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
-  run.suites = judge.suites = lint.suites = list.suites = explain.suites = selftest.suites = suites;
+  run.suites = judge.suites = lint.suites = list.suites = explain.suites = explore.suites = selftest.suites =
+      suites;
   run.command = judge.command = shell_line(std::span(argv, static_cast<std::size_t>(argc)));
   if (guard_sub->parsed()) return guard_command(guarded);
   if (run_sub->parsed()) return run_command(run);
@@ -588,6 +629,7 @@ int dispatch(int argc, char** argv) {
   if (init_sub->parsed()) return init_command(init);
   if (lss_scan_sub->parsed()) return lss_scan_command(lss_scan);
   if (explain_sub->parsed()) return explain_command(explain);
+  if (explore_sub->parsed()) return explore_command(explore);
   if (selftest_sub->parsed()) return selftest_command(selftest);
   return bench_command(bench);
 }

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/proof/explored.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/in_parallel.hpp"
+#include "cli/proof/variant_profile.hpp"
+#include "defects/defect.hpp"
+#include "engine/monitor_cases.hpp"
+#include "explore/scenario_text.hpp"
+#include "node/powered_node.hpp"
+#include "variants/variant.hpp"
+
+namespace conform::cli {
+namespace {
+
+explore::MakeDevice maker_of(const NodeSwitches& switches, NodeId node) {
+  return [switches, node]() -> Result<std::unique_ptr<can::Participant>> {
+    auto made = refnode::PoweredNode::create({.node_id = node.value(),
+                                              .defects = switches.defects,
+                                              .variants = switches.variants,
+                                              .description = switches.description});
+    if (!made) return std::unexpected(made.error());
+    return std::unique_ptr<can::Participant>(std::move(*made));
+  };
+}
+
+bool is_binding(const std::string& requirement, const scenario::Catalogue& catalogue) {
+  const auto* rule = catalogue.find(requirement);
+  return rule != nullptr && (rule->level == "mandatory" || rule->level == "conditional");
+}
+
+std::vector<std::string> canonical(std::span<const std::string_view> ids, const scenario::Catalogue& catalogue) {
+  std::vector<std::string> out;
+  for (const auto id : ids) {
+    if (const auto found = catalogue.canonical(id)) out.push_back(*found);
+  }
+  return out;
+}
+
+Result<DefectFound> found_of(const refnode::Defect& defect, const device::Profile& profile,
+                             const scenario::Catalogue& catalogue, const ExploreProofOptions& options) {
+  DefectFound out{.id = std::string(defect.id)};
+  auto device = explorable_of(profile, {.defects = {out.id}}, {});
+  if (!device) return std::unexpected(device.error());
+  const auto violates = canonical(defect.violates, catalogue);
+  explore::SearchOptions search;
+  search.seed = options.seed;
+  search.most_actions = options.actions;
+  search.most_findings = 6;
+  search.repeats = 1;
+  search.on_finding = [&](const explore::Finding& finding) {
+    if (!out.found) {
+      out.actions = finding.actions_until;
+      out.shortest = finding.conversation.size();
+    }
+    out.found = true;
+    const auto rule = finding.assigned ? catalogue.canonical(finding.assigned->requirement) : std::nullopt;
+    out.said.push_back(rule ? *rule
+                            : "? " + explore::describe(finding.conversation.back(), device->words.node) + " : " +
+                                  explore::came_text(finding, device->words) + " / " +
+                                  explore::due_text(finding, device->words));
+    if (!rule || std::ranges::find(violates, *rule) == violates.end()) return false;
+    out.named = true;
+    out.shortest = finding.conversation.size();
+    return true;
+  };
+  auto result = explore::search(device->bench, device->words, search);
+  if (!result) return std::unexpected(result.error());
+  if (!out.found) out.actions = result->actions;
+  return out;
+}
+
+/// The device has the variant and its model has not: what differs is legal, and no rule may blame it.
+Result<VariantFound> found_of(const refnode::Variant& variant, const device::Profile& profile,
+                              const scenario::Catalogue& catalogue, const ExploreProofOptions& options) {
+  VariantFound out{.variants = {std::string(variant.id)}};
+  const NodeSwitches switches{.variants = out.variants};
+  auto node = refnode::Node::create({.node_id = profile.node.value(), .variants = out.variants});
+  if (!node) return std::unexpected(node.error());
+  auto device = explorable_of(profile_of_variants(profile, (*node)->dictionary(), out.variants), switches, {});
+  if (!device) return std::unexpected(device.error());
+  const auto warns = canonical(variant.warns, catalogue);
+  explore::SearchOptions search;
+  search.seed = options.seed;
+  search.most_actions = options.actions;
+  search.repeats = 1;
+  search.on_finding = [&](const explore::Finding& finding) {
+    if (word_of(finding, catalogue) != "FAIL") return false;
+    if (std::ranges::find(warns, finding.assigned->requirement) != warns.end()) return false;
+    std::string talk;
+    for (const auto& action : finding.conversation)
+      talk += explore::describe(action, device->words.node) + "; ";
+    out.blamed.push_back(fmt::format("{}: {} -> {}, due {}", finding.assigned->requirement, talk,
+                                     explore::came_text(finding, device->words),
+                                     explore::due_text(finding, device->words)));
+    return false;
+  };
+  auto result = explore::search(device->bench, device->words, search);
+  if (!result) return std::unexpected(result.error());
+  out.episodes = result->episodes;
+  return out;
+}
+
+}  // namespace
+
+Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitches& device,
+                                 const std::vector<std::string>& adapted) {
+  Explorable out;
+  out.words = explore::vocabulary_of(profile);
+  out.bench.facts = engine::facts_of_run(profile);
+  out.bench.facts.alone = true;
+  for (const auto& rule : monitor::rules()) out.bench.monitors.push_back(&rule);
+  out.bench.device = maker_of(device, profile.node);
+  out.bench.model = maker_of({.variants = adapted, .description = device.description}, profile.node);
+  // What cannot be made is said now, not in the middle of the search.
+  for (const auto* make : {&out.bench.device, &out.bench.model}) {
+    if (auto made = (*make)(); !made) return std::unexpected(made.error());
+  }
+  return out;
+}
+
+std::string word_of(const explore::Finding& finding, const scenario::Catalogue& catalogue) {
+  if (!finding.assigned) return "DIFF";
+  const bool fails = finding.is_violation() && !finding.is_flaky() && is_binding(finding.assigned->requirement, catalogue);
+  return fails ? "FAIL" : "WARN";
+}
+
+FoundCounts count_words(const explore::SearchResult& result, const scenario::Catalogue& catalogue) {
+  FoundCounts out;
+  for (const auto& finding : result.findings) {
+    const auto word = word_of(finding, catalogue);
+    ++(word == "FAIL" ? out.fail : word == "WARN" ? out.warn : out.open);
+  }
+  return out;
+}
+
+std::size_t ExploreProof::found() const {
+  return static_cast<std::size_t>(std::ranges::count_if(defects, &DefectFound::found));
+}
+std::size_t ExploreProof::named() const {
+  return static_cast<std::size_t>(std::ranges::count_if(defects, &DefectFound::named));
+}
+std::size_t ExploreProof::falsely_blamed() const {
+  std::size_t out = 0;
+  for (const auto& each : variants) out += each.blamed.size();
+  return out;
+}
+double ExploreProof::median_length() const {
+  std::vector<std::size_t> lengths;
+  for (const auto& each : defects) {
+    if (each.found) lengths.push_back(each.shortest);
+  }
+  if (lengths.empty()) return 0;
+  std::ranges::sort(lengths);
+  const auto middle = lengths.size() / 2;
+  return lengths.size() % 2 == 1 ? static_cast<double>(lengths[middle])
+                                 : static_cast<double>(lengths[middle - 1] + lengths[middle]) / 2;
+}
+
+std::string exploration_words(const ExploreProof& proof, bool verbose) {
+  std::string out;
+  for (const auto& each : proof.defects) {
+    if (!each.found) out += fmt::format("not found   {}\n", each.id);
+    if (!verbose || !each.found || each.named) continue;
+    out += fmt::format("other name  {}\n", each.id);
+    for (const auto& said : each.said) out += fmt::format("            {}\n", said);
+  }
+  for (const auto& each : proof.variants) {
+    for (const auto& line : each.blamed) out += fmt::format("blamed      {}: {}\n", each.variants.front(), line);
+  }
+  const auto share = [&](std::size_t part) {
+    return proof.defects.empty() ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(proof.defects.size());
+  };
+  out += fmt::format("exploration: {} of {} defects found ({:.1f} %), {} by a requirement they violate ({:.1f} %), median {} actions\n",
+                     proof.found(), proof.defects.size(), share(proof.found()), proof.named(), share(proof.named()),
+                     proof.median_length());
+  std::size_t episodes = 0;
+  for (const auto& each : proof.variants) episodes += each.episodes;
+  if (!proof.variants.empty())
+    out += fmt::format("exploration: {} conversations with {} legal variants, {} false findings\n", episodes,
+                       proof.variants.size(), proof.falsely_blamed());
+  return out;
+}
+
+Result<ExploreProof> prove_exploration(const device::Profile& profile, const scenario::Catalogue& catalogue,
+                                       const ExploreProofOptions& options) {
+  std::vector<const refnode::Defect*> rows;
+  for (const auto& row : refnode::defects()) {
+    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end()) rows.push_back(&row);
+  }
+  std::vector<std::optional<Result<DefectFound>>> found(rows.size());
+  in_parallel(rows.size(), options.jobs,
+              [&](std::size_t i) { found[i].emplace(found_of(*rows[i], profile, catalogue, options)); });
+  const auto variants = options.only.empty() ? refnode::variants() : std::span<const refnode::Variant>();
+  std::vector<std::optional<Result<VariantFound>>> legal(variants.size());
+  in_parallel(variants.size(), options.jobs,
+              [&](std::size_t i) { legal[i].emplace(found_of(variants[i], profile, catalogue, options)); });
+  ExploreProof out;
+  for (auto& each : found) {
+    if (!*each) return std::unexpected(each->error());
+    out.defects.push_back(std::move(**each));
+  }
+  for (auto& each : legal) {
+    if (!*each) return std::unexpected(each->error());
+    out.variants.push_back(std::move(**each));
+  }
+  return out;
+}
+
+}  // namespace conform::cli

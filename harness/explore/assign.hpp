@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which requirement a difference from the model violates. The model makes legal choices of its own, so a
+// difference alone proves nothing: every rule here says what the standard accepts, and what no rule knows
+// stays a difference without a name.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "explore/draw.hpp"
+#include "explore/duel.hpp"
+
+namespace conform::explore {
+
+/// What a shrunk conversation has shown, with everything that came before the difference.
+struct Evidence {
+  const Vocabulary& words;
+  std::span<const Action> conversation;  ///< up to the difference
+  const Played& played;                  ///< of it, with answers; it has a difference
+
+  [[nodiscard]] const Difference& difference() const { return *played.difference; }
+  [[nodiscard]] const Action& last() const { return conversation[difference().action]; }
+  /// The actions before the one at which it showed.
+  [[nodiscard]] std::span<const Action> before() const { return conversation.first(difference().action); }
+  /// The NMT command that was obeyed last, and the one before it; 80h where there was none.
+  struct Commands {
+    std::uint8_t last = 0x80, before = 0x80;
+  };
+  [[nodiscard]] Commands commands() const;
+  [[nodiscard]] bool stopped() const { return commands().last == 2; }
+  [[nodiscard]] bool operational() const { return commands().last == 1; }
+  /// What was written to the entry last, up to the difference, whether the device took it or not.
+  [[nodiscard]] std::optional<std::uint64_t> wrote(std::uint16_t index, std::uint8_t sub) const;
+  /// Some action is of this kind.
+  template <typename F>
+  [[nodiscard]] bool some(F holds) const {
+    for (const auto& each : conversation) {
+      if (holds(each)) return true;
+    }
+    return false;
+  }
+};
+
+enum class Grade : std::uint8_t {
+  violated,   ///< no reading of the rule accepts it
+  tolerated,  ///< the rule is about this, but lets it pass with a warning, or may do so
+};
+
+struct Assigned {
+  std::string requirement;
+  Grade grade = Grade::violated;
+};
+
+/// nullopt: differs from the model, no rule known.
+[[nodiscard]] std::optional<Assigned> assign(const Evidence& evidence);
+
+// The tables, by what differs.
+[[nodiscard]] std::optional<Assigned> assign_answer(const Evidence& evidence);
+[[nodiscard]] std::optional<Assigned> assign_fault(const Evidence& evidence);
+[[nodiscard]] std::optional<Assigned> assign_request(const Evidence& evidence);
+[[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
+
+/// The rule for what the client did wrong in a transfer; empty: it did nothing, or no rule is known.
+[[nodiscard]] std::string rule_of_fault(const Action& action);
+/// "OD-1400-10"
+[[nodiscard]] std::string id_of(std::string_view area, int number);
+/// For the tables: a rule that is broken, and one that tolerates it.
+[[nodiscard]] inline std::optional<Assigned> violates(std::string requirement) {
+  return Assigned{std::move(requirement), Grade::violated};
+}
+[[nodiscard]] inline std::optional<Assigned> strains(std::string requirement) {
+  return Assigned{std::move(requirement), Grade::tolerated};
+}
+
+}  // namespace conform::explore

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames that came without being asked for, or did not come.
+#include <algorithm>
+#include <string>
+
+#include "canopen/cob_id.hpp"
+#include "explore/assign.hpp"
+
+namespace conform::explore {
+namespace {
+
+using What = Difference::What;
+
+constexpr std::uint8_t start = 1, stop = 2, pre_operational = 0x80;
+
+/// The frame that it is all about.
+const can::Frame& frame_of(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  return difference.what == What::missing ? difference.due : difference.came;
+}
+
+/// An NMT frame that no device may obey, or every one must; empty: all are plain.
+std::string odd_nmt(const Evidence& evidence) {
+  for (const auto& each : evidence.conversation) {
+    if (each.kind != Action::Kind::frame || each.frame.id != 0) continue;
+    const auto& frame = each.frame;
+    if (frame.remote || frame.extended) return "NMT-FSA-19";
+    if (frame.dlc < 2) return "NMT-FSA-17";
+    if (frame.dlc > 2) return "NMT-FSA-18";
+    if (frame.data[1] != 0 && frame.data[1] != evidence.words.node.value()) return "NMT-FSA-15";
+    const auto command = frame.data[0];
+    if (command != start && command != stop && (command < pre_operational || command > 0x82)) return "NMT-FSA-16";
+    if (frame.data[1] == 0) return "NMT-FSA-14";
+  }
+  return "";
+}
+
+/// The state is not the one after the last command.
+std::string transition(const Evidence& evidence) {
+  if (auto odd = odd_nmt(evidence); !odd.empty()) return odd;
+  const auto [last, before] = evidence.commands();
+  if (last == before) return "NMT-FSA-13";
+  if (last == start) return before == stop ? "NMT-FSA-05" : "NMT-FSA-01";
+  if (last == stop) return before == start ? "NMT-FSA-04" : "NMT-FSA-02";
+  return before == stop ? "NMT-FSA-06" : "NMT-FSA-03";
+}
+
+/// The last action of the conversation that resets or switches on; 0: power, 81h, 82h.
+struct LastReset {
+  bool found = false;
+  std::uint8_t command = 0;
+  std::uint8_t state = pre_operational;  ///< the state it was given in, as the command that led there
+};
+LastReset last_reset(const Evidence& evidence) {
+  LastReset out;
+  std::uint8_t state = pre_operational;
+  for (const auto& each : evidence.conversation) {
+    const auto command = each.nmt_command(evidence.words.node);
+    if (each.kind == Action::Kind::power || command == 0x81 || command == 0x82) {
+      out = {true, command, state};
+      state = pre_operational;
+    } else if (command == start || command == stop || command == pre_operational) {
+      state = command;
+    }
+  }
+  return out;
+}
+
+std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
+  const auto odd = odd_nmt(evidence);
+  const auto what = evidence.difference().what;
+  const auto reset = last_reset(evidence);
+  if (what == What::other_data) return violates("NMT-BOOT-04");
+  if (what == What::missing) {
+    if (!odd.empty()) return violates(odd);
+    if (!reset.found || reset.command == 0) return violates("NMT-BOOT-01");
+    const bool node = reset.command == 0x81;
+    if (reset.state == start) return violates(node ? "NMT-FSA-09" : "NMT-FSA-10");
+    if (reset.state == stop) return violates(node ? "NMT-FSA-11" : "NMT-FSA-12");
+    return violates(node ? "NMT-BOOT-02" : "NMT-BOOT-03");
+  }
+  if (!odd.empty() && odd != "NMT-FSA-14") return violates(odd);
+  if (!reset.found) {
+    const bool commanded = evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
+    if (evidence.conversation.size() <= 1 && !commanded) return violates("NMT-BOOT-01");
+    return violates(commanded ? "NMT-BOOT-06" : "NMT-BOOT-10");
+  }
+  return violates(reset.command == 0x82 ? "NMT-BOOT-03" : reset.command == 0x81 ? "NMT-BOOT-02" : "NMT-BOOT-01");
+}
+
+std::optional<Assigned> assign_heartbeat(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  if (difference.what == What::other_data) {
+    if (difference.came.dlc != 1) return violates("EC-HBP-08");
+    if (((difference.came.data[0] ^ difference.due.data[0]) & 0x80U) != 0) return violates("EC-HBP-07");
+    return violates(evidence.some([&](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; })
+                        ? transition(evidence)
+                        : "EC-HBP-06");
+  }
+  std::size_t writes = 0;
+  for (const auto& each : evidence.conversation) writes += each.kind == Action::Kind::download && each.is_at(0x1017, 0);
+  const auto period = evidence.wrote(0x1017, 0).value_or(0);
+  if (difference.what == What::surplus && period == 0) return violates(writes > 0 ? "EC-HBP-04" : "EC-HBP-13");
+  if (evidence.stopped()) return violates("NMT-SVC-04");
+  if (writes > 1) return violates("EC-HBP-03");
+  const bool commanded = evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
+  if (commanded && evidence.commands().last == evidence.commands().before) return violates("EC-HBP-10");
+  return violates("EC-HBP-01");
+}
+
+bool guards(const Action& action, const Evidence& evidence) {
+  return action.kind == Action::Kind::frame && action.frame.remote && !action.frame.extended &&
+         action.frame.id == 0x700U + evidence.words.node.value();
+}
+
+std::optional<Assigned> assign_guarding(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  const bool heartbeat = evidence.wrote(0x1017, 0).has_value();
+  if (difference.what == What::missing) return violates(heartbeat ? "EC-NG-12" : "EC-NG-01");
+  if (difference.what == What::surplus) {
+    if (evidence.wrote(0x1017, 0).value_or(0) != 0) return violates("EC-NG-11");
+    for (const auto& each : evidence.conversation) {
+      if (each.kind != Action::Kind::frame || !each.frame.remote || each.frame.id < 0x700) continue;
+      if (each.frame.extended) return violates("EC-NG-15");
+      if (!guards(each, evidence)) return violates("EC-NG-06");
+    }
+    return violates("EC-NG-16");
+  }
+  if (difference.came.dlc != 1) return violates("EC-NG-05");
+  const bool commanded = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
+  if (((difference.came.data[0] ^ difference.due.data[0]) & 0x80U) != 0) {
+    if (commanded) return violates("EC-NG-03");
+    const auto requests = std::ranges::count_if(evidence.conversation, [&](const Action& each) { return guards(each, evidence); });
+    return violates(requests <= 1 ? "EC-NG-01" : "EC-NG-02");
+  }
+  const auto state = difference.came.data[0] & 0x7FU;
+  if (state != 4 && state != 5 && state != 0x7F) return violates("EC-NG-04");
+  return violates(commanded ? transition(evidence) : "NMT-BOOT-07");
+}
+
+std::optional<Assigned> assign_error_control(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  const auto& due = difference.what == What::surplus ? difference.came : difference.due;
+  if (due.remote) return violates("NMT-SVC-05");
+  if (due.size() == 0 || (due.data[0] & 0x7FU) == 0) return assign_boot_up(evidence);
+  const bool guarded = evidence.some([&](const Action& each) {
+    return each.kind == Action::Kind::frame && each.frame.remote && (each.frame.id & 0x780U) == 0x700U;
+  });
+  return guarded ? assign_guarding(evidence) : assign_heartbeat(evidence);
+}
+
+bool guarding_runs(const Evidence& evidence) {
+  return evidence.wrote(0x100C, 0).has_value() || evidence.wrote(0x100D, 0).has_value();
+}
+
+std::optional<Assigned> assign_emcy(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  const auto& about = frame_of(evidence);
+  const auto code = about.size() < 2 ? 0U : static_cast<unsigned>(about.data[0] | (about.data[1] << 8U));
+  if (difference.what == What::other_data) {
+    if (difference.came.dlc != 8) return violates("EMCY-FMT-01");
+    if (difference.came.data[0] != difference.due.data[0] || difference.came.data[1] != difference.due.data[1]) {
+      const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
+      return due == 0x8130 ? violates("EC-HBC-03") : due == 0x8210 ? violates("PDO-RX-06") : violates("EMCY-FMT-01");
+    }
+    if (difference.came.data[2] != difference.due.data[2]) return violates("EMCY-FMT-03");
+    return std::nullopt;
+  }
+  const bool missing = difference.what == What::missing;
+  if (!missing && evidence.stopped()) return violates("EMCY-NMT-01");
+  if (evidence.wrote(0x1015, 0).value_or(0) != 0) return violates("EMCY-INH-01");
+  const bool asked = evidence.some([&](const Action& each) {
+    return each.kind == Action::Kind::frame && each.frame.remote && each.frame.id == about.id;
+  });
+  if (!missing && asked) return violates("EMCY-COB-06");
+  if (evidence.wrote(0x1014, 0)) return violates(missing ? "OD-1014-07" : "OD-1014-08");
+  if (code == 0x8130) {
+    if (!guarding_runs(evidence)) return violates(missing ? "EC-HBC-03" : "EC-HBC-04");
+    if (missing) return violates("EC-NG-07");
+    if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0) return violates("EC-NG-09");
+    const bool requested = evidence.some([&](const Action& each) { return guards(each, evidence); });
+    return violates(requested ? "EC-NG-07" : "EC-NG-08");
+  }
+  if (code == 0x8210) return violates("PDO-RX-06");
+  if (code == 0x8220) return strains("PDO-RX-07");
+  if (code == 0x8240) return violates(missing ? "SYNC-CON-05" : "SYNC-CON-03");
+  if (code == 0x8250) return violates(missing || evidence.wrote(0x1400, 5).value_or(1) != 0 ? "PDO-RX-14" : "PDO-RX-15");
+  if (code == 0) {
+    if (evidence.wrote(0x1016, 1) || evidence.wrote(0x1016, 2)) return violates("EC-HBC-07");
+    if (guarding_runs(evidence)) return violates("EC-NG-10");
+    return violates("EMCY-SEQ-02");
+  }
+  const auto raises = std::ranges::count_if(evidence.conversation, [](const Action& each) { return each.kind == Action::Kind::download; });
+  if (!missing) return violates(raises == 0 ? "EMCY-SEQ-03" : "EMCY-SEQ-01");
+  if (raises > 1) return violates("EMCY-SEQ-04");
+  return evidence.operational() ? violates("EMCY-SEQ-01") : violates("EMCY-NMT-02");
+}
+
+/// What the conversation has made of a PDO.
+struct PdoSetting {
+  std::uint16_t index = 0;
+  std::optional<std::uint64_t> cob_id, type, inhibit, timer, sync_start;
+};
+PdoSetting setting_of(const Evidence& evidence, std::uint16_t index) {
+  const auto wrote = [&](std::uint8_t sub) { return evidence.wrote(index, sub); };
+  return {index, wrote(1), wrote(2), wrote(3), wrote(5), wrote(6)};
+}
+
+bool is_rpdo(const Action& action, const Evidence& evidence) {
+  if (action.kind != Action::Kind::frame || action.frame.id < 0x200) return false;
+  const auto base = action.frame.id - evidence.words.node.value();
+  return base == 0x200 || base == 0x300 || base == 0x400 || base == 0x500;
+}
+
+/// The content comes out of an RPDO that was not taken as it should be.
+std::optional<Assigned> assign_rpdo(const Evidence& evidence) {
+  const Action* rpdo = nullptr;
+  std::size_t count = 0;
+  for (const auto& each : evidence.conversation) {
+    if (!is_rpdo(each, evidence)) continue;
+    rpdo = &each;
+    ++count;
+  }
+  if (rpdo == nullptr) return std::nullopt;
+  if (rpdo->frame.remote || rpdo->frame.extended) return violates("PDO-RX-13");
+  const auto number = (rpdo->frame.id - 0x200U) / 0x100U;
+  const auto setting = setting_of(evidence, static_cast<std::uint16_t>(0x1400 + number));
+  if (!evidence.operational()) return violates("PDO-RX-02");
+  if (setting.cob_id) return violates((*setting.cob_id & canopen::cob_id::bit31) != 0 ? "OD-1400-09" : "OD-1400-11");
+  if (setting.type.value_or(255) <= 240) return violates(count > 1 ? "PDO-RX-04" : setting.type == 1U ? "PDO-RX-03" : "PDO-RX-05");
+  if (evidence.wrote(static_cast<std::uint16_t>(0x1600 + number), 0)) return violates("OD-1600-15");
+  return violates("PDO-RX-01");
+}
+
+std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting& setting) {
+  const auto type = setting.type.value_or(255);
+  const bool synced = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id); });
+  const bool asked = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
+  if (setting.sync_start.value_or(0) != 0 && type <= 240) return violates(evidence.wrote(0x1019, 0).value_or(0) == 0 ? "PDO-TX-15" : "PDO-TX-14");
+  if (type == 0) return violates("PDO-TX-07");
+  if (type == 1) return violates("PDO-TX-05");
+  if (type <= 240) return violates("PDO-TX-06");
+  if (type == 0xFC) return violates("PDO-TX-20");
+  if (type == 0xFD) return violates("PDO-TX-19");
+  if (setting.inhibit.value_or(0) != 0) return violates("PDO-TX-12");
+  if (setting.timer.value_or(0) != 0) return violates("PDO-TX-09");
+  if (asked) return violates("OD-1800-14");
+  if (synced && evidence.wrote(0x1006, 0)) return violates("SYNC-PRO-08");
+  // An RPDO that did not arrive is no change.
+  if (auto rpdo = assign_rpdo(evidence); rpdo && !setting.type) return strains("PDO-TX-08");
+  return violates("PDO-TX-08");
+}
+
+std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting& setting) {
+  if (!evidence.operational()) return violates("PDO-TX-02");
+  if (setting.cob_id && (*setting.cob_id & canopen::cob_id::bit31) != 0) return violates("OD-1800-09");
+  const auto type = setting.type.value_or(255);
+  const bool asked = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
+  if (asked && type >= 0xFE) return violates("OD-1800-14");
+  if (type == 0) return violates("PDO-TX-07");
+  if (type <= 240 && setting.timer.value_or(0) != 0) return violates("PDO-TX-11");
+  if (setting.sync_start.value_or(0) != 0 && type <= 240) return violates("PDO-TX-14");
+  if (type == 1) return violates("PDO-TX-05");
+  if (type <= 240) return violates("PDO-TX-06");
+  if (type == 0xFC) return violates("PDO-TX-20");
+  if (type == 0xFD) return violates("PDO-TX-19");
+  if (setting.inhibit.value_or(0) != 0) return violates("PDO-TX-12");
+  if (setting.timer) return violates(*setting.timer == 0 ? "PDO-TX-10" : "PDO-TX-09");
+  if (auto rpdo = assign_rpdo(evidence)) return strains("PDO-TX-08");
+  return strains("PDO-TX-08");
+}
+
+std::optional<Assigned> assign_tpdo(const Evidence& evidence, std::uint16_t number) {
+  const auto& difference = evidence.difference();
+  const auto setting = setting_of(evidence, static_cast<std::uint16_t>(0x1800 + number));
+  if (difference.what == What::missing) return missing_tpdo(evidence, setting);
+  if (difference.what == What::surplus) return surplus_tpdo(evidence, setting);
+  if (difference.came.dlc != difference.due.dlc) return violates("PDO-TX-01");
+  if (auto rpdo = assign_rpdo(evidence)) return rpdo;
+  if (setting.type == 0xFDU) return violates("PDO-TX-19");
+  return violates("PDO-TX-01");
+}
+
+std::optional<Assigned> assign_sync(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  if (difference.what == What::other_data) {
+    const bool again = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
+    return violates(again ? "SYNC-PRO-05" : "SYNC-PRO-04");
+  }
+  if (difference.what == What::surplus) {
+    if (evidence.stopped()) return violates("SYNC-PRO-06");
+    const bool off = (evidence.wrote(0x1005, 0).value_or(0) & canopen::cob_id::bit30) == 0;
+    if (off || evidence.wrote(0x1006, 0).value_or(1) == 0) return violates("SYNC-PRO-03");
+  }
+  if (evidence.operational()) return violates("NMT-SVC-01");
+  return violates("SYNC-PRO-01");
+}
+
+std::optional<Assigned> assign_time(const Evidence& evidence) {
+  if (evidence.difference().what == What::surplus) {
+    if (evidence.stopped()) return violates("TIME-PRO-02");
+    const auto cob_id = evidence.wrote(0x1012, 0).value_or(0);
+    if ((cob_id & canopen::cob_id::bit30) == 0) return violates("TIME-PRO-03");
+  }
+  return violates("TIME-PRO-01");
+}
+
+std::optional<Assigned> assign_sdo_frame(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  if (difference.what != What::surplus) return std::nullopt;
+  if (evidence.stopped()) return violates("SDO-GEN-15");
+  const auto is_abort = [](const can::Frame& frame) { return frame.dlc == 8 && frame.data[0] == 0x80; };
+  for (const auto& each : evidence.conversation) {
+    if (each.kind == Action::Kind::request && each.frame.data[0] >> 5U == 4) return violates("SDO-ERR-03");
+    if (!each.fault.starts_with("abort")) continue;
+    return violates(rule_of_fault(each));
+  }
+  if (is_abort(difference.came) && difference.came.data[7] == 0x05 && difference.came.data[6] == 0x04)
+    return strains("SDO-SUP-18");
+  return violates(is_abort(difference.came) ? "SDO-ERR-10" : "SDO-GEN-04");
+}
+
+}  // namespace
+
+std::optional<Assigned> assign_frame(const Evidence& evidence) {
+  const auto& frame = frame_of(evidence);
+  const auto node = evidence.words.node.value();
+  const auto set = canopen::connection_set(evidence.words.node);
+  const bool surplus = evidence.difference().what == What::surplus;
+  if (frame.extended) return surplus ? violates("CAN-TRF-03") : std::nullopt;
+  if (frame.id == set.error_control.value()) return assign_error_control(evidence);
+  if (frame.remote) return surplus ? strains("CAN-TRF-04") : std::nullopt;
+  if (frame.id == set.emcy.value()) return assign_emcy(evidence);
+  if (frame.id == set.sdo_response.value()) return assign_sdo_frame(evidence);
+  if (frame.id == canopen::sync_can_id.value()) return assign_sync(evidence);
+  if (frame.id == canopen::time_can_id.value()) return assign_time(evidence);
+  for (std::uint16_t number = 0; number < 4; ++number) {
+    if (frame.id == set.tpdo[number].value()) return assign_tpdo(evidence, number);
+    const auto moved = evidence.wrote(static_cast<std::uint16_t>(0x1800 + number), 1);
+    if (!moved || (*moved & canopen::cob_id::base_id_mask) != frame.id) continue;
+    return violates("OD-1800-11");
+  }
+  const auto moved = evidence.wrote(0x1014, 0);
+  if (moved && (*moved & canopen::cob_id::base_id_mask) == frame.id) return violates("OD-1014-07");
+  if (!surplus) return std::nullopt;
+  if (frame.id == 0) return violates("NMT-SVC-05");
+  if (frame.id >= 0x701 && frame.id <= 0x77F && frame.id != 0x700U + node)
+    return violates(evidence.some([](const Action& each) { return each.frame.remote; }) ? "EC-NG-06" : "EC-HBP-08");
+  return violates("CAN-TRF-02");
+}
+
+}  // namespace conform::explore

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explore/duel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace conform::explore {
+namespace {
+
+using namespace std::chrono_literals;
+using What = Difference::What;
+
+/// How far two equal frames may lie apart, beside what the answers before them took longer.
+constexpr Duration tolerance = 4ms;
+/// The model's longest answer, and how long the device gets where the model was silent. What comes later is a
+/// frame that nobody asked for.
+constexpr Duration model_patience = 500ms;
+constexpr Duration stopped_patience = 10ms;
+constexpr Duration device_patience = 1000ms;
+constexpr Duration silent_patience = 20ms;
+/// An answer so much later than the model's is worth telling.
+constexpr Duration late_answer = 80ms;
+
+bool same_kind(const can::Frame& one, const can::Frame& other) {
+  return one.id == other.id && one.extended == other.extended && one.remote == other.remote;
+}
+
+bool same_data(const can::Frame& one, const can::Frame& other) {
+  return one.dlc == other.dlc && (one.remote || std::ranges::equal(one.bytes(), other.bytes()));
+}
+
+std::string outcome(const Answer& answer) {
+  switch (answer.kind) {
+    case Answer::Kind::none: return "none";
+    case Answer::Kind::confirmed: return "confirmed";
+    case Answer::Kind::aborted: return hex(answer.code.value(), 8);
+    case Answer::Kind::violation: return "violation";
+    case Answer::Kind::silence: return "silence";
+    case Answer::Kind::replied: return "reply";
+  }
+  return "";
+}
+
+class Duel {
+ public:
+  Duel(std::unique_ptr<can::Participant> device, std::unique_ptr<can::Participant> model, const Bench& bench)
+      : device_(std::move(device), bench.facts, bench.bus_seed, bench.monitors),
+        model_(std::move(model), bench.facts, bench.bus_seed, {}) {}
+
+  std::optional<Difference> perform(const Action& action, std::size_t number) {
+    const auto answer_of_model =
+        model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
+    const auto answer_of_device =
+        device_.perform(action, answer_of_model.kind == Answer::Kind::silence ? silent_patience
+                                                                              : device_patience);
+    drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
+    meet(std::max(device_.now(), model_.now()));
+    auto out = look();
+    if (!out && !answer_of_device.same_as(answer_of_model)) {
+      out.emplace();
+      out->what = What::answer;
+    } else if (!out && answer_of_device.kind == answer_of_model.kind &&
+               answer_of_device.taken > answer_of_model.taken + late_answer) {
+      out.emplace();
+      out->what = What::late;
+    }
+    if (out) out->action = number;
+    answer_ = answer_of_device;
+    due_ = answer_of_model;
+    if (out && out->what != What::rule && out->what != What::broken && !out->is_about_a_frame()) {
+      out->device = answer_;
+      out->model = due_;
+    }
+    return out;
+  }
+
+  /// What the device holds now, whatever the model does.
+  Answer held(Multiplexer object) { return device_.perform(upload(object), device_patience); }
+
+  /// What is still on its way comes, and what should have come is late.
+  std::optional<Difference> finish() {
+    meet(device_.now() + 2 * (tolerance + drift_));
+    return look();
+  }
+
+  [[nodiscard]] const World& device() const { return device_; }
+  /// To the last action, of the device and of the model.
+  [[nodiscard]] const Answer& answer() const { return answer_; }
+  [[nodiscard]] const Answer& due() const { return due_; }
+
+ private:
+  void meet(BusTime time) {
+    device_.run_until(time);
+    model_.run_until(time);
+  }
+
+  std::optional<Difference> look() {
+    if (!device_.broken().empty()) {
+      Difference out;
+      out.what = What::broken;
+      out.text = device_.broken();
+      return out;
+    }
+    if (auto rule = broken_rule()) return rule;
+    return match();
+  }
+
+  std::optional<Difference> broken_rule() {
+    if (device_.watch().counted() == counted_) return std::nullopt;
+    counted_ = device_.watch().counted();
+    const monitor::Violation* newest = nullptr;
+    const monitor::Rule* rule = nullptr;
+    for (const auto& each : device_.watch().monitors()) {
+      for (const auto& violation : each->violations()) {
+        if (violation.verdict != result::Verdict::fail || violation.if_alone) continue;
+        if (newest != nullptr && newest->index >= violation.index) continue;
+        newest = &violation;
+        rule = &each->rule();
+      }
+    }
+    if (newest == nullptr) return std::nullopt;
+    Difference out;
+    out.what = What::rule;
+    out.requirement = rule->requirements[newest->requirement];
+    out.came = newest->frame;
+    out.trace_index = newest->index;
+    out.text = fmt::format("{}; expected: {}", newest->actual, newest->expected);
+    if (!newest->reason.empty()) out.text += fmt::format(" ({})", newest->reason);
+    return out;
+  }
+
+  /// Pairs the frames of both sides in their order, and tells the first that has no partner in time.
+  std::optional<Difference> match() {
+    for (auto& each : std::exchange(device_.unasked(), {})) {
+      if (auto other = pair(each, of_model_)) return differs(each, *other);
+    }
+    for (auto& each : std::exchange(model_.unasked(), {})) {
+      const auto partner = std::ranges::find_if(
+          of_device_, [&](const Unasked& other) { return same_kind(each.frame, other.frame); });
+      if (partner == of_device_.end()) {
+        of_model_.push_back(each);
+        continue;
+      }
+      const auto device = *partner;
+      of_device_.erase(partner);
+      if (!same_data(device.frame, each.frame)) return differs(device, each);
+      if (is_apart(device, each)) return off_time(device, each);
+    }
+    return overdue();
+  }
+
+  /// The waiting frame of the model with which `each` does not agree; otherwise it is paired or kept.
+  std::optional<Unasked> pair(const Unasked& each, std::vector<Unasked>& waiting) {
+    const auto partner = std::ranges::find_if(
+        waiting, [&](const Unasked& other) { return same_kind(each.frame, other.frame); });
+    if (partner == waiting.end()) {
+      of_device_.push_back(each);
+      return std::nullopt;
+    }
+    const auto other = *partner;
+    waiting.erase(partner);
+    if (same_data(each.frame, other.frame) && !is_apart(each, other)) return std::nullopt;
+    return other;
+  }
+
+  [[nodiscard]] bool is_apart(const Unasked& one, const Unasked& other) const {
+    return std::chrono::abs(one.time - other.time) > tolerance + drift_;
+  }
+
+  [[nodiscard]] std::optional<Difference> differs(const Unasked& device, const Unasked& model) const {
+    if (same_data(device.frame, model.frame)) return off_time(device, model);
+    Difference out;
+    out.what = What::other_data;
+    out.came = device.frame;
+    out.due = model.frame;
+    out.time = device.time;
+    return out;
+  }
+
+  /// The right frame at the wrong time is one too many before the time and one too few behind it.
+  [[nodiscard]] static std::optional<Difference> off_time(const Unasked& device, const Unasked& model) {
+    Difference out;
+    out.what = device.time < model.time ? What::surplus : What::missing;
+    out.came = device.frame;
+    out.due = model.frame;
+    out.time = std::min(device.time, model.time);
+    return out;
+  }
+
+  std::optional<Difference> overdue() {
+    const auto too_late = [&](const Unasked& each) {
+      return each.time + tolerance + drift_ < device_.now();
+    };
+    if (const auto due = std::ranges::find_if(of_model_, too_late); due != of_model_.end()) {
+      Difference out;
+      out.what = What::missing;
+      out.due = due->frame;
+      out.time = due->time;
+      return out;
+    }
+    if (const auto came = std::ranges::find_if(of_device_, too_late); came != of_device_.end()) {
+      Difference out;
+      out.what = What::surplus;
+      out.came = came->frame;
+      out.time = came->time;
+      return out;
+    }
+    return std::nullopt;
+  }
+
+  World device_, model_;
+  Answer answer_, due_;
+  std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
+  Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all
+  std::size_t counted_ = 0;
+};
+
+}  // namespace
+
+std::string Difference::signature(std::span<const Action> conversation) const {
+  switch (what) {
+    case What::rule: return "rule " + requirement;
+    case What::broken: return "broken";
+    case What::missing: return fmt::format("missing {}", hex(due.id, 3));
+    case What::surplus: return fmt::format("surplus {}", hex(came.id, 3));
+    case What::other_data: return fmt::format("data {}", hex(came.id, 3));
+    case What::answer:
+    case What::late: break;
+  }
+  const auto& last = conversation[std::min(action, conversation.size() - 1)];
+  const auto about = last.is_transfer() ? to_string(last.object) : std::string("request");
+  return fmt::format("{} {}{} {} {}", what == What::late ? "late" : "answer",
+                     last.kind == Action::Kind::upload ? "upload " : "", about, outcome(device),
+                     outcome(model));
+}
+
+Result<Played> play(const Bench& bench, std::span<const Action> conversation, bool keep) {
+  auto device = bench.device();
+  if (!device) return std::unexpected(device.error());
+  auto model = bench.model();
+  if (!model) return std::unexpected(model.error());
+  Duel duel(std::move(*device), std::move(*model), bench);
+  Played out;
+  for (std::size_t i = 0; i < conversation.size() && !out.difference; ++i) {
+    if (keep) out.begins.push_back(duel.device().now());
+    out.difference = duel.perform(conversation[i], i);
+    ++out.actions;
+    if (!keep) continue;
+    out.answers.push_back(duel.answer());
+    out.due.push_back(duel.due());
+  }
+  if (!out.difference) {
+    out.difference = duel.finish();
+    if (out.difference) out.difference->action = conversation.empty() ? 0 : conversation.size() - 1;
+  }
+  if (keep) out.trace = duel.device().trace();
+  if (keep && out.difference && out.difference->what == What::answer) {
+    const auto& last = conversation[out.difference->action];
+    const bool taken = out.difference->device.kind == Answer::Kind::confirmed &&
+                       out.difference->model.kind == Answer::Kind::aborted;
+    if (last.kind == Action::Kind::download && taken) out.holds = duel.held(last.object);
+  }
+  return out;
+}
+
+}  // namespace conform::explore

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The device and its model in lockstep: the same actions at the same times of their own buses, and the first
+// thing in which they differ, or in which the device breaks a rule that a monitor knows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "explore/action.hpp"
+#include "explore/world.hpp"
+#include "monitor/monitor.hpp"
+
+namespace conform::explore {
+
+/// The first thing that is not as it is with the model.
+struct Difference {
+  enum class What : std::uint8_t {
+    answer,      ///< another outcome of a transfer or request
+    late,        ///< the same one, much later
+    missing,     ///< a frame that the model sent
+    surplus,     ///< a frame that the model did not send
+    other_data,  ///< the same frame with other content
+    rule,        ///< a monitor found a rule broken, whatever the model does
+    broken,      ///< the device never rests: the simulation gave up
+  };
+  What what = What::answer;
+  std::size_t action = 0;  ///< number of the action at which it showed
+  Answer device{}, model{};
+  can::Frame came{}, due{};     ///< missing: due; surplus: came; other_data: both
+  BusTime time{};               ///< of the frame
+  std::size_t trace_index = 0;  ///< rule: of the frame in the trace of the device
+  std::string requirement{};    ///< rule
+  std::string text{};           ///< rule, broken: what was seen and what was expected
+
+  [[nodiscard]] bool is_about_a_frame() const {
+    return what == What::missing || what == What::surplus || what == What::other_data;
+  }
+  /// Equal for what is taken for the same fault while a conversation is made shorter.
+  [[nodiscard]] std::string signature(std::span<const Action> conversation) const;
+};
+
+/// What two worlds are made of.
+struct Bench {
+  MakeDevice device, model;
+  monitor::Facts facts{};
+  std::vector<const monitor::Rule*> monitors{};
+  std::uint64_t bus_seed = 1;
+};
+
+struct Played {
+  std::optional<Difference> difference;
+  std::size_t actions = 0;                ///< that were performed
+  std::vector<can::CapturedFrame> trace;  ///< of the device
+  std::vector<BusTime> begins;            ///< of each action, on the bus of the device
+  std::vector<Answer> answers;            ///< of the device to each action
+  std::vector<Answer> due;                ///< of the model
+  /// What the device holds where it confirmed a download that the model refused.
+  std::optional<Answer> holds;
+};
+
+/// Plays a conversation from power-on until something differs. `keep`: with trace, times and answers.
+/// Error: the device or its model cannot be made.
+[[nodiscard]] Result<Played> play(const Bench& bench, std::span<const Action> conversation, bool keep = false);
+
+}  // namespace conform::explore

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explore/explorer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/random.hpp"
+#include "base/text.hpp"
+#include "explore/shrink.hpp"
+
+namespace conform::explore {
+namespace {
+
+/// Actions that have led to what is known are left out of later conversations, but for one in so many
+/// episodes: there may be more behind it.
+constexpr std::uint64_t all_the_same = 8;
+
+class Search {
+ public:
+  Search(const Bench& bench, const Vocabulary& words, const SearchOptions& options)
+      : bench_(bench), words_(words), options_(options), seeds_(options.seed) {}
+
+  Result<SearchResult> run() {
+    while (out_.actions < options_.most_actions && out_.findings.size() < options_.most_findings) {
+      if (options_.is_over && options_.is_over()) break;
+      const auto conversation = next_conversation();
+      auto played = play(bench_, conversation);
+      if (!played) return std::unexpected(played.error());
+      out_.actions += played->actions;
+      ++out_.episodes;
+      if (!played->difference) continue;
+      auto ends = look_at(conversation, *played);
+      if (!ends) return std::unexpected(ends.error());
+      if (*ends) break;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  Conversation next_conversation() {
+    auto out = draw(words_, next_random(seeds_), options_.episode_length);
+    if (out_.episodes % all_the_same != 0) {
+      std::erase_if(out, [&](const Action& action) { return avoided_.contains(key_of(action)); });
+    }
+    return out;
+  }
+
+  /// What an action is, without its values.
+  [[nodiscard]] std::string key_of(const Action& action) const {
+    if (!action.is_transfer()) return describe(action, words_.node);
+    return std::to_string(static_cast<int>(action.kind)) + to_string(action.object) +
+           std::to_string(static_cast<int>(action.transfer)) + action.fault;
+  }
+
+  /// True: the search is to end.
+  Result<bool> look_at(const Conversation& conversation, const Played& played) {
+    const auto signature = played.difference->signature(conversation);
+    if (!known_.insert(signature).second) {
+      ++out_.known;
+      return false;
+    }
+    const auto shows = [&](const Conversation& candidate) {
+      const auto again = play(bench_, candidate);
+      return again && again->difference && again->difference->signature(candidate) == signature;
+    };
+    Conversation head(conversation.begin(),
+                      conversation.begin() + static_cast<std::ptrdiff_t>(played.difference->action + 1));
+    if (!shows(head)) head = conversation;
+    auto shrunk = shrink(head, shows, options_.most_tries);
+    out_.shrinking += shrunk.tries;
+    auto kept = play(bench_, shrunk.conversation, true);
+    if (!kept) return std::unexpected(kept.error());
+    if (!kept->difference) return false;
+    Finding finding;
+    finding.conversation = std::move(shrunk.conversation);
+    finding.played = std::move(*kept);
+    finding.episode = out_.episodes;
+    finding.actions_until = out_.actions;
+    finding.drawn = head.size();
+    finding.assigned = assign({words_, finding.conversation, finding.played});
+    repeat(finding, signature);
+    step_round(finding);
+    out_.findings.push_back(std::move(finding));
+    return options_.on_finding && options_.on_finding(out_.findings.back());
+  }
+
+  /// On buses whose turnarounds are drawn by other seeds: a race shows as what it is.
+  void repeat(Finding& finding, const std::string& signature) const {
+    auto bench = bench_;
+    for (finding.repeats = 0; finding.repeats < options_.repeats; ++finding.repeats) {
+      bench.bus_seed = bench_.bus_seed + finding.repeats;
+      const auto again = play(bench, finding.conversation);
+      finding.repeated +=
+          again && again->difference && again->difference->signature(finding.conversation) == signature;
+    }
+  }
+
+  /// The action at which it showed; where that only let time pass, the one before.
+  void step_round(const Finding& finding) {
+    for (auto i = std::min(finding.played.difference->action + 1, finding.conversation.size()); i-- > 0;) {
+      const auto& action = finding.conversation[i];
+      if (action.kind == Action::Kind::wait) continue;
+      avoided_.insert(key_of(action));
+      return;
+    }
+  }
+
+  const Bench& bench_;
+  const Vocabulary& words_;
+  const SearchOptions& options_;
+  std::uint64_t seeds_;
+  SearchResult out_;
+  std::set<std::string> known_;
+  std::set<std::string, std::less<>> avoided_;
+};
+
+}  // namespace
+
+Result<SearchResult> search(const Bench& bench, const Vocabulary& words, const SearchOptions& options) {
+  return Search(bench, words, options).run();
+}
+
+}  // namespace conform::explore

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search: draws conversations, plays them against device and model, makes what differs short, and goes on
+// behind it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "explore/assign.hpp"
+#include "explore/draw.hpp"
+#include "explore/duel.hpp"
+
+namespace conform::explore {
+
+/// One thing that is not as it should be, as short as it shows.
+struct Finding {
+  Conversation conversation;
+  Played played;                     ///< of it, with trace and answers
+  std::optional<Assigned> assigned;  ///< nullopt: differs from the model, no rule known
+  std::uint64_t episode = 0;         ///< in which it was found
+  std::size_t actions_until = 0;     ///< of the whole search before it was found
+  std::size_t drawn = 0;             ///< actions of the conversation before it was made short
+  unsigned repeated = 0, repeats = 0;  ///< how often the short one showed it again
+
+  [[nodiscard]] bool is_flaky() const { return repeated < repeats; }
+  [[nodiscard]] bool is_violation() const { return assigned && assigned->grade == Grade::violated; }
+};
+
+struct SearchOptions {
+  std::uint64_t seed = 1;
+  std::size_t most_actions = 100'000;
+  std::size_t most_findings = 20;
+  std::size_t episode_length = 80;
+  std::size_t most_tries = 600;  ///< conversations played to make one shorter
+  unsigned repeats = 3;
+  /// Asked between episodes; true ends the search. For budgets of time.
+  std::function<bool()> is_over{};
+  /// Told of each finding as it is made; true ends the search.
+  std::function<bool(const Finding&)> on_finding{};
+};
+
+struct SearchResult {
+  std::vector<Finding> findings;
+  std::size_t actions = 0, episodes = 0;
+  std::size_t shrinking = 0;  ///< conversations played to make others shorter
+  std::size_t known = 0;      ///< episodes that ended with what was known already
+};
+
+/// Error: device or model cannot be made.
+[[nodiscard]] Result<SearchResult> search(const Bench& bench, const Vocabulary& words, const SearchOptions& options);
+
+}  // namespace conform::explore

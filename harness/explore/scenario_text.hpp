@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A finding as a scenario that a run plays: the conversation, and at its end what the standard asks for.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "explore/explorer.hpp"
+
+namespace conform::explore {
+
+/// A file of scenarios, one for each finding, "finding-1" on. What has no rule judges nothing: it plays the
+/// conversation and says what differed.
+[[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words, std::string_view how);
+
+/// What the device did and what was due, in one line each.
+[[nodiscard]] std::string came_text(const Finding& finding, const Vocabulary& words);
+[[nodiscard]] std::string due_text(const Finding& finding, const Vocabulary& words);
+
+}  // namespace conform::explore

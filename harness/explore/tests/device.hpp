@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference node as device and as model, for tests.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/profile.hpp"
+#include "explore/explorer.hpp"
+#include "node/powered_node.hpp"
+
+namespace conform::explore {
+
+inline MakeDevice reference_node(std::vector<std::string> defects) {
+  return [defects = std::move(defects)]() -> Result<std::unique_ptr<can::Participant>> {
+    auto node = refnode::PoweredNode::create({.node_id = 5, .defects = defects});
+    if (!node) return std::unexpected(node.error());
+    return std::unique_ptr<can::Participant>(std::move(*node));
+  };
+}
+
+inline Bench bench_of(std::vector<std::string> defects) {
+  Bench out;
+  out.device = reference_node(std::move(defects));
+  out.model = reference_node({});
+  out.facts.node = NodeId(5);
+  out.facts.power_is_known = true;
+  out.facts.alone = true;
+  for (const auto& rule : monitor::rules()) out.monitors.push_back(&rule);
+  return out;
+}
+
+/// What the standard says is there, and the heartbeat trigger.
+inline Vocabulary words_of_the_standard() {
+  auto profile = device::default_profile(NodeId(5));
+  for (auto entry : device::dictionary_of(profile).entries()) {
+    const bool is_there = entry.mux.index < Index(0x1020) || entry.mux.index == Index(0x1400);
+    if (is_there) profile.objects.push_back(std::move(entry));
+  }
+  for (auto& entry : profile.objects) entry.claimed = true;
+  return vocabulary_of(profile);
+}
+
+}  // namespace conform::explore

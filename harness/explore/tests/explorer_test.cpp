@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explore/explorer.hpp"
+
+#include <algorithm>
+#include "catch.hpp"
+
+#include "explore/tests/device.hpp"
+
+using namespace conform;
+using namespace conform::explore;
+
+namespace {
+
+SearchResult search_for(const std::string& defect, std::size_t actions, std::uint64_t seed = 1) {
+  SearchOptions options;
+  options.seed = seed;
+  options.most_actions = actions;
+  options.most_findings = 3;
+  std::vector<std::string> defects;
+  if (!defect.empty()) defects.push_back(defect);
+  const auto bench = bench_of(defects);
+  const auto words = words_of_the_standard();
+  auto out = search(bench, words, options);
+  REQUIRE(out);
+  return std::move(*out);
+}
+
+bool names(const SearchResult& result, std::string_view requirement) {
+  return std::ranges::any_of(result.findings, [&](const Finding& each) {
+    return each.assigned && each.assigned->requirement == requirement;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("the same seed draws the same conversation, another one another") {
+  const auto words = words_of_the_standard();
+  CHECK(draw(words, 7, 50) == draw(words, 7, 50));
+  CHECK(draw(words, 7, 50) != draw(words, 8, 50));
+  CHECK(draw(words, 7, 50).size() >= 50);
+}
+
+TEST_CASE("a device that is as its model shows no difference") {
+  const auto result = search_for("", 3000);
+  CHECK(result.findings.empty());
+  CHECK(result.actions >= 3000);
+}
+
+TEST_CASE("the same seed finds the same") {
+  const auto one = search_for("nmt-broadcast-ignored", 4000, 3), other = search_for("nmt-broadcast-ignored", 4000, 3);
+  REQUIRE(one.findings.size() == other.findings.size());
+  for (std::size_t i = 0; i < one.findings.size(); ++i)
+    CHECK(one.findings[i].conversation == other.findings[i].conversation);
+}
+
+TEST_CASE("a defect is found without any scenario, in few actions, and its requirement is named") {
+  const std::pair<const char*, const char*> defects[] = {
+      {"sdo-served-in-stopped", "SDO-GEN-15"},
+      {"nmt-start-ignored", "NMT-FSA-01"},
+      {"unknown-ccs-silent", "SDO-ERR-01"},
+  };
+  for (const auto& [defect, requirement] : defects) {
+    INFO(defect);
+    const auto result = search_for(defect, 20'000);
+    REQUIRE(!result.findings.empty());
+    CHECK(result.findings.front().conversation.size() <= 6);
+    CHECK(!result.findings.front().is_flaky());
+  }
+}
+
+TEST_CASE("a budget of actions ends the search") {
+  const auto result = search_for("", 500);
+  CHECK(result.actions >= 500);
+  CHECK(result.actions < 700);
+}

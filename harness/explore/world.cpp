@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explore/world.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/text.hpp"
+#include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
+#include "canopen/sdo_fault.hpp"
+#include "canopen/sdo_initiate.hpp"
+#include "canopen/sdo_request.hpp"
+
+namespace conform::explore {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// The device is up by then, or counts as one that does not start.
+constexpr Duration boot_time = 100ms;
+/// Behind a fault that ends a transfer, and behind a frame that asks for nothing.
+constexpr Duration after_fault = 5ms;
+constexpr Duration after_frame = 1ms;
+/// A server that never ends a transfer must not end the search.
+constexpr std::size_t most_frames_of_a_transfer = 4000;
+constexpr std::size_t most_in_flight = 8;
+
+can::SimulatedBus::Options options_of(std::uint64_t seed) {
+  can::SimulatedBus::Options out;
+  out.seed = seed;
+  return out;
+}
+
+canopen::SdoDownload::Mode mode_of(Transfer transfer) {
+  using Mode = canopen::SdoDownload::Mode;
+  switch (transfer) {
+    case Transfer::expedited_unsized: return Mode::expedited_unsized;
+    case Transfer::segmented: return Mode::segmented;
+    case Transfer::segmented_unsized: return Mode::segmented_unsized;
+    default: return Mode::automatic;
+  }
+}
+
+}  // namespace
+
+std::string Answer::text() const {
+  switch (kind) {
+    case Kind::none: return "nothing asked";
+    case Kind::confirmed:
+      if (data.size() > 16) return fmt::format("confirmed, {} bytes", data.size());
+      return data.empty() ? "confirmed" : "confirmed, " + hex_bytes(data);
+    case Kind::aborted: return "abort " + canopen::describe(code);
+    case Kind::violation: return detail;
+    case Kind::silence: return "no answer";
+    case Kind::replied: return hex_bytes(data);
+  }
+  return "";
+}
+
+bool Answer::same_as(const Answer& other) const {
+  return kind == other.kind && code == other.code && data == other.data;
+}
+
+std::unique_ptr<canopen::SdoClient> client_of(const Action& action) {
+  canopen::SdoRequest request;
+  request.upload = action.kind == Action::Kind::upload;
+  request.object = action.object;
+  request.block = action.transfer == Transfer::block || action.transfer == Transfer::block_unsized;
+  request.size_told = action.transfer != Transfer::block_unsized;
+  request.blksize = action.blksize;
+  if (!request.upload) {
+    request.data = action.data;
+    request.mode = mode_of(action.transfer);
+  }
+  if (!action.fault.empty()) {
+    auto fault = canopen::SdoFault::parse(action.fault);
+    if (!fault) return nullptr;
+    request.faults.push_back(std::move(*fault));
+  }
+  auto client = canopen::make_sdo_client(request);
+  return client ? std::move(*client) : nullptr;
+}
+
+World::World(std::unique_ptr<can::Participant> device, const monitor::Facts& facts, std::uint64_t seed,
+             std::span<const monitor::Rule* const> chosen)
+    : device_(std::move(device)),
+      bus_(options_of(seed)),
+      node_(facts.node),
+      request_(canopen::connection_set(node_).sdo_request),
+      response_(canopen::connection_set(node_).sdo_response),
+      watch_(facts, chosen),
+      watched_(!chosen.empty()) {
+  bus_.attach(*device_, "device");
+  run_until(BusTime(boot_time));
+}
+
+std::optional<can::BusEvent> World::next(BusTime deadline) {
+  if (!broken_.empty()) return std::nullopt;
+  auto event = bus_.transport().receive(deadline);
+  if (!event) {
+    broken_ = event.error().text();
+    return std::nullopt;
+  }
+  if (*event && watched_) {
+    trace_.push_back({(*event)->frame, (*event)->time, (*event)->direction, {}});
+    watch_.on_frame(trace_.back(), trace_.size() - 1);
+  }
+  return *event;
+}
+
+void World::keep(const can::BusEvent& event) {
+  if (event.direction == can::Direction::received) unasked_.push_back({event.frame, event.time});
+}
+
+void World::run_until(BusTime time) {
+  while (const auto event = next(time)) keep(*event);
+}
+
+void World::send(const can::Frame& frame) {
+  if (auto sent = bus_.transport().send(frame); !sent) broken_ = sent.error().text();
+}
+
+Answer World::perform(const Action& action, Duration patience) {
+  const auto begin = now();
+  Answer out;
+  switch (action.kind) {
+    case Action::Kind::upload:
+    case Action::Kind::download: out = transfer(action, patience); break;
+    case Action::Kind::request: out = ask(action, patience); break;
+    case Action::Kind::frame:
+      if (const auto command = action.nmt_command(node_); command != 0) last_command_ = command;
+      send(action.frame);
+      run_until(now() + after_frame);
+      break;
+    case Action::Kind::power:
+      bus_.unplug(*device_);
+      bus_.attach(*device_, "device");
+      last_command_ = 0x80;
+      if (watched_) watch_.on_loss();
+      break;
+    case Action::Kind::wait: run_until(now() + action.time); break;
+  }
+  out.taken = now() - begin;
+  return out;
+}
+
+Answer World::ask(const Action& action, Duration patience) {
+  send(action.frame);
+  Answer out{.kind = Answer::Kind::silence};
+  const auto deadline = now() + patience;
+  while (const auto event = next(deadline)) {
+    if (!is_reply(*event)) {
+      keep(*event);
+      continue;
+    }
+    out.kind = Answer::Kind::replied;
+    const auto bytes = event->frame.bytes();
+    out.data.assign(bytes.begin(), bytes.end());
+    if (const auto abort = canopen::decode_abort(bytes)) {
+      out.kind = Answer::Kind::aborted;
+      out.code = abort->code;
+    }
+    break;
+  }
+  return out;
+}
+
+Answer World::transfer(const Action& action, Duration patience) {
+  const auto client = client_of(action);
+  if (!client) return {};
+  std::size_t unsent = 0, frames = 0;
+  bool replied = false;
+  auto since = now();
+  while (broken_.empty() && ++frames < most_frames_of_a_transfer) {
+    while (!client->ended() && unsent < most_in_flight) {
+      const auto frame = client->next(unsent);
+      if (!frame) break;
+      send(can::data_frame(request_, frame->view()));
+      ++unsent;
+    }
+    if (client->ended() && unsent == 0) {
+      // The client closes the channel as the standard has it.
+      if (!client->result().reply || std::exchange(replied, true)) break;
+      send(can::data_frame(request_, canopen::encode_abort(action.object, *client->result().reply)));
+      ++unsent;
+    }
+    const auto event = next(since + (client->fell_silent() ? after_fault : patience));
+    if (!event) {
+      if (client->ended()) break;
+      client->on_silence();
+      since = now();
+    } else if (event->direction == can::Direction::transmitted) {
+      if (unsent > 0 && event->frame.is_data(request_)) --unsent;
+      since = now();
+    } else if (is_reply(*event) && !client->ended() && client->on_frame(event->frame.bytes(), unsent)) {
+      since = now();
+    } else {
+      keep(*event);
+    }
+  }
+  auto result = client->take();
+  using From = canopen::TransferResult::Kind;
+  Answer out;
+  switch (result.kind) {
+    case From::confirmed: out.kind = Answer::Kind::confirmed; break;
+    case From::aborted: out.kind = Answer::Kind::aborted; break;
+    case From::violation: out.kind = Answer::Kind::violation; break;
+    case From::silence: out.kind = Answer::Kind::silence; break;
+    case From::gave_up: out.kind = Answer::Kind::none; break;
+  }
+  out.code = result.code;
+  if (action.kind == Action::Kind::upload && result.kind == From::confirmed) out.data = std::move(result.data);
+  out.detail = std::move(result.detail);
+  if (replied || result.kind == From::gave_up) run_until(now() + after_fault);
+  return out;
+}
+
+}  // namespace conform::explore
