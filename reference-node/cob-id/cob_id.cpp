@@ -118,9 +118,10 @@ bool CobId::names(const conform::can::Frame& frame) const {
 }
 
 bool CobId::valid() const {
-  if (device_->dictionary.entry(index_, sub_) == nullptr) return false;
+  const Entry* entry = device_->dictionary.entry(index_, sub_);
+  if (entry == nullptr) return false;
   if (cannot_be_served()) return false;
-  return rules_->valid(value());
+  return rules_->valid(static_cast<std::uint32_t>(entry->number()));
 }
 
 // What cannot be produced is not, whatever a description begins with.
