@@ -496,29 +496,38 @@ int dispatch(int argc, char** argv) {
       ->allow_extra_args(false)
       ->type_name("ID");
   explore_sub
-      ->add_option("--variant", explore.variants,
-                   "Legal variant of the simulated node, and of its model; repeatable (canopen-refnode --list-variants)")
+      ->add_option(
+          "--variant", explore.variants,
+          "Legal variant of the simulated node, and of its model; repeatable (canopen-refnode --list-variants)")
       ->allow_extra_args(false)
       ->type_name("ID");
   explore_sub->add_option("-n,--node", explore.node, "Node-ID of the device, 1 to 127")
       ->check(CLI::Range(1, 127).description(""))
       ->type_name("NODE-ID");
-  explore_sub->add_option("-d,--device", explore.device, "Device profile (YAML): claims, error triggers")->type_name("FILE");
-  explore_sub->add_option("--eds", explore.eds, "Description of the device: node and model are its twins")->type_name("FILE");
-  explore_sub->add_option("--seed", explore.seed, "Seed of the conversations (default 1)")->type_name("NUMBER");
-  explore_sub->add_option("--for", explore.time, "End after this time, 10s or 2 min (default 10s)")->type_name("TIME");
+  explore_sub->add_option("-d,--device", explore.device, "Device profile (YAML): claims, error triggers")
+      ->type_name("FILE");
+  explore_sub->add_option("--eds", explore.eds, "Description of the device: node and model are its twins")
+      ->type_name("FILE");
+  explore_sub->add_option("--seed", explore.seed, "Seed of the conversations (default 1)")
+      ->type_name("NUMBER");
+  explore_sub->add_option("--for", explore.time, "End after this time, 10s or 2 min (default 10s)")
+      ->type_name("TIME");
   explore_sub
       ->add_option("--actions", explore.actions,
                    "End after so many actions: the same on every machine, also with what --for would cut off")
       ->type_name("NUMBER");
-  explore_sub->add_option("--findings", explore.most_findings, "End after so many findings (default 20)")->type_name("NUMBER");
+  explore_sub->add_option("--findings", explore.most_findings, "End after so many findings (default 20)")
+      ->type_name("NUMBER");
   explore_sub->add_option("--write", explore.write, "Write the findings as scenarios")->type_name("FILE");
-  explore_sub->add_flag("--strict", explore.strict, "Exit with 3 for what is tolerated or has no known rule, too");
+  explore_sub->add_flag("--strict", explore.strict,
+                        "Exit with 3 for what is tolerated or has no known rule, too");
   explore_sub->add_flag("-q,--quiet", explore.quiet, "Print only the summary");
-  auto* prove = explore_sub->add_flag("--prove", explore.prove,
-                                      "What is found of each defect of the reference node (or those of --defect), and "
-                                      "whether legal variants are blamed; --actions for each (default 20000)");
-  explore_sub->add_flag("-v,--verbose", explore.verbose, "With --prove: what was named instead")->needs(prove);
+  auto* prove =
+      explore_sub->add_flag("--prove", explore.prove,
+                            "What is found of each defect of the reference node (or those of --defect), and "
+                            "whether legal variants are blamed; --actions for each (default 20000)");
+  explore_sub->add_flag("-v,--verbose", explore.verbose, "With --prove: what was named instead")
+      ->needs(prove);
   explore_sub->add_option("-j,--jobs", explore.jobs, "With --prove: threads (default: the machine's cores)")
       ->check(CLI::Range(1, 256))
       ->needs(prove)

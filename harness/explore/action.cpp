@@ -46,8 +46,7 @@ Action upload(Multiplexer object, Transfer transfer) {
 }
 
 Action download(Multiplexer object, Bytes data, Transfer transfer) {
-  return {
-      .kind = Action::Kind::download, .object = object, .transfer = transfer, .data = std::move(data)};
+  return {.kind = Action::Kind::download, .object = object, .transfer = transfer, .data = std::move(data)};
 }
 
 Action frame(const can::Frame& frame) { return {.kind = Action::Kind::frame, .frame = frame}; }

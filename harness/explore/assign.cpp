@@ -17,47 +17,63 @@ std::optional<unsigned> number_behind(std::string_view phrase, std::string_view 
   if (at == std::string_view::npos) return std::nullopt;
   const auto text = phrase.substr(at + word.size());
   unsigned out = 0;
-  return std::from_chars(text.data(), text.data() + text.size(), out).ec == std::errc{}
-             ? std::optional(out)
-             : std::nullopt;
+  return std::from_chars(text.data(), text.data() + text.size(), out).ec == std::errc{} ? std::optional(out)
+                                                                                        : std::nullopt;
 }
 
 struct FaultRule {
-  std::string_view phrase;  ///< how it begins
+  std::string_view phrase;       ///< how it begins
   std::string_view rule, first;  ///< `first`: where it is about segment 1 (or 0: before the first one)
 };
 
 constexpr FaultRule of_uploads[] = {
-    {"wrong toggle", "SDO-SUP-06", "SDO-SUP-05"}, {"repeat segment", "SDO-SUP-06", ""},
-    {"lose segment", "SDO-SUP-06", ""},           {"abort", "SDO-SUP-10", ""},
-    {"new initiate", "SDO-SUP-11", ""},           {"reserved", "SDO-SUP-14", ""},
-    {"short", "SDO-ERR-08", ""},                  {"silence", "SDO-SUP-18", ""},
+    {"wrong toggle", "SDO-SUP-06", "SDO-SUP-05"},
+    {"repeat segment", "SDO-SUP-06", ""},
+    {"lose segment", "SDO-SUP-06", ""},
+    {"abort", "SDO-SUP-10", ""},
+    {"new initiate", "SDO-SUP-11", ""},
+    {"reserved", "SDO-SUP-14", ""},
+    {"short", "SDO-ERR-08", ""},
+    {"silence", "SDO-SUP-18", ""},
 };
 constexpr FaultRule of_downloads[] = {
-    {"wrong toggle", "SDO-SDN-05", "SDO-SDN-04"}, {"repeat segment", "SDO-SDN-05", ""},
-    {"lose segment", "SDO-SDN-08", "SDO-SDN-04"}, {"abort", "SDO-SDN-19", ""},
-    {"new initiate", "SDO-SDN-17", ""},           {"unused bytes", "SDO-SDN-27", ""},
-    {"no end", "SDO-SDN-10", ""},                 {"silence", "SDO-SDN-25", ""},
+    {"wrong toggle", "SDO-SDN-05", "SDO-SDN-04"},
+    {"repeat segment", "SDO-SDN-05", ""},
+    {"lose segment", "SDO-SDN-08", "SDO-SDN-04"},
+    {"abort", "SDO-SDN-19", ""},
+    {"new initiate", "SDO-SDN-17", ""},
+    {"unused bytes", "SDO-SDN-27", ""},
+    {"no end", "SDO-SDN-10", ""},
+    {"silence", "SDO-SDN-25", ""},
     {"short", "SDO-ERR-06", ""},
 };
 constexpr FaultRule of_block_uploads[] = {
-    {"lose segment", "SDO-BUP-13", "SDO-BUP-14"}, {"abort after segment 0", "SDO-BUP-18", ""},
-    {"abort", "SDO-BUP-17", ""},                  {"new initiate", "SDO-BUP-29", ""},
-    {"no end", "SDO-BUP-24", ""},                 {"silence", "SDO-BUP-25", ""},
+    {"lose segment", "SDO-BUP-13", "SDO-BUP-14"},
+    {"abort after segment 0", "SDO-BUP-18", ""},
+    {"abort", "SDO-BUP-17", ""},
+    {"new initiate", "SDO-BUP-29", ""},
+    {"no end", "SDO-BUP-24", ""},
+    {"silence", "SDO-BUP-25", ""},
     {"reserved", "SDO-BUP-28", ""},
 };
 constexpr FaultRule of_block_downloads[] = {
-    {"lose segment", "SDO-BDN-07", "SDO-BDN-08"}, {"repeat segment", "SDO-BDN-09", ""},
-    {"swap segments", "SDO-BDN-07", ""},          {"wrong crc", "SDO-BDN-03", ""},
-    {"unused bytes", "SDO-BDN-17", ""},           {"abort instead", "SDO-BDN-20", ""},
-    {"abort", "SDO-BDN-19", ""},                  {"new initiate", "SDO-BDN-21", ""},
-    {"no end", "SDO-BDN-25", ""},                 {"silence", "SDO-BDN-25", ""},
+    {"lose segment", "SDO-BDN-07", "SDO-BDN-08"},
+    {"repeat segment", "SDO-BDN-09", ""},
+    {"swap segments", "SDO-BDN-07", ""},
+    {"wrong crc", "SDO-BDN-03", ""},
+    {"unused bytes", "SDO-BDN-17", ""},
+    {"abort instead", "SDO-BDN-20", ""},
+    {"abort", "SDO-BDN-19", ""},
+    {"new initiate", "SDO-BDN-21", ""},
+    {"no end", "SDO-BDN-25", ""},
+    {"silence", "SDO-BDN-25", ""},
     {"reserved", "SDO-BDN-27", ""},
 };
 
 std::span<const FaultRule> faults_of(const Action& action) {
   const bool block = action.transfer == Transfer::block || action.transfer == Transfer::block_unsized;
-  if (action.kind == Action::Kind::upload) return block ? std::span<const FaultRule>(of_block_uploads) : of_uploads;
+  if (action.kind == Action::Kind::upload)
+    return block ? std::span<const FaultRule>(of_block_uploads) : of_uploads;
   return block ? std::span<const FaultRule>(of_block_downloads) : of_downloads;
 }
 
@@ -126,8 +142,14 @@ std::optional<Assigned> assign(const Evidence& evidence) {
   const auto& last = evidence.last();
   if (last.kind == Action::Kind::request) return assign_request(evidence);
   if (!last.is_transfer()) return std::nullopt;
-  // Nothing is served in Stopped, whatever it is.
-  if (evidence.stopped() && difference.model.kind == Kind::silence) return violates("SDO-GEN-15");
+  // The model is silent only where nothing is served, whatever it is: in Stopped, into which an error may
+  // have taken it, and before the boot-up message.
+  if (difference.model.kind == Kind::silence) {
+    const bool reset = evidence.some([&](const Action& each) {
+      return each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80;
+    });
+    return violates(reset && !evidence.stopped() ? "SDO-GEN-16" : "SDO-GEN-15");
+  }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);
 }
 

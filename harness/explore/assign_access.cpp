@@ -22,7 +22,9 @@ std::string area_of(std::uint16_t index) {
   constexpr std::uint16_t pdos[] = {0x1400, 0x1600, 0x1800, 0x1A00};
   for (const auto first : pdos) {
     if (index < first || index >= first + 0x200) continue;
-    return first == 0x1A00 ? "OD-1A00" : "OD-" + std::to_string(first / 0x1000) + std::to_string(first / 0x100 % 16) + "00";
+    return first == 0x1A00
+               ? "OD-1A00"
+               : "OD-" + std::to_string(first / 0x1000) + std::to_string(first / 0x100 % 16) + "00";
   }
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string out = "OD-";
@@ -39,7 +41,8 @@ template <std::size_t size>
 std::string find_rule(const ObjectRule (&rules)[size], Multiplexer mux) {
   const auto area = area_of(mux.index.value());
   for (const auto& row : rules) {
-    if (area_of(row.index) != area || mux.sub.value() < row.first_sub || mux.sub.value() > row.last_sub) continue;
+    if (area_of(row.index) != area || mux.sub.value() < row.first_sub || mux.sub.value() > row.last_sub)
+      continue;
     return row.rule == 0 ? std::string() : id_of(area, row.rule);
   }
   return "";
@@ -47,38 +50,38 @@ std::string find_rule(const ObjectRule (&rules)[size], Multiplexer mux) {
 
 /// A sub-index 00h or an entry that is fixed by its own rule.
 constexpr ObjectRule fixed[] = {
-    {0x1000, 0, 0, 2}, {0x1001, 0, 0, 2},  {0x1002, 0, 0, 2},   {0x1003, 1, 254, 8}, {0x1008, 0, 0, 2},
-    {0x1009, 0, 0, 2}, {0x100A, 0, 0, 2},  {0x1010, 0, 0, 2},   {0x1011, 0, 0, 2},   {0x1016, 0, 0, 2},
-    {0x1018, 0, 0, 2}, {0x1018, 1, 4, 4},  {0x1020, 0, 0, 2},   {0x1021, 0, 0, 2},   {0x1022, 0, 0, 3},
-    {0x1023, 2, 3, 3}, {0x1025, 2, 3, 3},  {0x1026, 2, 3, 3},   {0x1027, 0, 9, 2},   {0x1028, 0, 0, 2},
-    {0x1029, 0, 0, 2}, {0x1200, 0, 2, 4},  {0x1201, 0, 0, 2},   {0x1400, 0, 0, 2},   {0x1800, 0, 0, 2},
+    {0x1000, 0, 0, 2}, {0x1001, 0, 0, 2}, {0x1002, 0, 0, 2}, {0x1003, 1, 254, 8}, {0x1008, 0, 0, 2},
+    {0x1009, 0, 0, 2}, {0x100A, 0, 0, 2}, {0x1010, 0, 0, 2}, {0x1011, 0, 0, 2},   {0x1016, 0, 0, 2},
+    {0x1018, 0, 0, 2}, {0x1018, 1, 4, 4}, {0x1020, 0, 0, 2}, {0x1021, 0, 0, 2},   {0x1022, 0, 0, 3},
+    {0x1023, 2, 3, 3}, {0x1025, 2, 3, 3}, {0x1026, 2, 3, 3}, {0x1027, 0, 9, 2},   {0x1028, 0, 0, 2},
+    {0x1029, 0, 0, 2}, {0x1200, 0, 2, 4}, {0x1201, 0, 0, 2}, {0x1400, 0, 0, 2},   {0x1800, 0, 0, 2},
 };
 /// The value a device has from power-on.
 constexpr ObjectRule defaults[] = {
-    {0x1000, 0, 0, 7},   {0x1003, 0, 0, 4},   {0x1005, 0, 0, 2},   {0x1006, 0, 0, 2},   {0x100C, 0, 0, 4},
-    {0x1007, 0, 0, 1},   {0x1012, 0, 0, 2},   {0x1014, 0, 0, 2},   {0x1015, 0, 0, 2},   {0x1016, 0, 0, 1},
-    {0x1016, 1, 127, 4}, {0x1017, 0, 0, 2},   {0x1018, 0, 0, 1},   {0x1018, 1, 4, 8},   {0x1019, 0, 0, 2},
-    {0x1010, 0, 0, 1},   {0x1010, 1, 127, 4}, {0x1011, 0, 0, 1},   {0x1011, 1, 127, 4}, {0x1020, 0, 0, 1},
-    {0x1022, 0, 0, 2},   {0x1023, 0, 0, 1},   {0x1025, 0, 0, 1},   {0x1026, 0, 0, 1},   {0x1027, 0, 9, 1},
-    {0x1028, 0, 0, 1},   {0x1029, 0, 0, 1},   {0x1029, 1, 1, 4},   {0x1200, 0, 0, 1},   {0x1200, 1, 1, 2},
-    {0x1200, 2, 2, 3},   {0x1201, 0, 0, 1},   {0x1201, 1, 2, 3},   {0x1280, 0, 0, 1},   {0x1280, 1, 2, 2},
-    {0x1400, 0, 0, 1},   {0x1800, 0, 0, 1},   {0x1600, 0, 0, 1},   {0x1600, 1, 64, 2},  {0x1A00, 0, 0, 1},
+    {0x1000, 0, 0, 7},   {0x1003, 0, 0, 4},   {0x1005, 0, 0, 2}, {0x1006, 0, 0, 2},   {0x100C, 0, 0, 4},
+    {0x1007, 0, 0, 1},   {0x1012, 0, 0, 2},   {0x1014, 0, 0, 2}, {0x1015, 0, 0, 2},   {0x1016, 0, 0, 1},
+    {0x1016, 1, 127, 4}, {0x1017, 0, 0, 2},   {0x1018, 0, 0, 1}, {0x1018, 1, 4, 8},   {0x1019, 0, 0, 2},
+    {0x1010, 0, 0, 1},   {0x1010, 1, 127, 4}, {0x1011, 0, 0, 1}, {0x1011, 1, 127, 4}, {0x1020, 0, 0, 1},
+    {0x1022, 0, 0, 2},   {0x1023, 0, 0, 1},   {0x1025, 0, 0, 1}, {0x1026, 0, 0, 1},   {0x1027, 0, 9, 1},
+    {0x1028, 0, 0, 1},   {0x1029, 0, 0, 1},   {0x1029, 1, 1, 4}, {0x1200, 0, 0, 1},   {0x1200, 1, 1, 2},
+    {0x1200, 2, 2, 3},   {0x1201, 0, 0, 1},   {0x1201, 1, 2, 3}, {0x1280, 0, 0, 1},   {0x1280, 1, 2, 2},
+    {0x1400, 0, 0, 1},   {0x1800, 0, 0, 1},   {0x1600, 0, 0, 1}, {0x1600, 1, 64, 2},  {0x1A00, 0, 0, 1},
     {0x1A00, 1, 64, 2},
 };
 /// A write that must be possible.
 constexpr ObjectRule changes[] = {
-    {0x1003, 0, 0, 5},  {0x1005, 0, 0, 6},  {0x1006, 0, 0, 3},   {0x100C, 0, 0, 2},  {0x100D, 0, 0, 2},
-    {0x1010, 1, 1, 7},  {0x1011, 1, 1, 7},  {0x1012, 0, 0, 6},   {0x1014, 0, 0, 7},  {0x1015, 0, 0, 1},
-    {0x1016, 1, 127, 3}, {0x1017, 0, 0, 3}, {0x1019, 0, 0, 3},   {0x1028, 1, 127, 7}, {0x1029, 1, 1, 5},
-    {0x1400, 1, 1, 11}, {0x1400, 2, 2, 15}, {0x1400, 3, 3, 18},  {0x1400, 5, 5, 20}, {0x1600, 0, 64, 5},
-    {0x1800, 1, 1, 11}, {0x1800, 2, 2, 15}, {0x1800, 3, 3, 18},  {0x1800, 5, 5, 20}, {0x1800, 6, 6, 21},
-    {0x1A00, 0, 64, 5}, {0x1201, 3, 3, 7},
+    {0x1003, 0, 0, 5},   {0x1005, 0, 0, 6},  {0x1006, 0, 0, 3},  {0x100C, 0, 0, 2},   {0x100D, 0, 0, 2},
+    {0x1010, 1, 1, 7},   {0x1011, 1, 1, 7},  {0x1012, 0, 0, 6},  {0x1014, 0, 0, 7},   {0x1015, 0, 0, 1},
+    {0x1016, 1, 127, 3}, {0x1017, 0, 0, 3},  {0x1019, 0, 0, 3},  {0x1028, 1, 127, 7}, {0x1029, 1, 1, 5},
+    {0x1400, 1, 1, 11},  {0x1400, 2, 2, 15}, {0x1400, 3, 3, 18}, {0x1400, 5, 5, 20},  {0x1600, 0, 64, 5},
+    {0x1800, 1, 1, 11},  {0x1800, 2, 2, 15}, {0x1800, 3, 3, 18}, {0x1800, 5, 5, 20},  {0x1800, 6, 6, 21},
+    {0x1A00, 0, 64, 5},  {0x1201, 3, 3, 7},
 };
 /// A write that must be refused though the entry can be written.
 constexpr ObjectRule refusals[] = {
-    {0x1003, 0, 0, 6},   {0x1010, 1, 127, 8}, {0x1011, 1, 127, 8}, {0x1016, 1, 127, 6}, {0x1019, 0, 0, 5},
-    {0x1029, 1, 1, 6},   {0x1400, 2, 2, 16},  {0x1400, 3, 3, 18},  {0x1600, 0, 0, 10},  {0x1800, 2, 2, 16},
-    {0x1800, 3, 3, 18},  {0x1800, 6, 6, 21},  {0x1A00, 0, 0, 10},  {0x1201, 3, 3, 7},   {0x1280, 3, 3, 6},
+    {0x1003, 0, 0, 6},  {0x1010, 1, 127, 8}, {0x1011, 1, 127, 8}, {0x1016, 1, 127, 6}, {0x1019, 0, 0, 5},
+    {0x1029, 1, 1, 6},  {0x1400, 2, 2, 16},  {0x1400, 3, 3, 18},  {0x1600, 0, 0, 10},  {0x1800, 2, 2, 16},
+    {0x1800, 3, 3, 18}, {0x1800, 6, 6, 21},  {0x1A00, 0, 0, 10},  {0x1201, 3, 3, 7},   {0x1280, 3, 3, 6},
 };
 
 bool is_one_of(AbortCode code, std::initializer_list<AbortCode> codes) {
@@ -125,14 +128,15 @@ std::string missing_sub_index(const Evidence& evidence, bool reading) {
 
 std::optional<Assigned> absent(const Evidence& evidence, bool reading) {
   const auto index = evidence.last().object.index.value();
-  if (evidence.difference().device.kind == Kind::confirmed) {
-    if (index == 0) return violates("OD-GEN-01");
-    if (index >= 0x260 && index < 0x1000) return violates("OD-GEN-02");
-    if (index >= 0xC000) return violates("OD-GEN-03");
-    // It may be an object that the description does not tell of.
-    return strains(reading ? "OD-GEN-04" : "OD-GEN-05");
-  }
-  return refusal(evidence, reading ? "OD-GEN-04" : "OD-GEN-05", {abort::general, abort::no_sub_index});
+  const auto told = [&](std::string rule) {
+    return refusal(evidence, std::move(rule), {abort::general, abort::no_sub_index});
+  };
+  if (index == 0) return told("OD-GEN-01");
+  if (index >= 0x260 && index < 0x1000) return told("OD-GEN-02");
+  if (index >= 0xC000) return told("OD-GEN-03");
+  const auto* rule = reading ? "OD-GEN-04" : "OD-GEN-05";
+  // It may be an object that the description does not tell of.
+  return evidence.difference().device.kind == Kind::confirmed ? strains(rule) : told(rule);
 }
 
 /// A read-back that is not what was written or what was there: the write explains it.
@@ -152,7 +156,8 @@ std::optional<Assigned> after_a_write(const Evidence& evidence) {
     if (entry == nullptr || entry->command || entry->may_change) return std::nullopt;
     if (write.transfer != Transfer::automatic) return violates(by_transfer(write, ""));
     if (size > 4) return violates("SDO-SDN-03");
-    constexpr std::array<std::string_view, 5> expedited = {"SDO-SDN-15", "SDO-DNL-02", "SDO-DNL-01", "SDO-DNL-04", "SDO-DNL-03"};
+    constexpr std::array<std::string_view, 5> expedited = {"SDO-SDN-15", "SDO-DNL-02", "SDO-DNL-01",
+                                                           "SDO-DNL-04", "SDO-DNL-03"};
     return violates(std::string(expedited[size]));
   }
   return std::nullopt;
@@ -176,8 +181,7 @@ std::optional<Assigned> after_a_reset(const Evidence& evidence) {
   }
   if (!reset) return std::nullopt;
   if (loaded) return violates(communication ? "OD-1011-12" : "OD-1011-13");
-  if (stored)
-    return violates(stored_sub == 2 ? "OD-1010-11" : stored_sub == 3 ? "OD-1010-12" : "OD-1010-10");
+  if (stored) return violates(stored_sub == 2 ? "OD-1010-11" : stored_sub == 3 ? "OD-1010-12" : "OD-1010-10");
   if (communication) return violates("NMT-FSA-24");
   return node ? violates("NMT-FSA-25") : strains("NMT-FSA-26");
 }
@@ -189,24 +193,28 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
   const auto& device = evidence.difference().device;
   if (entry == nullptr) return std::nullopt;
   if (entry->size() && device.data.size() != *entry->size())
-    return violates(mux.sub.value() == 0 && is_array_or_record(evidence.words, mux.index) ? "OD-GEN-10" : "OD-LEN-04");
+    return violates(mux.sub.value() == 0 && is_array_or_record(evidence.words, mux.index) ? "OD-GEN-10"
+                                                                                          : "OD-LEN-04");
   if (read.transfer == Transfer::block && device.data.size() > 4) return violates("SDO-BUP-01");
   if (mux.index == Index(0x1001)) {
     const bool raised = !evidence.difference().model.data.empty() && evidence.difference().model.data[0] != 0;
     return violates(raised ? "OD-1001-05" : "OD-1001-06");
   }
-  if (mux.index == Index(0x1003)) return violates(mux.sub.value() == 0 ? "OD-1003-10" : mux.sub.value() == 1 ? "OD-1003-11" : "OD-1003-12");
+  if (mux.index == Index(0x1003))
+    return violates(mux.sub.value() == 0 ? "OD-1003-10" : mux.sub.value() == 1 ? "OD-1003-11" : "OD-1003-12");
   if (auto reset = after_a_reset(evidence)) return reset;
   if (auto written = after_a_write(evidence)) return written;
   if (entry->access == device::Access::constant || !entry->writable()) {
     if (entry->may_change) return std::nullopt;
-    if (evidence.conversation.size() > 1 && !evidence.some([](const Action& each) { return each.kind == Action::Kind::download; }))
+    if (evidence.conversation.size() > 1 &&
+        !evidence.some([](const Action& each) { return each.kind == Action::Kind::download; }))
       return violates("OD-ACC-06");
   }
   // What was there from power-on is another value than described.
   const bool untouched = evidence.before().empty();
-  if (!untouched || !entry->declared_default || !entry->default_value || *entry->default_value == device.data)
-    return std::nullopt;
+  // The model agrees with the description; where it does not, it is no measure.
+  const bool is_measure = entry->default_value && *entry->default_value == evidence.difference().model.data;
+  if (!untouched || !is_measure) return std::nullopt;
   if (entry->size().value_or(8) > 4) return violates("SDO-SUP-01");
   if (auto rule = find_rule(defaults, mux); !rule.empty()) return violates(std::move(rule));
   const auto area = area_of(mux.index.value());
@@ -221,8 +229,11 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
   const auto& device = evidence.difference().device;
   const auto& model = evidence.difference().model;
   const auto mux = evidence.last().object;
-  if (evidence.last().transfer == Transfer::block && (evidence.last().blksize == 0 || evidence.last().blksize > 127))
-    return device.kind == Kind::aborted ? strains("SDO-BUP-09") : violates(evidence.last().blksize == 0 ? "SDO-BUP-09" : "SDO-BUP-10");
+  if (evidence.last().transfer == Transfer::block &&
+      (evidence.last().blksize == 0 || evidence.last().blksize > 127))
+    return device.kind == Kind::aborted
+               ? strains("SDO-BUP-09")
+               : violates(evidence.last().blksize == 0 ? "SDO-BUP-09" : "SDO-BUP-10");
   if (model.kind == Kind::aborted) {
     if (model.code == abort::no_object) return absent(evidence, true);
     if (model.code == abort::no_sub_index)
@@ -255,8 +266,9 @@ std::optional<Assigned> wrong_cob_id(const Evidence& evidence, CobIdKind kind) {
     CobIdKind kind;
     int lock, frame, restricted;
   };
-  constexpr Row rows[] = {{CobIdKind::sync, 5, 4, 1}, {CobIdKind::time, 5, 4, 2},  {CobIdKind::emcy, 6, 5, 3},
-                          {CobIdKind::emcy_consumer, 6, 5, 0}, {CobIdKind::sdo, 5, 6, 6}, {CobIdKind::rpdo, 10, 13, 4},
+  constexpr Row rows[] = {{CobIdKind::sync, 5, 4, 1},  {CobIdKind::time, 5, 4, 2},
+                          {CobIdKind::emcy, 6, 5, 3},  {CobIdKind::emcy_consumer, 6, 5, 0},
+                          {CobIdKind::sdo, 5, 6, 6},   {CobIdKind::rpdo, 10, 13, 4},
                           {CobIdKind::tpdo, 10, 13, 5}};
   const auto& row = *std::ranges::find(rows, kind, &Row::kind);
   // Refused in other words, or taken and not kept.
@@ -284,14 +296,16 @@ std::optional<Assigned> wrong_mapping(const Evidence& evidence) {
   const auto& model = evidence.difference().model;
   const auto area = area_of(last.object.index.value());
   const bool confirmed = evidence.difference().device.kind == Kind::confirmed;
-  const auto told = [&](int rule) { return confirmed ? violates(id_of(area, rule)) : strains(id_of(area, rule)); };
+  const auto told = [&](int rule) {
+    return confirmed ? violates(id_of(area, rule)) : strains(id_of(area, rule));
+  };
   if (model.code == abort::unsupported_access) {
     return strains(id_of(area, last.object.sub.value() == 0 ? 12 : 11));
   }
-  if (last.object.sub.value() == 0)
-    return model.code == abort::pdo_length ? told(9) : told(10);
+  if (last.object.sub.value() == 0) return model.code == abort::pdo_length ? told(9) : told(10);
   // The entry is checked here or when the mapping is enabled.
-  if (confirmed) return strains(id_of(area, model.code == abort::no_object || model.code == abort::no_sub_index ? 6 : 7));
+  if (confirmed)
+    return strains(id_of(area, model.code == abort::no_object || model.code == abort::no_sub_index ? 6 : 7));
   return strains(id_of(area, model.code == abort::no_object ? 6 : 7));
 }
 
@@ -337,7 +351,9 @@ std::optional<Assigned> wrong_value(const Evidence& evidence) {
       const bool commands = entry != nullptr && entry->command;
       return kept || commands ? violates(std::move(rule)) : strains(std::move(rule));
     }
-    if (area == "OD-1003") return refusal(evidence, std::move(rule), {abort::value_too_high, abort::general, abort::invalid_value});
+    if (area == "OD-1003")
+      return refusal(evidence, std::move(rule),
+                     {abort::value_too_high, abort::general, abort::invalid_value});
     return strains(std::move(rule));
   }
   if (entry == nullptr || (!entry->low && !entry->high)) return std::nullopt;
@@ -352,7 +368,8 @@ std::optional<Assigned> refused_download(const Evidence& evidence) {
   const auto* entry = evidence.words.find(last.object);
   if (code == abort::no_object) return absent(evidence, false);
   if (code == abort::no_sub_index)
-    return refusal(evidence, missing_sub_index(evidence, false), {abort::read_only, abort::no_object, abort::general});
+    return refusal(evidence, missing_sub_index(evidence, false),
+                   {abort::read_only, abort::no_object, abort::general});
   if (code == abort::read_only) {
     if (entry == nullptr || entry->writable() || entry->access_open) return std::nullopt;
     auto rule = find_rule(fixed, last.object);
@@ -380,7 +397,8 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
   const bool untouched = evidence.before().empty();
   if (!rule.empty()) return untouched && last.object.index != Index(0x1600) ? violates(rule) : strains(rule);
   if (last.data.size() > 4) return violates("SDO-SDN-01");
-  return last.object.index.value() >= 0x2000 && untouched && entry->size() ? violates("OD-ACC-04") : strains("OD-ACC-04");
+  return last.object.index.value() >= 0x2000 && untouched && entry->size() ? violates("OD-ACC-04")
+                                                                           : strains("OD-ACC-04");
 }
 
 /// Silence or a broken protocol where the model answers.
@@ -391,7 +409,8 @@ std::optional<Assigned> no_answer(const Evidence& evidence) {
   for (const auto& earlier : evidence.before()) {
     if (auto rule = rule_of_fault(earlier); !rule.empty()) return violates(std::move(rule));
   }
-  const bool reset = evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) > 0x80; });
+  const bool reset =
+      evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) > 0x80; });
   if (reset) return violates("SDO-GEN-17");
   const auto* entry = evidence.words.find(last.object);
   const bool is_long = entry != nullptr && entry->size().value_or(8) > 4;
@@ -407,7 +426,8 @@ std::optional<Assigned> no_answer(const Evidence& evidence) {
 std::optional<Assigned> assign_answer(const Evidence& evidence) {
   const auto device = evidence.difference().device.kind;
   const auto model = evidence.difference().model.kind;
-  if (model != Kind::silence && (device == Kind::silence || device == Kind::violation)) return no_answer(evidence);
+  if (model != Kind::silence && (device == Kind::silence || device == Kind::violation))
+    return no_answer(evidence);
   return evidence.last().kind == Action::Kind::upload ? assign_upload(evidence) : assign_download(evidence);
 }
 

@@ -29,7 +29,8 @@ std::string odd_nmt(const Evidence& evidence) {
     if (frame.dlc > 2) return "NMT-FSA-18";
     if (frame.data[1] != 0 && frame.data[1] != evidence.words.node.value()) return "NMT-FSA-15";
     const auto command = frame.data[0];
-    if (command != start && command != stop && (command < pre_operational || command > 0x82)) return "NMT-FSA-16";
+    if (command != start && command != stop && (command < pre_operational || command > 0x82))
+      return "NMT-FSA-16";
     if (frame.data[1] == 0) return "NMT-FSA-14";
   }
   return "";
@@ -81,11 +82,14 @@ std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
   }
   if (!odd.empty() && odd != "NMT-FSA-14") return violates(odd);
   if (!reset.found) {
-    const bool commanded = evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
+    const bool commanded =
+        evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
     if (evidence.conversation.size() <= 1 && !commanded) return violates("NMT-BOOT-01");
     return violates(commanded ? "NMT-BOOT-06" : "NMT-BOOT-10");
   }
-  return violates(reset.command == 0x82 ? "NMT-BOOT-03" : reset.command == 0x81 ? "NMT-BOOT-02" : "NMT-BOOT-01");
+  return violates(reset.command == 0x82   ? "NMT-BOOT-03"
+                  : reset.command == 0x81 ? "NMT-BOOT-02"
+                                          : "NMT-BOOT-01");
 }
 
 std::optional<Assigned> assign_heartbeat(const Evidence& evidence) {
@@ -93,17 +97,22 @@ std::optional<Assigned> assign_heartbeat(const Evidence& evidence) {
   if (difference.what == What::other_data) {
     if (difference.came.dlc != 1) return violates("EC-HBP-08");
     if (((difference.came.data[0] ^ difference.due.data[0]) & 0x80U) != 0) return violates("EC-HBP-07");
-    return violates(evidence.some([&](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; })
+    return violates(evidence.some([&](const Action& each) {
+      return each.kind == Action::Kind::frame && each.frame.id == 0;
+    })
                         ? transition(evidence)
                         : "EC-HBP-06");
   }
   std::size_t writes = 0;
-  for (const auto& each : evidence.conversation) writes += each.kind == Action::Kind::download && each.is_at(0x1017, 0);
+  for (const auto& each : evidence.conversation)
+    writes += each.kind == Action::Kind::download && each.is_at(0x1017, 0);
   const auto period = evidence.wrote(0x1017, 0).value_or(0);
-  if (difference.what == What::surplus && period == 0) return violates(writes > 0 ? "EC-HBP-04" : "EC-HBP-13");
+  if (difference.what == What::surplus && period == 0)
+    return violates(writes > 0 ? "EC-HBP-04" : "EC-HBP-13");
   if (evidence.stopped()) return violates("NMT-SVC-04");
   if (writes > 1) return violates("EC-HBP-03");
-  const bool commanded = evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
+  const bool commanded =
+      evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
   if (commanded && evidence.commands().last == evidence.commands().before) return violates("EC-HBP-10");
   return violates("EC-HBP-01");
 }
@@ -127,10 +136,12 @@ std::optional<Assigned> assign_guarding(const Evidence& evidence) {
     return violates("EC-NG-16");
   }
   if (difference.came.dlc != 1) return violates("EC-NG-05");
-  const bool commanded = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
+  const bool commanded = evidence.some(
+      [](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
   if (((difference.came.data[0] ^ difference.due.data[0]) & 0x80U) != 0) {
     if (commanded) return violates("EC-NG-03");
-    const auto requests = std::ranges::count_if(evidence.conversation, [&](const Action& each) { return guards(each, evidence); });
+    const auto requests = std::ranges::count_if(evidence.conversation,
+                                                [&](const Action& each) { return guards(each, evidence); });
     return violates(requests <= 1 ? "EC-NG-01" : "EC-NG-02");
   }
   const auto state = difference.came.data[0] & 0x7FU;
@@ -159,9 +170,12 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   const auto code = about.size() < 2 ? 0U : static_cast<unsigned>(about.data[0] | (about.data[1] << 8U));
   if (difference.what == What::other_data) {
     if (difference.came.dlc != 8) return violates("EMCY-FMT-01");
-    if (difference.came.data[0] != difference.due.data[0] || difference.came.data[1] != difference.due.data[1]) {
+    if (difference.came.data[0] != difference.due.data[0] ||
+        difference.came.data[1] != difference.due.data[1]) {
       const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
-      return due == 0x8130 ? violates("EC-HBC-03") : due == 0x8210 ? violates("PDO-RX-06") : violates("EMCY-FMT-01");
+      return due == 0x8130   ? violates("EC-HBC-03")
+             : due == 0x8210 ? violates("PDO-RX-06")
+                             : violates("EMCY-FMT-01");
     }
     if (difference.came.data[2] != difference.due.data[2]) return violates("EMCY-FMT-03");
     return std::nullopt;
@@ -177,20 +191,23 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   if (code == 0x8130) {
     if (!guarding_runs(evidence)) return violates(missing ? "EC-HBC-03" : "EC-HBC-04");
     if (missing) return violates("EC-NG-07");
-    if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0) return violates("EC-NG-09");
+    if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0)
+      return violates("EC-NG-09");
     const bool requested = evidence.some([&](const Action& each) { return guards(each, evidence); });
     return violates(requested ? "EC-NG-07" : "EC-NG-08");
   }
   if (code == 0x8210) return violates("PDO-RX-06");
   if (code == 0x8220) return strains("PDO-RX-07");
   if (code == 0x8240) return violates(missing ? "SYNC-CON-05" : "SYNC-CON-03");
-  if (code == 0x8250) return violates(missing || evidence.wrote(0x1400, 5).value_or(1) != 0 ? "PDO-RX-14" : "PDO-RX-15");
+  if (code == 0x8250)
+    return violates(missing || evidence.wrote(0x1400, 5).value_or(1) != 0 ? "PDO-RX-14" : "PDO-RX-15");
   if (code == 0) {
     if (evidence.wrote(0x1016, 1) || evidence.wrote(0x1016, 2)) return violates("EC-HBC-07");
     if (guarding_runs(evidence)) return violates("EC-NG-10");
     return violates("EMCY-SEQ-02");
   }
-  const auto raises = std::ranges::count_if(evidence.conversation, [](const Action& each) { return each.kind == Action::Kind::download; });
+  const auto raises = std::ranges::count_if(
+      evidence.conversation, [](const Action& each) { return each.kind == Action::Kind::download; });
   if (!missing) return violates(raises == 0 ? "EMCY-SEQ-03" : "EMCY-SEQ-01");
   if (raises > 1) return violates("EMCY-SEQ-04");
   return evidence.operational() ? violates("EMCY-SEQ-01") : violates("EMCY-NMT-02");
@@ -226,17 +243,23 @@ std::optional<Assigned> assign_rpdo(const Evidence& evidence) {
   const auto number = (rpdo->frame.id - 0x200U) / 0x100U;
   const auto setting = setting_of(evidence, static_cast<std::uint16_t>(0x1400 + number));
   if (!evidence.operational()) return violates("PDO-RX-02");
-  if (setting.cob_id) return violates((*setting.cob_id & canopen::cob_id::bit31) != 0 ? "OD-1400-09" : "OD-1400-11");
-  if (setting.type.value_or(255) <= 240) return violates(count > 1 ? "PDO-RX-04" : setting.type == 1U ? "PDO-RX-03" : "PDO-RX-05");
+  if (setting.cob_id)
+    return violates((*setting.cob_id & canopen::cob_id::bit31) != 0 ? "OD-1400-09" : "OD-1400-11");
+  if (setting.type.value_or(255) <= 240)
+    return violates(count > 1 ? "PDO-RX-04" : setting.type == 1U ? "PDO-RX-03" : "PDO-RX-05");
   if (evidence.wrote(static_cast<std::uint16_t>(0x1600 + number), 0)) return violates("OD-1600-15");
   return violates("PDO-RX-01");
 }
 
 std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting& setting) {
   const auto type = setting.type.value_or(255);
-  const bool synced = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id); });
-  const bool asked = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
-  if (setting.sync_start.value_or(0) != 0 && type <= 240) return violates(evidence.wrote(0x1019, 0).value_or(0) == 0 ? "PDO-TX-15" : "PDO-TX-14");
+  const bool synced = evidence.some([](const Action& each) {
+    return each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id);
+  });
+  const bool asked =
+      evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
+  if (setting.sync_start.value_or(0) != 0 && type <= 240)
+    return violates(evidence.wrote(0x1019, 0).value_or(0) == 0 ? "PDO-TX-15" : "PDO-TX-14");
   if (type == 0) return violates("PDO-TX-07");
   if (type == 1) return violates("PDO-TX-05");
   if (type <= 240) return violates("PDO-TX-06");
@@ -255,7 +278,8 @@ std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting&
   if (!evidence.operational()) return violates("PDO-TX-02");
   if (setting.cob_id && (*setting.cob_id & canopen::cob_id::bit31) != 0) return violates("OD-1800-09");
   const auto type = setting.type.value_or(255);
-  const bool asked = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
+  const bool asked =
+      evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
   if (asked && type >= 0xFE) return violates("OD-1800-14");
   if (type == 0) return violates("PDO-TX-07");
   if (type <= 240 && setting.timer.value_or(0) != 0) return violates("PDO-TX-11");
@@ -284,7 +308,8 @@ std::optional<Assigned> assign_tpdo(const Evidence& evidence, std::uint16_t numb
 std::optional<Assigned> assign_sync(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   if (difference.what == What::other_data) {
-    const bool again = evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
+    const bool again = evidence.some(
+        [](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
     return violates(again ? "SYNC-PRO-05" : "SYNC-PRO-04");
   }
   if (difference.what == What::surplus) {
@@ -345,7 +370,8 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
   if (!surplus) return std::nullopt;
   if (frame.id == 0) return violates("NMT-SVC-05");
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.id != 0x700U + node)
-    return violates(evidence.some([](const Action& each) { return each.frame.remote; }) ? "EC-NG-06" : "EC-HBP-08");
+    return violates(evidence.some([](const Action& each) { return each.frame.remote; }) ? "EC-NG-06"
+                                                                                        : "EC-HBP-08");
   return violates("CAN-TRF-02");
 }
 

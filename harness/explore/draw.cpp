@@ -39,7 +39,8 @@ Bytes free_value(Random& random, const Entry& entry) {
   if (entry.type == canopen::DataType::visible_string) {
     for (auto& byte : out) byte = static_cast<std::uint8_t>('a' + byte % 26);
   }
-  if (entry.type == canopen::DataType::domain && random.chance(30)) out = random_bytes(random, 100 + random.below(900));
+  if (entry.type == canopen::DataType::domain && random.chance(30))
+    out = random_bytes(random, 100 + random.below(900));
   return out;
 }
 
@@ -109,9 +110,9 @@ void draw_wrong_access(Draft& draft) {
   const auto& entry = random.of(all_of(draft));
   auto mux = entry.mux;
   auto size = entry.size().value_or(4);
-  constexpr std::uint16_t absent[] = {0x0000, 0x0001, 0x0300, 0x0400, 0x0FFF, 0x1004, 0x100B, 0x1011, 0x1030, 0x11FF,
-                                      0x1404, 0x15FF, 0x1804, 0x1FFF, 0x2FFF, 0x5FFF, 0x6FFF, 0x9FFF,
-                                      0xA000, 0xBFFF, 0xC000, 0xFFFF};
+  constexpr std::uint16_t absent[] = {0x0000, 0x0001, 0x0300, 0x0400, 0x0FFF, 0x1004, 0x100B, 0x1011,
+                                      0x1030, 0x11FF, 0x1404, 0x15FF, 0x1804, 0x1FFF, 0x2FFF, 0x5FFF,
+                                      0x6FFF, 0x9FFF, 0xA000, 0xBFFF, 0xC000, 0xFFFF};
   const bool upload_it = random.chance(50);
   switch (random.below(5)) {
     case 0: mux = {Index(random.of(absent)), SubIndex(static_cast<std::uint8_t>(random.below(3)))}; break;
@@ -121,14 +122,16 @@ void draw_wrong_access(Draft& draft) {
       break;
     }
     case 2: {
-      const auto& refused = entry_where(draft, [](const Entry& each) { return !each.writable() || !each.readable(); });
+      const auto& refused =
+          entry_where(draft, [](const Entry& each) { return !each.writable() || !each.readable(); });
       const auto bytes = refused.size().value_or(4);
       if (!refused.readable()) return draft.add(upload(refused.mux, transfer_for(random, true, 0)));
       draft.add(download(refused.mux, value_for(draft, refused), transfer_for(random, false, bytes)));
       return draft.add(upload(refused.mux));
     }
     default: {
-      const auto& written = entry_where(draft, [](const Entry& each) { return each.writable() && each.size(); });
+      const auto& written =
+          entry_where(draft, [](const Entry& each) { return each.writable() && each.size(); });
       const auto right = written.size().value_or(4);
       auto value = value_for(draft, written);
       constexpr std::size_t lengths[] = {1, 2, 3, 4, 5, 8, 9};
@@ -150,33 +153,62 @@ void draw_wrong_access(Draft& draft) {
 std::string fault_of(Random& random, bool upload_it, bool block) {
   const auto k = std::to_string(1 + random.below(3));
   if (!block) {
-    const std::string segmented[] = {"wrong toggle in segment " + k, "repeat segment " + k, "short segment " + k,
-                                     "reserved bits in segment " + k, "abort after segment " + k,
-                                     "new initiate after segment " + k, "silence after segment " + k,
-                                     "reserved bits in initiate", "short initiate", "lose segment " + k,
-                                     "abort after segment 0", "new initiate after segment 0",
-                                     "silence after segment 0", "reserved bytes in initiate",
-                                     "reserved bytes in segment " + k, "no end",
+    const std::string segmented[] = {"wrong toggle in segment " + k,
+                                     "repeat segment " + k,
+                                     "short segment " + k,
+                                     "reserved bits in segment " + k,
+                                     "abort after segment " + k,
+                                     "new initiate after segment " + k,
+                                     "silence after segment " + k,
+                                     "reserved bits in initiate",
+                                     "short initiate",
+                                     "lose segment " + k,
+                                     "abort after segment 0",
+                                     "new initiate after segment 0",
+                                     "silence after segment 0",
+                                     "reserved bytes in initiate",
+                                     "reserved bytes in segment " + k,
+                                     "no end",
                                      "unused bytes " + std::to_string(random.below(8))};
     return segmented[random.below(upload_it ? std::size(segmented) - 2 : std::size(segmented))];
   }
   if (upload_it) {
-    const std::string uploads[] = {"lose segment " + k, "acknowledge " + std::to_string(random.below(130)) + " in sub-block 1",
+    const std::string uploads[] = {"lose segment " + k,
+                                   "acknowledge " + std::to_string(random.below(130)) + " in sub-block 1",
                                    "blksize " + std::to_string(random.below(130)) + " from sub-block 2",
-                                   "abort after segment " + k, "new initiate after segment " + k,
-                                   "silence after segment " + k, "abort instead of end", "no end",
-                                   "reserved bits in acknowledge 1", "reserved bytes in end", "short end",
-                                   "new initiate instead of end", "reserved bits in start",
-                                   "silence after segment 0", "abort after segment 0", "reserved bits in initiate"};
+                                   "abort after segment " + k,
+                                   "new initiate after segment " + k,
+                                   "silence after segment " + k,
+                                   "abort instead of end",
+                                   "no end",
+                                   "reserved bits in acknowledge 1",
+                                   "reserved bytes in end",
+                                   "short end",
+                                   "new initiate instead of end",
+                                   "reserved bits in start",
+                                   "silence after segment 0",
+                                   "abort after segment 0",
+                                   "reserved bits in initiate"};
     return uploads[random.below(std::size(uploads))];
   }
-  const std::string downloads[] = {"lose segment " + k, "repeat segment " + k, "swap segments 1 and 2",
-                                   "number segment " + k + " as " + std::to_string(random.below(128)), "wrong crc",
-                                   "unused bytes " + std::to_string(random.below(8)), "short segment " + k,
-                                   "abort after segment " + k, "new initiate after segment " + k,
-                                   "silence after segment " + k, "no end", "abort instead of end", "short end",
-                                   "new initiate instead of end", "reserved bits in end", "silence after segment 0",
-                                   "reserved bits in initiate", "reserved bytes in initiate"};
+  const std::string downloads[] = {"lose segment " + k,
+                                   "repeat segment " + k,
+                                   "swap segments 1 and 2",
+                                   "number segment " + k + " as " + std::to_string(random.below(128)),
+                                   "wrong crc",
+                                   "unused bytes " + std::to_string(random.below(8)),
+                                   "short segment " + k,
+                                   "abort after segment " + k,
+                                   "new initiate after segment " + k,
+                                   "silence after segment " + k,
+                                   "no end",
+                                   "abort instead of end",
+                                   "short end",
+                                   "new initiate instead of end",
+                                   "reserved bits in end",
+                                   "silence after segment 0",
+                                   "reserved bits in initiate",
+                                   "reserved bytes in initiate"};
   return downloads[random.below(std::size(downloads))];
 }
 
@@ -215,18 +247,20 @@ void draw_request(Draft& draft) {
   const auto own = canopen::connection_set(draft.words.node).sdo_request;
   const auto& entry = random.of(all_of(draft));
   const auto index = entry.mux.index.value();
-  constexpr std::uint8_t commands[] = {0x40, 0x5F, 0x48, 0x60, 0x70, 0x00, 0x10, 0x01, 0x11, 0x0F, 0x80, 0x9F, 0xA0, 0xA1,
-                                       0xA2, 0xA3, 0xC0, 0xC1, 0xE0, 0xFF, 0xE5, 0x20, 0x21, 0x22, 0x23, 0x2F,
-                                       0x33, 0x3F, 0xA4, 0xC4, 0xC6};
+  constexpr std::uint8_t commands[] = {0x40, 0x5F, 0x48, 0x60, 0x70, 0x00, 0x10, 0x01, 0x11, 0x0F, 0x80,
+                                       0x9F, 0xA0, 0xA1, 0xA2, 0xA3, 0xC0, 0xC1, 0xE0, 0xFF, 0xE5, 0x20,
+                                       0x21, 0x22, 0x23, 0x2F, 0x33, 0x3F, 0xA4, 0xC4, 0xC6};
   const auto command = random.of(commands);
-  auto frame = can::data_frame(own, {command, static_cast<std::uint8_t>(index & 0xFFU),
-                                     static_cast<std::uint8_t>(index >> 8U), entry.mux.sub.value(), 0, 0, 0, 0});
+  auto frame =
+      can::data_frame(own, {command, static_cast<std::uint8_t>(index & 0xFFU),
+                            static_cast<std::uint8_t>(index >> 8U), entry.mux.sub.value(), 0, 0, 0, 0});
   if (random.chance(20)) frame.data[4 + random.below(4)] = static_cast<std::uint8_t>(random.next());
   switch (random.below(8)) {
     case 0: frame.dlc = static_cast<std::uint8_t>(random.below(8)); break;
     case 1: {
       constexpr std::uint32_t ids[] = {0x600, 0x602, 0x67F, 0x581, 0x582};
-      frame.id = random.chance(40) ? canopen::connection_set(draft.words.node).sdo_response.value() : random.of(ids);
+      frame.id =
+          random.chance(40) ? canopen::connection_set(draft.words.node).sdo_response.value() : random.of(ids);
       break;
     }
     case 2: frame.extended = true; break;
@@ -238,8 +272,11 @@ void draw_request(Draft& draft) {
 }
 
 constexpr Talk entries[] = {
-    {"reading", 10, draw_read},          {"writing", 12, draw_write},   {"wrong access", 12, draw_wrong_access},
-    {"broken transfers", 14, draw_fault}, {"single requests", 10, draw_request},
+    {"reading", 10, draw_read},
+    {"writing", 12, draw_write},
+    {"wrong access", 12, draw_wrong_access},
+    {"broken transfers", 14, draw_fault},
+    {"single requests", 10, draw_request},
 };
 
 }  // namespace
@@ -260,14 +297,18 @@ Vocabulary vocabulary_of(const device::Profile& profile) {
   }
   for (const auto& entry : device::dictionary_of(profile).entries()) {
     const bool is_there = entry.claimed || entry.category == device::Category::mandatory;
-    if (is_there && !entry.untouchable && !entry.not_to_be_read) out.entries.push_back(entry);
+    // The device's own description is long, and says only once more what the entries say.
+    const bool is_description = entry.mux.index == Index(0x1021);
+    if (is_there && !is_description && !entry.untouchable && !entry.not_to_be_read)
+      out.entries.push_back(entry);
   }
   return out;
 }
 
 void Draft::write(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
   const auto* entry = words.find({Index(index), SubIndex(sub)});
-  if (entry != nullptr && entry->writable()) add(download(entry->mux, to_le(value, entry->size().value_or(4))));
+  if (entry != nullptr && entry->writable())
+    add(download(entry->mux, to_le(value, entry->size().value_or(4))));
 }
 
 void Draft::read(std::uint16_t index, std::uint8_t sub) {

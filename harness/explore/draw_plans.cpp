@@ -14,7 +14,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint32_t not_valid = 0x8000'0000;
-constexpr std::uint8_t start = 1, stop = 2, pre_operational = 0x80, reset_node = 0x81, reset_communication = 0x82;
+constexpr std::uint8_t start = 1, stop = 2, pre_operational = 0x80, reset_node = 0x81,
+                       reset_communication = 0x82;
 
 /// Just before, at and just behind a time.
 Duration edge(Draft& draft, Duration time) {
@@ -101,7 +102,8 @@ void draw_guarding(Draft& draft) {
   draft.write(0x100D, 0, factor);
   const auto count = 1 + random.below(5);
   for (std::size_t i = 0; i < count; ++i) {
-    auto guard = can::remote_frame(id, random.chance(80) ? std::uint8_t{1} : static_cast<std::uint8_t>(random.below(9)));
+    auto guard = can::remote_frame(
+        id, random.chance(80) ? std::uint8_t{1} : static_cast<std::uint8_t>(random.below(9)));
     if (random.chance(8)) guard.id ^= 3U;
     if (random.chance(8)) guard.extended = true;
     draft.add(frame(guard));
@@ -148,8 +150,9 @@ void draw_cob_id(Draft& draft) {
   if (all.empty()) return;
   const auto& entry = *all[random.below(all.size())];
   const auto kind = *canopen::cob_id_kind(entry.mux);
-  constexpr std::uint32_t ids[] = {0x000, 0x001, 0x07F, 0x080, 0x101, 0x180, 0x181, 0x1F0, 0x281, 0x3F0, 0x581, 0x601,
-                                   0x67F, 0x6A0, 0x6B0, 0x6E0, 0x6FF, 0x701, 0x780, 0x7FF, 0x100, 0x800, 0x12345};
+  constexpr std::uint32_t ids[] = {0x000, 0x001, 0x07F, 0x080, 0x101, 0x180, 0x181,  0x1F0,
+                                   0x281, 0x3F0, 0x581, 0x601, 0x67F, 0x6A0, 0x6B0,  0x6E0,
+                                   0x6FF, 0x701, 0x780, 0x7FF, 0x100, 0x800, 0x12345};
   const auto index = entry.mux.index.value();
   const auto sub = entry.mux.sub.value();
   const auto control = canopen::control_mask(kind);
@@ -160,7 +163,9 @@ void draw_cob_id(Draft& draft) {
   if (random.chance(75)) draft.write(index, sub, (off & ~0x7FFU) | id);
   if (random.chance(20)) draft.write(index, sub, off ^ (1U << (11 + random.below(21))));
   auto on = (off & ~0x7FFU) | id;
-  on = control == not_valid && kind != canopen::CobIdKind::sync ? on & ~not_valid : on | (control & ~(random.chance(50) ? not_valid : 0U));
+  on = control == not_valid && kind != canopen::CobIdKind::sync
+           ? on & ~not_valid
+           : on | (control & ~(random.chance(50) ? not_valid : 0U));
   if (random.chance(70)) draft.write(index, sub, on);
   if (random.chance(50)) draft.read(index, sub);
   if (random.chance(25)) draft.write(index, sub, on ^ 1U);
@@ -231,8 +236,8 @@ void draw_mapping(Draft& draft, std::uint16_t index) {
   const auto count = 1 + random.below(random.chance(15) ? 9 : 4);
   for (std::size_t i = 1; i <= count; ++i) {
     auto value = mappable[random.below(mappable.size())];
-    constexpr std::uint32_t odd[] = {0x1000'0020, 0x1234'0108, 0x6200'0908, 0x6200'0110, 0x0005'0008, 0x6200'0104,
-                                     0x0000'0000, 0x1017'0010};
+    constexpr std::uint32_t odd[] = {0x1000'0020, 0x1234'0108, 0x6200'0908, 0x6200'0110,
+                                     0x0005'0008, 0x6200'0104, 0x0000'0000, 0x1017'0010};
     if (random.chance(8)) value = random.of(odd);
     draft.write(index, static_cast<std::uint8_t>(i), value);
   }
@@ -272,7 +277,8 @@ void draw_rpdo(Draft& draft) {
     if (random.chance(40)) draw_sync(draft);
     if (random.chance(30)) draft.wait(edge(draft, 20ms));
   }
-  if (random.chance(40)) draft.read(random.chance(50) ? 0x6200 : 0x6411, static_cast<std::uint8_t>(1 + random.below(2)));
+  if (random.chance(40))
+    draft.read(random.chance(50) ? 0x6200 : 0x6411, static_cast<std::uint8_t>(1 + random.below(2)));
 }
 
 void draw_tpdo(Draft& draft) {
@@ -280,7 +286,8 @@ void draw_tpdo(Draft& draft) {
   const auto number = pdo(draft, 0x1800);
   if (number == 4) return;
   const auto parameters = static_cast<std::uint16_t>(0x1800 + number);
-  const auto on = (random.chance(50) ? 0x4000'0000U : 0U) + 0x180U + 0x100U * number + draft.words.node.value();
+  const auto on =
+      (random.chance(50) ? 0x4000'0000U : 0U) + 0x180U + 0x100U * number + draft.words.node.value();
   if (random.chance(85)) draft.write(parameters, 1, not_valid | on);
   if (random.chance(80)) draft.write(parameters, 2, transmission_type(random));
   if (random.chance(30)) draft.write(parameters, 3, random.chance(70) ? 100 + random.below(300) : 0);
@@ -294,11 +301,11 @@ void draw_tpdo(Draft& draft) {
     switch (random.below(5)) {
       case 0: draw_sync(draft); break;
       case 1: send_rpdo(draft, number); break;
-      case 2:
-        draft.write(0x6200, static_cast<std::uint8_t>(1 + random.below(8)), random.below(256));
+      case 2: draft.write(0x6200, static_cast<std::uint8_t>(1 + random.below(8)), random.below(256)); break;
+      case 3:
+        draft.add(frame(can::remote_frame(CanId(0x180U + 0x100U * number + draft.words.node.value()),
+                                          static_cast<std::uint8_t>(random.below(9)))));
         break;
-      case 3: draft.add(frame(can::remote_frame(CanId(0x180U + 0x100U * number + draft.words.node.value()),
-                                                static_cast<std::uint8_t>(random.below(9))))); break;
       default: draft.wait(edge(draft, std::chrono::milliseconds(5 + random.below(45)))); break;
     }
   }
@@ -323,7 +330,8 @@ void draw_storage(Draft& draft) {
   const auto index = random.chance(65) ? std::uint16_t{0x1010} : std::uint16_t{0x1011};
   const auto right = index == 0x1010 ? save : load;
   const auto sub = static_cast<std::uint8_t>(random.chance(50) ? 1 : random.below(5));
-  if (random.chance(80)) draft.write(index, sub, random.chance(85) ? right : random.chance(50) ? right ^ 0x20U : 0);
+  if (random.chance(80))
+    draft.write(index, sub, random.chance(85) ? right : random.chance(50) ? right ^ 0x20U : 0);
   if (random.chance(10)) draft.add(download({Index(index), SubIndex(sub)}, {'s', 'a', 'v'}));
   if (random.chance(40)) change();
   if (random.chance(50)) draft.read(index, sub);
@@ -403,7 +411,7 @@ constexpr Talk services[] = {
     {"heartbeats of others", 6, draw_other_heartbeat},
     {"guarding", 6, draw_guarding},
     {"errors", 6, draw_errors},
-    {"COB-IDs", 8, draw_cob_id},
+    {"COB-IDs", 14, draw_cob_id},
     {"SYNC", 4, draw_sync},
     {"SYNC producer", 5, draw_sync_producer},
     {"RPDO", 8, draw_rpdo},

@@ -52,11 +52,9 @@ class Duel {
         model_(std::move(model), bench.facts, bench.bus_seed, {}) {}
 
   std::optional<Difference> perform(const Action& action, std::size_t number) {
-    const auto answer_of_model =
-        model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
-    const auto answer_of_device =
-        device_.perform(action, answer_of_model.kind == Answer::Kind::silence ? silent_patience
-                                                                              : device_patience);
+    const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
+    const auto answer_of_device = device_.perform(
+        action, answer_of_model.kind == Answer::Kind::silence ? silent_patience : device_patience);
     drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
     meet(std::max(device_.now(), model_.now()));
     auto out = look();
@@ -192,9 +190,7 @@ class Duel {
   }
 
   std::optional<Difference> overdue() {
-    const auto too_late = [&](const Unasked& each) {
-      return each.time + tolerance + drift_ < device_.now();
-    };
+    const auto too_late = [&](const Unasked& each) { return each.time + tolerance + drift_ < device_.now(); };
     if (const auto due = std::ranges::find_if(of_model_, too_late); due != of_model_.end()) {
       Difference out;
       out.what = What::missing;

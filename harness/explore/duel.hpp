@@ -64,6 +64,7 @@ struct Played {
 
 /// Plays a conversation from power-on until something differs. `keep`: with trace, times and answers.
 /// Error: the device or its model cannot be made.
-[[nodiscard]] Result<Played> play(const Bench& bench, std::span<const Action> conversation, bool keep = false);
+[[nodiscard]] Result<Played> play(const Bench& bench, std::span<const Action> conversation,
+                                  bool keep = false);
 
 }  // namespace conform::explore

@@ -78,8 +78,13 @@ class Search {
     finding.actions_until = out_.actions;
     finding.drawn = head.size();
     finding.assigned = assign({words_, finding.conversation, finding.played});
-    repeat(finding, signature);
     step_round(finding);
+    // The same rule is broken once more: that is known.
+    if (finding.assigned && !rules_.insert(finding.assigned->requirement).second) {
+      ++out_.known;
+      return false;
+    }
+    repeat(finding, signature);
     out_.findings.push_back(std::move(finding));
     return options_.on_finding && options_.on_finding(out_.findings.back());
   }
@@ -110,7 +115,8 @@ class Search {
   const SearchOptions& options_;
   std::uint64_t seeds_;
   SearchResult out_;
-  std::set<std::string> known_;
+  std::set<std::string> known_;  ///< signatures
+  std::set<std::string> rules_;  ///< requirements that findings have named
   std::set<std::string, std::less<>> avoided_;
 };
 

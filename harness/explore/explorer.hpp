@@ -20,11 +20,11 @@ namespace conform::explore {
 /// One thing that is not as it should be, as short as it shows.
 struct Finding {
   Conversation conversation;
-  Played played;                     ///< of it, with trace and answers
-  std::optional<Assigned> assigned;  ///< nullopt: differs from the model, no rule known
-  std::uint64_t episode = 0;         ///< in which it was found
-  std::size_t actions_until = 0;     ///< of the whole search before it was found
-  std::size_t drawn = 0;             ///< actions of the conversation before it was made short
+  Played played;                       ///< of it, with trace and answers
+  std::optional<Assigned> assigned;    ///< nullopt: differs from the model, no rule known
+  std::uint64_t episode = 0;           ///< in which it was found
+  std::size_t actions_until = 0;       ///< of the whole search before it was found
+  std::size_t drawn = 0;               ///< actions of the conversation before it was made short
   unsigned repeated = 0, repeats = 0;  ///< how often the short one showed it again
 
   [[nodiscard]] bool is_flaky() const { return repeated < repeats; }
@@ -52,6 +52,7 @@ struct SearchResult {
 };
 
 /// Error: device or model cannot be made.
-[[nodiscard]] Result<SearchResult> search(const Bench& bench, const Vocabulary& words, const SearchOptions& options);
+[[nodiscard]] Result<SearchResult> search(const Bench& bench, const Vocabulary& words,
+                                          const SearchOptions& options);
 
 }  // namespace conform::explore

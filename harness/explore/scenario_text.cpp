@@ -33,7 +33,8 @@ std::string can_id(std::uint32_t id) { return hex(id, id > 0x7FF ? 8 : 3); }
 
 std::string outcome(const Answer& answer, bool upload) {
   switch (answer.kind) {
-    case Answer::Kind::confirmed: return upload ? fmt::format("{{bytes: {}}}", quoted(hex_bytes(answer.data))) : "ok";
+    case Answer::Kind::confirmed:
+      return upload ? fmt::format("{{bytes: {}}}", quoted(hex_bytes(answer.data))) : "ok";
     case Answer::Kind::aborted: return "abort " + to_string(answer.code);
     case Answer::Kind::silence: return "silence";
     default: return "ok";
@@ -94,7 +95,8 @@ class Writer {
     const bool up = action.kind == Action::Kind::upload;
     std::string keys = fmt::format("object: {}", to_string(action.object));
     if (!up) keys += fmt::format(", bytes: {}", quoted(hex_bytes(action.data)));
-    if (action.transfer != Transfer::automatic) keys += fmt::format(", transfer: {}", word_of(action.transfer));
+    if (action.transfer != Transfer::automatic)
+      keys += fmt::format(", transfer: {}", word_of(action.transfer));
     if (up && action.transfer == Transfer::block && action.blksize != 127)
       keys += fmt::format(", blksize: {}", action.blksize);
     if (!action.fault.empty()) keys += fmt::format(", fault: {}", action.fault);
@@ -176,7 +178,9 @@ std::string came_text(const Finding& finding, const Vocabulary& words) {
   const auto& difference = *finding.played.difference;
   switch (difference.what) {
     case What::answer: return difference.device.text();
-    case What::late: return fmt::format("{} after {}", difference.device.text(), to_string(std::chrono::floor<std::chrono::microseconds>(difference.device.taken)));
+    case What::late:
+      return fmt::format("{} after {}", difference.device.text(),
+                         to_string(std::chrono::floor<std::chrono::microseconds>(difference.device.taken)));
     case What::missing: return "nothing";
     case What::surplus:
     case What::other_data: return describe(difference.came, words.node);
@@ -201,7 +205,8 @@ std::string due_text(const Finding& finding, const Vocabulary& words) {
 }
 
 std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words, std::string_view how) {
-  std::string out = fmt::format("# Found by: {}\nformat: 1\ntitle: Found by exploration\n\nscenarios:\n", how);
+  std::string out =
+      fmt::format("# Found by: {}\nformat: 1\ntitle: Found by exploration\n\nscenarios:\n", how);
   std::size_t number = 0;
   for (const auto& finding : findings) {
     const auto came = came_text(finding, words), due = due_text(finding, words);

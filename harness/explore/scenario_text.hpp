@@ -11,7 +11,8 @@ namespace conform::explore {
 
 /// A file of scenarios, one for each finding, "finding-1" on. What has no rule judges nothing: it plays the
 /// conversation and says what differed.
-[[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words, std::string_view how);
+[[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words,
+                                        std::string_view how);
 
 /// What the device did and what was due, in one line each.
 [[nodiscard]] std::string came_text(const Finding& finding, const Vocabulary& words);

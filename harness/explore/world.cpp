@@ -210,7 +210,8 @@ Answer World::transfer(const Action& action, Duration patience) {
     case From::gave_up: out.kind = Answer::Kind::none; break;
   }
   out.code = result.code;
-  if (action.kind == Action::Kind::upload && result.kind == From::confirmed) out.data = std::move(result.data);
+  if (action.kind == Action::Kind::upload && result.kind == From::confirmed)
+    out.data = std::move(result.data);
   out.detail = std::move(result.detail);
   if (replied || result.kind == From::gave_up) run_until(now() + after_fault);
   return out;

@@ -37,7 +37,7 @@ struct Answer {
   };
   Kind kind = Kind::none;
   AbortCode code{};
-  Bytes data{};         ///< of an upload; of a single request the eight bytes of the reply
+  Bytes data{};          ///< of an upload; of a single request the eight bytes of the reply
   std::string detail{};  ///< of a violation
   Duration taken{};      ///< from the action's begin to its end
 

@@ -59,8 +59,9 @@ void print_finding(const explore::Finding& finding, const Explorable& device, co
   const auto verdict = word_of(finding, catalogue);
   const auto& assigned = finding.assigned;
   const auto came = explore::came_text(finding, device.words), due = explore::due_text(finding, device.words);
-  print(fmt::format("{}: {}: {}{}\n", verdict, assigned ? assigned->requirement : "differs from the model, no rule known",
-                    came, due.empty() ? "" : fmt::format(", with the model: {}", due)));
+  print(fmt::format("{}: {}: {}{}\n", verdict,
+                    assigned ? assigned->requirement : "differs from the model, no rule known", came,
+                    due.empty() ? "" : fmt::format(", with the model: {}", due)));
   if (assigned) {
     if (const auto* rule = catalogue.find(assigned->requirement))
       print(fmt::format("  | rule    {}, {}\n  |         {}\n", rule->id, rule->clause, rule->statement));
@@ -94,16 +95,19 @@ Result<Explorable> explorable(const ExploreCommand& options, const std::string& 
   auto known = device_under_test({.profile = options.device, .eds = options.eds, .node = options.node},
                                  {.simulate = true, .variants = options.variants, .suites = root});
   if (!known) return std::unexpected(known.error());
-  return explorable_of(known->profile, {options.defects, options.variants, known->description}, options.variants);
+  return explorable_of(known->profile, {options.defects, options.variants, known->description},
+                       options.variants);
 }
 
 }  // namespace
 
 int explore_command(const ExploreCommand& options) {
   const auto begin = std::chrono::steady_clock::now();
-  if (!options.simulate)
-    return report_error({"say what to explore", {}, "--simulate; a device on an interface is not explored yet"}, exit_usage);
-  const auto budget = options.time.empty() ? std::optional(Duration(std::chrono::seconds(10))) : parse_duration(options.time);
+  if (!options.simulate && !options.prove)
+    return report_error(
+        {"say what to explore", {}, "--simulate; a device on an interface is not explored yet"}, exit_usage);
+  const auto budget =
+      options.time.empty() ? std::optional(Duration(std::chrono::seconds(10))) : parse_duration(options.time);
   if (!budget)
     return report_error({"'" + options.time + "' is no time", "--for", "10s, 500 ms, 2 min"}, exit_usage);
   auto folders = find_suites(options.suites);
@@ -133,17 +137,19 @@ int explore_command(const ExploreCommand& options) {
   const auto result = explore::search(device->bench, device->words, search);
   if (!result) return report_error(result.error(), exit_environment);
   if (!options.write.empty() && !result->findings.empty()) {
-    const auto text = explore::scenario_file(result->findings, device->words, again(options, result->actions));
+    const auto text =
+        explore::scenario_file(result->findings, device->words, again(options, result->actions));
     if (auto written = write_file_atomically(options.write, text); !written)
       return report_error(written.error(), exit_environment);
   }
   const auto verdicts = count_words(*result, suites->catalogue);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  print(fmt::format("{} actions in {} conversations, {} more to make findings short; {:.1f} s, {:.0f} actions a second\n"
-                    "{} violated, {} tolerated, {} without a known rule\n",
-                    result->actions, result->episodes, result->shrinking, took.count(),
-                    static_cast<double>(result->actions) / std::max(took.count(), 0.001), verdicts.fail,
-                    verdicts.warn, verdicts.open));
+  print(fmt::format(
+      "{} actions in {} conversations, {} more to make findings short; {:.1f} s, {:.0f} actions a second\n"
+      "{} violated, {} tolerated, {} without a known rule\n",
+      result->actions, result->episodes, result->shrinking, took.count(),
+      static_cast<double>(result->actions) / std::max(took.count(), 0.001), verdicts.fail, verdicts.warn,
+      verdicts.open));
   if (stop_signal != 0) return 128 + stop_signal;
   if (verdicts.fail > 0) return 1;
   return options.strict && verdicts.open + verdicts.warn > 0 ? exit_environment : 0;

@@ -18,15 +18,15 @@ struct ExploreCommand {
   std::optional<std::uint32_t> node;
   std::string device, eds;  ///< profile and description of the device
   std::uint64_t seed = 1;
-  std::string time;                     ///< how long; empty: as many actions, or ten seconds
-  std::optional<std::size_t> actions;   ///< how many
-  std::size_t most_findings = 20;       ///< after which the search ends
-  std::string write;                    ///< file for the findings as scenarios; empty: none
-  bool strict = false;                  ///< findings without a known rule are not passed over
-  bool quiet = false;                   ///< print only the summary
-  bool prove = false;     ///< against every defect and legal variant of the reference node, or `defects`
-  bool verbose = false;   ///< with prove: what was named instead
-  unsigned jobs = 0;      ///< with prove: threads; 0: the machine's cores
+  std::string time;                    ///< how long; empty: as many actions, or ten seconds
+  std::optional<std::size_t> actions;  ///< how many
+  std::size_t most_findings = 20;      ///< after which the search ends
+  std::string write;                   ///< file for the findings as scenarios; empty: none
+  bool strict = false;                 ///< findings without a known rule are not passed over
+  bool quiet = false;                  ///< print only the summary
+  bool prove = false;    ///< against every defect and legal variant of the reference node, or `defects`
+  bool verbose = false;  ///< with prove: what was named instead
+  unsigned jobs = 0;     ///< with prove: threads; 0: the machine's cores
 };
 /// 0: no violated requirement; 1: there is one; exit_environment: with `strict`, something else differs.
 [[nodiscard]] int explore_command(const ExploreCommand& options);

@@ -35,7 +35,8 @@ bool is_binding(const std::string& requirement, const scenario::Catalogue& catal
   return rule != nullptr && (rule->level == "mandatory" || rule->level == "conditional");
 }
 
-std::vector<std::string> canonical(std::span<const std::string_view> ids, const scenario::Catalogue& catalogue) {
+std::vector<std::string> canonical(std::span<const std::string_view> ids,
+                                   const scenario::Catalogue& catalogue) {
   std::vector<std::string> out;
   for (const auto id : ids) {
     if (const auto found = catalogue.canonical(id)) out.push_back(*found);
@@ -62,8 +63,8 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const device::Profil
     out.found = true;
     const auto rule = finding.assigned ? catalogue.canonical(finding.assigned->requirement) : std::nullopt;
     out.said.push_back(rule ? *rule
-                            : "? " + explore::describe(finding.conversation.back(), device->words.node) + " : " +
-                                  explore::came_text(finding, device->words) + " / " +
+                            : "? " + explore::describe(finding.conversation.back(), device->words.node) +
+                                  " : " + explore::came_text(finding, device->words) + " / " +
                                   explore::due_text(finding, device->words));
     if (!rule || std::ranges::find(violates, *rule) == violates.end()) return false;
     out.named = true;
@@ -83,7 +84,8 @@ Result<VariantFound> found_of(const refnode::Variant& variant, const device::Pro
   const NodeSwitches switches{.variants = out.variants};
   auto node = refnode::Node::create({.node_id = profile.node.value(), .variants = out.variants});
   if (!node) return std::unexpected(node.error());
-  auto device = explorable_of(profile_of_variants(profile, (*node)->dictionary(), out.variants), switches, {});
+  auto device =
+      explorable_of(profile_of_variants(profile, (*node)->dictionary(), out.variants), switches, {});
   if (!device) return std::unexpected(device.error());
   const auto warns = canonical(variant.warns, catalogue);
   explore::SearchOptions search;
@@ -127,7 +129,8 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
 
 std::string word_of(const explore::Finding& finding, const scenario::Catalogue& catalogue) {
   if (!finding.assigned) return "DIFF";
-  const bool fails = finding.is_violation() && !finding.is_flaky() && is_binding(finding.assigned->requirement, catalogue);
+  const bool fails =
+      finding.is_violation() && !finding.is_flaky() && is_binding(finding.assigned->requirement, catalogue);
   return fails ? "FAIL" : "WARN";
 }
 
@@ -172,14 +175,18 @@ std::string exploration_words(const ExploreProof& proof, bool verbose) {
     for (const auto& said : each.said) out += fmt::format("            {}\n", said);
   }
   for (const auto& each : proof.variants) {
-    for (const auto& line : each.blamed) out += fmt::format("blamed      {}: {}\n", each.variants.front(), line);
+    for (const auto& line : each.blamed)
+      out += fmt::format("blamed      {}: {}\n", each.variants.front(), line);
   }
   const auto share = [&](std::size_t part) {
-    return proof.defects.empty() ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(proof.defects.size());
+    return proof.defects.empty()
+               ? 0.0
+               : 100.0 * static_cast<double>(part) / static_cast<double>(proof.defects.size());
   };
-  out += fmt::format("exploration: {} of {} defects found ({:.1f} %), {} by a requirement they violate ({:.1f} %), median {} actions\n",
-                     proof.found(), proof.defects.size(), share(proof.found()), proof.named(), share(proof.named()),
-                     proof.median_length());
+  out += fmt::format(
+      "exploration: {} of {} defects found ({:.1f} %), {} by a requirement they violate ({:.1f} %), median {} actions\n",
+      proof.found(), proof.defects.size(), share(proof.found()), proof.named(), share(proof.named()),
+      proof.median_length());
   std::size_t episodes = 0;
   for (const auto& each : proof.variants) episodes += each.episodes;
   if (!proof.variants.empty())
@@ -192,7 +199,8 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
                                        const ExploreProofOptions& options) {
   std::vector<const refnode::Defect*> rows;
   for (const auto& row : refnode::defects()) {
-    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end()) rows.push_back(&row);
+    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
+      rows.push_back(&row);
   }
   std::vector<std::optional<Result<DefectFound>>> found(rows.size());
   in_parallel(rows.size(), options.jobs,

@@ -29,16 +29,17 @@ struct Explorable {
 struct FoundCounts {
   std::size_t fail = 0, warn = 0, open = 0;
 };
-[[nodiscard]] FoundCounts count_words(const explore::SearchResult& result, const scenario::Catalogue& catalogue);
+[[nodiscard]] FoundCounts count_words(const explore::SearchResult& result,
+                                      const scenario::Catalogue& catalogue);
 
 /// How the search fares against one defect, without any scenario.
 struct DefectFound {
   std::string id;
-  bool found = false;  ///< something was found
-  bool named = false;  ///< and one of the findings names a requirement that the defect violates
-  std::size_t actions = 0;           ///< until then, or in all
-  std::size_t shortest = 0;          ///< actions of the conversation that decided, 0: nothing was found
-  std::vector<std::string> said{};   ///< what the findings named
+  bool found = false;               ///< something was found
+  bool named = false;               ///< and one of the findings names a requirement that the defect violates
+  std::size_t actions = 0;          ///< until then, or in all
+  std::size_t shortest = 0;         ///< actions of the conversation that decided, 0: nothing was found
+  std::vector<std::string> said{};  ///< what the findings named
 };
 /// And against one set of legal variants.
 struct VariantFound {
@@ -62,7 +63,8 @@ struct ExploreProofOptions {
   std::size_t actions = 20'000;     ///< for each defect and each variant
   unsigned jobs = 0;
 };
-[[nodiscard]] Result<ExploreProof> prove_exploration(const device::Profile& profile, const scenario::Catalogue& catalogue,
+[[nodiscard]] Result<ExploreProof> prove_exploration(const device::Profile& profile,
+                                                     const scenario::Catalogue& catalogue,
                                                      const ExploreProofOptions& options);
 
 /// The shares, and what was missed and wrongly blamed; `verbose`: also what was named instead.

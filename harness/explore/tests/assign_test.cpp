@@ -65,13 +65,15 @@ TEST_CASE("an answer in Stopped violates the rule of Stopped, whatever it is abo
 }
 
 TEST_CASE("an object that the description does not tell of is no violation by itself") {
-  const auto found = judged({upload({Index(0x1F90), SubIndex(0)})}, confirmed({0}), aborted(canopen::abort::no_object));
+  const auto found =
+      judged({upload({Index(0x1F90), SubIndex(0)})}, confirmed({0}), aborted(canopen::abort::no_object));
   REQUIRE(found);
   CHECK(found->grade == Grade::tolerated);
 }
 
 TEST_CASE("what no rule knows has no name") {
-  CHECK(!judged({download({Index(0x1F90), SubIndex(0)}, {1})}, aborted(canopen::abort::general), confirmed()));
+  CHECK(
+      !judged({download({Index(0x1F90), SubIndex(0)}, {1})}, aborted(canopen::abort::general), confirmed()));
 }
 
 TEST_CASE("the phrase of a fault tells its rule") {

@@ -47,7 +47,8 @@ TEST_CASE("a device that is as its model shows no difference") {
 }
 
 TEST_CASE("the same seed finds the same") {
-  const auto one = search_for("nmt-broadcast-ignored", 4000, 3), other = search_for("nmt-broadcast-ignored", 4000, 3);
+  const auto one = search_for("nmt-broadcast-ignored", 4000, 3),
+             other = search_for("nmt-broadcast-ignored", 4000, 3);
   REQUIRE(one.findings.size() == other.findings.size());
   for (std::size_t i = 0; i < one.findings.size(); ++i)
     CHECK(one.findings[i].conversation == other.findings[i].conversation);
@@ -65,6 +66,7 @@ TEST_CASE("a defect is found without any scenario, in few actions, and its requi
     REQUIRE(!result.findings.empty());
     CHECK(result.findings.front().conversation.size() <= 6);
     CHECK(!result.findings.front().is_flaky());
+    CHECK(names(result, requirement));
   }
 }
 

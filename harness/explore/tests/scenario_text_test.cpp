@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explore/scenario_text.hpp"
 
-#include "catch.hpp"
 #include <chrono>
+#include "catch.hpp"
 
 #include "canopen/abort_code.hpp"
 #include "explore/tests/device.hpp"
@@ -13,7 +13,8 @@ using namespace std::chrono_literals;
 
 TEST_CASE("a finding becomes a scenario that ends with what the model answers") {
   Finding finding;
-  finding.conversation = {nmt(NodeId(5), 1), wait(20ms), download({Index(0x1017), SubIndex(0)}, {0xE8, 0x03, 0})};
+  finding.conversation = {nmt(NodeId(5), 1), wait(20ms),
+                          download({Index(0x1017), SubIndex(0)}, {0xE8, 0x03, 0})};
   finding.assigned = Assigned{"OD-LEN-02", Grade::violated};
   auto& difference = finding.played.difference.emplace();
   difference.action = 2;
@@ -22,22 +23,21 @@ TEST_CASE("a finding becomes a scenario that ends with what the model answers") 
   difference.model.code = canopen::abort::length_too_high;
   const auto words = words_of_the_standard();
   const auto text = scenario_file({&finding, 1}, words, "canopen-conform explore");
-  CHECK(text ==
-        "# Found by: canopen-conform explore\n"
-        "format: 1\n"
-        "title: Found by exploration\n"
-        "\n"
-        "scenarios:\n"
-        "  - id: finding-1\n"
-        "    title: \"confirmed instead of abort 0607 0012h (length too high)\"\n"
-        "    risk: motion\n"
-        "    steps:\n"
-        "      - nmt: start\n"
-        "      - wait: 20 ms\n"
-        "      - download: {object: 1017h:00, bytes: \"E8 03 00\"}\n"
-        "        checks: OD-LEN-02\n"
-        "        expect: abort 0607 0012h\n"
-        "        warn: [abort any]\n");
+  CHECK(text == "# Found by: canopen-conform explore\n"
+                "format: 1\n"
+                "title: Found by exploration\n"
+                "\n"
+                "scenarios:\n"
+                "  - id: finding-1\n"
+                "    title: \"confirmed instead of abort 0607 0012h (length too high)\"\n"
+                "    risk: motion\n"
+                "    steps:\n"
+                "      - nmt: start\n"
+                "      - wait: 20 ms\n"
+                "      - download: {object: 1017h:00, bytes: \"E8 03 00\"}\n"
+                "        checks: OD-LEN-02\n"
+                "        expect: abort 0607 0012h\n"
+                "        warn: [abort any]\n");
 }
 
 TEST_CASE("a frame that is missing is waited for from the last thing that was sent") {
@@ -49,8 +49,7 @@ TEST_CASE("a frame that is missing is waited for from the last thing that was se
   difference.action = 1;
   difference.due = can::data_frame(CanId(0x705), {std::uint8_t{5}});
   const auto text = scenario_file({&finding, 1}, words_of_the_standard(), "x");
-  CHECK(text.ends_with(
-      "      - nmt: start\n"
-      "      - frame: {id: 705h, within: 70 ms}\n"
-      "        checks: EC-HBP-01\n"));
+  CHECK(text.ends_with("      - nmt: start\n"
+                       "      - frame: {id: 705h, within: 70 ms}\n"
+                       "        checks: EC-HBP-01\n"));
 }

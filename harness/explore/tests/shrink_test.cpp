@@ -2,8 +2,8 @@
 #include "explore/shrink.hpp"
 
 #include <algorithm>
-#include "catch.hpp"
 #include <chrono>
+#include "catch.hpp"
 
 using namespace conform;
 using namespace conform::explore;
@@ -54,8 +54,7 @@ TEST_CASE("what stays is made plain: transfers, values and times") {
 
 TEST_CASE("no more conversations are played than allowed") {
   std::size_t played = 0;
-  const auto shrunk = shrink(
-      long_conversation(), [&](const Conversation&) { return ++played > 0; }, 5);
+  const auto shrunk = shrink(long_conversation(), [&](const Conversation&) { return ++played > 0; }, 5);
   CHECK(played == 5);
   CHECK(shrunk.tries == 5);
 }
