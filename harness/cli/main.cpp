@@ -2,61 +2,26 @@
 // Command line of canopen-conform.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/common_options.hpp"
 #include "cli/commands/eds_options.hpp"
-#include "cli/commands/explore_command.hpp"
+#include "cli/commands/explore_options.hpp"
+#include "cli/commands/run_options.hpp"
 #include "cli/run/command_line.hpp"
 #include "cli/run/guardian.hpp"
-#include "reports/formats.hpp"
+#include "cli/run/settings.hpp"
 
 namespace {
 
-void add_waivers(CLI::App& app, std::vector<std::string>& into) {
-  app.add_option("--waivers", into,
-                 "File of accepted failures; repeatable (default: waivers.yaml beside the device profile)")
-      ->allow_extra_args(false)
-      ->type_name("FILE");
-}
-
-/// Which cases of a run are played, and how often.
-void add_choice(CLI::App& app, conform::cli::Choice& into) {
-  app.add_option("--rerun-failed", into.rerun_failed,
-                 "Only the cases that failed or were left open in this run (result.json or journal)")
-      ->type_name("RESULT|JOURNAL");
-  auto* repeat =
-      app.add_option("--repeat", into.repeat,
-                     "Each case so many times: the worst counts, and how many ended like it is told")
-          ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}).description(""))
-          ->type_name("NUMBER");
-  app.add_flag("--until-fail", into.until_fail, "A case that has failed is not repeated any more")
-      ->needs(repeat);
-  app.add_flag("--fail-fast", into.fail_fast, "The first case that fails is the last one");
-  app.add_option("--shard", into.shard,
-                 "One of several parts of the run, to be played at the same time: 2/5 is the second of five")
-      ->type_name("K/N");
-}
-
-/// An option for each format of reports.
-void add_reports(CLI::App& app, conform::cli::Reports& into) {
-  for (const auto& format : conform::reports::formats()) {
-    const std::string name(format.name);
-    app.add_option("--" + name, into[name], std::string(format.summary))->type_name("FILE");
-  }
-}
-
-void add_bundle(CLI::App& app, std::string& file, std::string& key) {
-  auto* const bundle =
-      app.add_option(
-             "--bundle", file,
-             "Everything in one archive (.tar.zst) with a digest of each file: reports, capture, suites, profile, description")
-          ->type_name("FILE");
-  app.add_option("--sign", key, "Sign the bundle with this key (openssl genpkey -algorithm ed25519)")
-      ->needs(bundle)
-      ->type_name("KEY.pem");
+/// Nobody else runs yet.
+const char* environment(const std::string& name) {
+  return std::getenv(name.c_str());  // NOLINT(concurrency-mt-unsafe)
 }
 
 int dispatch(int argc, char** argv) {
@@ -69,98 +34,10 @@ int dispatch(int argc, char** argv) {
   app.set_version_flag("--version", "canopen-conform " CONFORM_VERSION, "Print the version");
   app.require_subcommand(1);
 
-  RunCommand run;
+  RunOptions run;
   auto* run_sub = app.add_subcommand(
       "run", "Run the suite against a device, or against the reference node in simulation");
-  run_sub->add_option("select", run.select, "Scenarios: ids or leading paths, * and ? allowed (default: all)")
-      ->type_name("ID");
-  run_sub->add_option("-i,--interface", run.interface, "CAN interface the device is on, for example can0")
-      ->type_name("NAME");
-  run_sub->add_flag("--simulate", run.simulate,
-                    "Run against the reference node on a simulated bus, without any device");
-  run_sub
-      ->add_option("--variant", run.variants,
-                   "Legal variant of the simulated node; repeatable (canopen-refnode --list-variants)")
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  run_sub
-      ->add_option("--defect", run.defects,
-                   "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  run_sub->add_option("-n,--node", run.node, "Node-ID of the device, 1 to 127")
-      ->check(CLI::Range(1, 127).description(""))
-      ->type_name("NODE-ID");
-  run_sub->add_option("-d,--device", run.device, "Device profile (YAML): claims, error triggers, tolerances")
-      ->type_name("FILE");
-  run_sub
-      ->add_option(
-          "--eds", run.eds,
-          "Description of the device (EDS, DCF, XDD, XDC): what it claims is expected; with --simulate the node is its twin")
-      ->type_name("FILE");
-  run_sub
-      ->add_option("-r,--requirement", run.requirements,
-                   "Only scenarios that decide this requirement (* allowed); repeatable")
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  run_sub->add_option("-x,--exclude", run.exclude, "Leave out these scenarios (* and ? allowed); repeatable")
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  run_sub
-      ->add_option(
-          "--allow", run.allow,
-          "Highest risk to take: read-only, config, nvm or motion (default: read-only on real interfaces, motion on virtual ones)")
-      ->type_name("RISK");
-  add_waivers(*run_sub, run.waivers);
-  add_reports(*run_sub, run.reports);
-  run_sub->add_option("--capture", run.capture, "Write all frames as pcapng, for Wireshark, while they come")
-      ->type_name("FILE");
-  run_sub
-      ->add_option(
-          "--captures", run.captures,
-          "Folder for one pcapng per cause, with the frames of its first case; earlier ones are removed")
-      ->type_name("FOLDER");
-  run_sub
-      ->add_option("--candump", run.candump,
-                   "Write all frames as candump log, for can-utils, while they come")
-      ->type_name("FILE");
-  add_bundle(*run_sub, run.bundle, run.sign);
-  run_sub
-      ->add_option(
-          "--journal", run.journal,
-          "Keep the journal here (default: ~/.local/state/canopen-conform, for each interface and node)")
-      ->type_name("FILE");
-  run_sub
-      ->add_option("--baseline", run.baseline,
-                   "Compare with this run (result.json or journal): only what is new makes the exit code 1")
-      ->type_name("RESULT|JOURNAL");
-  run_sub->add_flag("--dry-run", run.dry_run, "Only list what would run; send nothing");
-  run_sub->add_flag(
-      "--strict", run.strict,
-      "Every deviation from a recommended or optional rule fails, also one that is tolerated otherwise");
-  run_sub->add_flag("--all-objects", run.all_objects, "Try every object where a scenario would try a sample");
-  auto* cct = run_sub->add_flag(
-      "--cct", run.cct,
-      "Only what corresponds to the cases of CiA's tool, in its order, and what it would say");
-  run_sub
-      ->add_option("--shuffle", run.shuffle,
-                   "The cases in a random order, drawn by this seed: no verdict may depend on it")
-      ->type_name("NUMBER")
-      ->excludes(cct);
-  add_choice(*run_sub, run.choice);
-  run_sub->add_flag("--annotate", run.annotate, "Print the causes as annotations for GitHub Actions, too");
-  run_sub
-      ->add_option(
-          "--wait-for-bus", run.wait_for_bus,
-          "How long to wait for a bus that goes away in the middle of the run, before giving up (default 10 s)")
-      ->type_name("TIME");
-  run_sub->add_flag("--slow", run.slow, "Also what takes minutes on a real bus (always in simulation)");
-  run_sub->add_option("--seed", run.seed, "Seed of samples and of the simulation (default 1)")
-      ->type_name("NUMBER");
-  run_sub->add_flag("-q,--quiet", run.quiet, "Print only what did not pass, and the summary");
-  run_sub->add_option("--color", run.color, "Colours: auto, always or never")
-      ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
-      ->type_name("WHEN");
+  run.add_to(*run_sub);
 
   ReportCommand report;
   auto* report_sub =
@@ -486,52 +363,7 @@ int dispatch(int argc, char** argv) {
 
   SelftestCommand selftest;
   ExploreCommand explore;
-  auto* explore_sub = app.add_subcommand(
-      "explore",
-      "Look for what no scenario asks for: random conversations, held against a conformant model; in simulation only");
-  explore_sub->add_flag("--simulate", explore.simulate, "Explore the reference node on a simulated bus");
-  explore_sub
-      ->add_option("--defect", explore.defects,
-                   "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  explore_sub
-      ->add_option(
-          "--variant", explore.variants,
-          "Legal variant of the simulated node, and of its model; repeatable (canopen-refnode --list-variants)")
-      ->allow_extra_args(false)
-      ->type_name("ID");
-  explore_sub->add_option("-n,--node", explore.node, "Node-ID of the device, 1 to 127")
-      ->check(CLI::Range(1, 127).description(""))
-      ->type_name("NODE-ID");
-  explore_sub->add_option("-d,--device", explore.device, "Device profile (YAML): claims, error triggers")
-      ->type_name("FILE");
-  explore_sub->add_option("--eds", explore.eds, "Description of the device: node and model are its twins")
-      ->type_name("FILE");
-  explore_sub->add_option("--seed", explore.seed, "Seed of the conversations (default 1)")
-      ->type_name("NUMBER");
-  explore_sub->add_option("--for", explore.time, "End after this time, 10s or 2 min (default 10s)")
-      ->type_name("TIME");
-  explore_sub
-      ->add_option("--actions", explore.actions,
-                   "End after so many actions: the same on every machine, also with what --for would cut off")
-      ->type_name("NUMBER");
-  explore_sub->add_option("--findings", explore.most_findings, "End after so many findings (default 20)")
-      ->type_name("NUMBER");
-  explore_sub->add_option("--write", explore.write, "Write the findings as scenarios")->type_name("FILE");
-  explore_sub->add_flag("--strict", explore.strict,
-                        "Exit with 3 for what is tolerated or has no known rule, too");
-  explore_sub->add_flag("-q,--quiet", explore.quiet, "Print only the summary");
-  auto* prove =
-      explore_sub->add_flag("--prove", explore.prove,
-                            "What is found of each defect of the reference node (or those of --defect), and "
-                            "whether legal variants are blamed; --actions for each (default 20000)");
-  explore_sub->add_flag("-v,--verbose", explore.verbose, "With --prove: what was named instead")
-      ->needs(prove);
-  explore_sub->add_option("-j,--jobs", explore.jobs, "With --prove: threads (default: the machine's cores)")
-      ->check(CLI::Range(1, 256))
-      ->needs(prove)
-      ->type_name("NUMBER");
+  auto* explore_sub = add_explore(app, explore);
 
   auto* selftest_sub =
       app.add_subcommand("selftest", "Prove the suite: every defect of the reference node must be caught");
@@ -606,23 +438,30 @@ int dispatch(int argc, char** argv) {
   bench_sub->add_option("--bytes", bench.bytes)->check(CLI::Range(10, 1 << 20));
 
   std::vector<std::string> suites;
-  for (auto* sub : {run_sub, judge_sub, lint_sub, list_sub, explain_sub, explore_sub, selftest_sub}) {
+  for (auto* sub : {judge_sub, lint_sub, list_sub, explain_sub, explore_sub, selftest_sub}) {
     sub->add_option(
            "--suites", suites,
            "Folder of own scenarios and requirements, beside those that came with the program; repeatable")
         ->allow_extra_args(false)
         ->type_name("FOLDER");
   }
+  const auto line = merge_settings(std::span(argv, static_cast<std::size_t>(argc)), environment);
+  std::vector<const char*> words;
+  for (const auto& word : line.words) words.push_back(word.c_str());
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(words.size()), words.data());
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : exit_usage;
+    if (app.exit(error) == 0) return 0;
+    std::fputs(origins_in(error.what(), line).c_str(), stderr);
+    return exit_usage;
   }
-  run.suites = judge.suites = lint.suites = list.suites = explain.suites = explore.suites = selftest.suites =
-      suites;
-  run.command = judge.command = shell_line(std::span(argv, static_cast<std::size_t>(argc)));
+  judge.suites = lint.suites = list.suites = explain.suites = explore.suites = selftest.suites = suites;
+  judge.command = shell_line(std::span(argv, static_cast<std::size_t>(argc)));
   if (guard_sub->parsed()) return guard_command(guarded);
-  if (run_sub->parsed()) return run_command(run);
+  if (run_sub->parsed()) {
+    run.command.command = shell_line(line.told);
+    return run.run(line);
+  }
   if (report_sub->parsed()) return report_command(report);
   if (verify_sub->parsed()) return verify_command(verify);
   if (waive_sub->parsed()) return waive_command(waive);

@@ -8,6 +8,7 @@
 #include "canopen/lss.hpp"
 #include "device/profile.hpp"
 #include "device/profile_fields.hpp"
+#include "device/run_settings.hpp"
 #include "device/standard_objects.hpp"
 #include "yaml/fields.hpp"
 
@@ -146,6 +147,8 @@ class Reader {
     read_identity();
     read_device_info();
     profile_.waivers = read_waivers(fields_.optional("known_deviations"));
+    // The command line reads it for itself, before there is a profile; here only its mistakes count.
+    static_cast<void>(read_run_settings(fields_.optional("run")));
     fields_.finish();
     return std::move(profile_);
   }

@@ -22,6 +22,10 @@ bool says_where(std::string_view word) {
 }  // namespace
 
 std::string shell_line(std::span<char* const> arguments) {
+  return shell_line(std::vector<std::string>(arguments.begin(), arguments.end()));
+}
+
+std::string shell_line(const std::vector<std::string>& arguments) {
   std::string out;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const std::string_view word = arguments[i];

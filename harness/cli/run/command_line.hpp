@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace conform::cli {
 
@@ -11,6 +12,7 @@ namespace conform::cli {
 /// --bundle,
 /// --journal ...): who does it again wants no report written over, and two runs that differ in nothing else
 /// are the same run.
+[[nodiscard]] std::string shell_line(const std::vector<std::string>& arguments);
 [[nodiscard]] std::string shell_line(std::span<char* const> arguments);
 
 }  // namespace conform::cli

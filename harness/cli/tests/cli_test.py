@@ -74,6 +74,27 @@ class CommandLine(unittest.TestCase):
         shown = run("init", "--simulate", "-o", "-", "--range", "1000h..1000h")
         self.assertTrue(shown.stdout.startswith("# Device profile"))
 
+    def test_options_come_from_profile_and_environment_and_say_so(self):
+        folder = self.path("bench")
+        os.makedirs(folder)
+        with open(f"{folder}/device.yaml", "w", encoding="utf-8") as file:
+            file.write("format: 1\nname: x\nnode: 5\nrun:\n  simulate: true\n  select: cia301/sdo/upload\n  junit: j.xml\n")
+        here = {"cwd": folder, "capture_output": True, "text": True}
+        done = subprocess.run([PROGRAM, "run"], **here)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("device.yaml, found in this folder", done.stderr)
+        self.assertTrue(os.path.exists(f"{folder}/j.xml"))
+        shown = subprocess.run([PROGRAM, "run", "--show-config", "--allow", "config"], **here,
+                               env=os.environ | {"CANOPEN_CONFORM_SEED": "7", "CANOPEN_CONFORM_ALLOW": "nvm"})
+        self.assertEqual(shown.returncode, 0)
+        rows = {line.split()[0]: line.split(maxsplit=2)[1:] for line in shown.stdout.splitlines()}
+        self.assertEqual(rows["seed"], ["7", "CANOPEN_CONFORM_SEED"])
+        self.assertEqual(rows["allow"], ["config", "command line"])
+        self.assertEqual(rows["simulate"], ["true", "device.yaml:5"])
+        wrong = subprocess.run([PROGRAM, "run"], **here, env=os.environ | {"CANOPEN_CONFORM_STRICT": "maybe"})
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("--strict comes from CANOPEN_CONFORM_STRICT", wrong.stderr)
+
     def test_what_failed_is_run_again_alone_and_nothing_when_nothing_failed(self):
         first = run("run", "--simulate", "--defect", "1003-nonzero-write-accepted", "--json", self.path("r.json"),
                     "cia301/dictionary*")

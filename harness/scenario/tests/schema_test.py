@@ -206,6 +206,8 @@ class Documents(unittest.TestCase):
         read = set(re.findall(r'(?:required|optional|has|read_entries|number)\("([a-z_]+)"\)', reader))
         read |= set(re.findall(r'exactly_one_of\(\{"([a-z_]+)"', reader))
         read |= set(re.findall(r'\{"([a-z_]+)", "T_[A-Z]+"', table))
+        options = (ROOT / "harness/device/run_settings.cpp").read_text(encoding="utf-8")
+        read |= set(re.findall(r'\{"([a-z-]+)", Kind::', options))
         waivers = json.loads((SUITES / "schema/waivers.schema.json").read_text(encoding="utf-8"))
         self.assertEqual(read, keys_of(device) | {"waivers"})
         self.assertEqual(waivers["properties"]["waivers"]["items"], device["properties"]["known_deviations"]["items"])
