@@ -51,6 +51,8 @@ bool is_list(const CLI::Option& option) { return option.get_items_expected_max()
 
 /// "all-objects" -> "CANOPEN_CONFORM_ALL_OBJECTS"
 std::string variable_of(std::string_view option) {
+  // CANOPEN_CONFORM_SUITES is where the suites of the program are.
+  if (option == "suites") return "CANOPEN_CONFORM_OWN_SUITES";
   std::string out = "CANOPEN_CONFORM_";
   for (const char c : option)
     out += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));

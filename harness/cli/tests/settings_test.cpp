@@ -115,6 +115,11 @@ TEST_CASE("options that need each other may come from different places") {
   const auto select =
       parsed(merge({{"run", "--simulate"}, {{"CANOPEN_CONFORM_SELECT", "cia301/sdo,cia305"}}}));
   CHECK(select.select == Words{"cia301/sdo", "cia305"});
+  // Where the program's own suites are is said by a variable that is no option.
+  const auto own =
+      parsed(merge({{"run", "--simulate"},
+                    {{"CANOPEN_CONFORM_SUITES", "shipped"}, {"CANOPEN_CONFORM_OWN_SUITES", "mine"}}}));
+  CHECK(own.suites == Words{"mine"});
 }
 
 TEST_CASE("a mistake is told with the place it comes from") {
