@@ -60,11 +60,11 @@ TEST_CASE("a defect is found without any scenario, in few actions, and its requi
   const std::pair<const char*, const char*> defects[] = {
       {"sdo-served-in-stopped", "SDO-GEN-15"},
       {"nmt-start-ignored", "NMT-FSA-01"},
-      {"unknown-ccs-silent", "SDO-ERR-01"},
+      {"unknown-ccs-silent", "SDO-ERR-02"},
   };
   for (const auto& [defect, requirement] : defects) {
     INFO(defect);
-    const auto result = search_for(defect, 4000);
+    const auto result = search_for(defect, 20'000);
     REQUIRE(!result.findings.empty());
     CHECK(result.findings.front().conversation.size() <= 6);
     CHECK(!result.findings.front().is_flaky());
