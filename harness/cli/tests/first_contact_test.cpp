@@ -189,14 +189,16 @@ TEST_CASE("a name that YAML would take for something else is kept") {
 
 TEST_CASE("a run with the profile of a first look holds nothing against a right device") {
   for (const auto allow : {steps::Tier::read_only, steps::Tier::config}) CHECK(complaints({}, allow) == "");
+  // Every fifth: one out of each group of like ones, and quick enough for CTest.
+  constexpr std::size_t stride = 5;
   const auto rows = refnode::variants();
-  std::vector<std::string> wrong(rows.size());
-  in_parallel(rows.size(), 0, [&](std::size_t i) {
-    wrong[i] =
-        complaints({std::string(rows[i].id)}, i % 2 == 0 ? steps::Tier::read_only : steps::Tier::config);
+  std::vector<std::string> wrong(rows.size() / stride);
+  in_parallel(wrong.size(), 0, [&](std::size_t i) {
+    wrong[i] = complaints({std::string(rows[i * stride].id)},
+                          i % 2 == 0 ? steps::Tier::read_only : steps::Tier::config);
   });
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    INFO(rows[i].id);
+  for (std::size_t i = 0; i < wrong.size(); ++i) {
+    INFO(rows[i * stride].id);
     if (!wrong[i].empty()) FAIL_CHECK(wrong[i]);
   }
 }
