@@ -48,9 +48,10 @@ class Run {
 
   result::RunResult execute(can::Capture& capture) {
     const auto& profile = run_.profile;
-    out_.device = profile.name.empty() ? "node " + std::to_string(profile.node.value()) : profile.name;
     const auto begin = run_.recorder.now();
     auto ready = prepare();
+    for (int i = 0; !ready && i < most_outages_before_a_case && come_back_after_fault({}); ++i)
+      ready = prepare();
     make_plan();
     run_.recorder.observer().planned(out_);
     if (!ready) {
@@ -90,6 +91,8 @@ class Run {
   // ------------------------------------------------------------------------------------------
 
   Result<void> prepare() {
+    out_.device =
+        run_.profile.name.empty() ? "node " + std::to_string(run_.profile.node.value()) : run_.profile.name;
     auto liveness = probe(run_.session, life_.means());
     if (!liveness) return std::unexpected(liveness.error());
     alive_ = liveness->alive;

@@ -2,6 +2,7 @@
 // What all phases of a run share: what was asked for, the device, the bus, and the result so far.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -54,8 +55,10 @@ struct RunContext {
   std::optional<Reset> latest_reset;
 
   [[nodiscard]] bool may(scenario::Risk risk) const { return risk <= options.plan.allowed; }
-  /// For the summary.
-  void note(std::string text) { out.notes.push_back(std::move(text)); }
+  /// For the summary, which says a thing once.
+  void note(std::string text) {
+    if (std::ranges::find(out.notes, text) == out.notes.end()) out.notes.push_back(std::move(text));
+  }
 };
 
 /// An upload that brought its data, or a download that was taken.

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A bus that goes away and comes back, on a real AF_CAN socket. Usage: live_outage_test.py BIN_FOLDER SUITES; the interface
-is $CONFORM_TEST_CAN, which must be ours to switch off and delete. Seconds of switching: $CONFORM_OUTAGE_SECONDS (12); deleted
-and made anew: $CONFORM_OUTAGE_DELETIONS (10) times."""
+is $CONFORM_TEST_CAN, which must be ours to switch off and delete. Seconds of switching: $CONFORM_OUTAGE_SECONDS (8); deleted
+and made anew: $CONFORM_OUTAGE_DELETIONS (6) times."""
 import collections
 import os
 import subprocess
@@ -12,10 +12,10 @@ import unittest
 
 from live_device import INTERFACE, Node, command, verdicts
 
-SECONDS = int(os.environ.get("CONFORM_OUTAGE_SECONDS", "12"))
-DELETIONS = int(os.environ.get("CONFORM_OUTAGE_DELETIONS", "10"))
+SECONDS = int(os.environ.get("CONFORM_OUTAGE_SECONDS", "8"))
+DELETIONS = int(os.environ.get("CONFORM_OUTAGE_DELETIONS", "6"))
 # Long enough to be still running, in a mixture of short and of long cases.
-CASES = ["cia301/sdo", "cia301/heartbeat", "cia301/emergency", "cia301/nmt", "cia301/pdo"]
+CASES = ["cia301/sdo/segmented*", "cia301/sdo/upload*"] if SECONDS < 30 else ["cia301/sdo", "cia301/heartbeat", "cia301/nmt", "cia301/pdo"]
 
 
 def ip(*arguments):
@@ -49,11 +49,16 @@ class Outages(unittest.TestCase):
             make_anew()
         ip("link", "set", INTERFACE, "up")
 
-    def begin(self):
-        process = subprocess.Popen(command(*CASES, "--junit", self.junit), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(2)
-        self.assertIsNone(process.poll(), "the run has ended before the bus went away")
-        return process
+    def begin(self, *arguments):
+        """Under way when its console shows the third verdict."""
+        process = subprocess.Popen(command(*CASES, *arguments, "--junit", self.junit), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+        seen = 0
+        for line in process.stdout:
+            seen += line.startswith("pass ")
+            if seen == 3:
+                return process
+        self.fail("the run has ended before the bus went away")
 
     def ends_well(self, process, outages):
         """Only what met an outage is an error; nothing failed and everything was judged."""
@@ -61,9 +66,9 @@ class Outages(unittest.TestCase):
         self.assertEqual(process.returncode, 3, console[-3000:] + complaint)
         counts = collections.Counter(verdict for verdict, _ in verdicts(self.junit).values())
         self.assertEqual(counts["fail"], 0, console[-3000:])
-        self.assertGreater(counts["pass"], 100, console[-3000:])
-        self.assertGreater(counts["error"], 0, console[-3000:])
-        self.assertLessEqual(counts["error"], outages, console[-3000:])
+        self.assertGreater(counts["pass"], 20, console[-3000:])
+        self.assertGreater(counts["environment"], 0, f"{counts}\n{console[-3000:]}")
+        self.assertLessEqual(counts["environment"], outages, console[-3000:])
         self.assertNotIn("not put back", console)
         self.assertNotIn("the run stopped", console)
         return counts
@@ -100,9 +105,7 @@ class Outages(unittest.TestCase):
 
     def test_a_bus_that_stays_away_ends_the_run_in_good_order(self):
         with Node():
-            process = subprocess.Popen(command(*CASES, "--wait-for-bus", "2 s", "--junit", self.junit), stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE, text=True)
-            time.sleep(2)
+            process = self.begin("--wait-for-bus", "2 s")
             ip("link", "set", INTERFACE, "down")
             began = time.monotonic()
             console, complaint = process.communicate(timeout=60)

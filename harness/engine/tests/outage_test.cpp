@@ -178,6 +178,18 @@ TEST_CASE("an outage before a case takes nothing from it") {
   CHECK(told(out, "the bus was away once"));
 }
 
+TEST_CASE("an outage in the preparation of a run is waited for, and the preparation begins anew") {
+  Bench bench;
+  int uploads = 0;
+  bench.transport.when = [&uploads](const can::Frame& frame) {
+    return frame.id == 0x601 && frame.data[0] == 0x40 && ++uploads == 20;
+  };
+  const auto out = bench.play();
+  CHECK_FALSE(out.run.aborted.has_value());
+  for (const auto i : {0U, 1U, 2U}) CHECK(out.run.cases[i].verdict == Verdict::pass);
+  CHECK(told(out, "the bus was away once"));
+}
+
 TEST_CASE("a bus that stays away longer than the user waits ends the run, and no case is judged by it") {
   Bench bench;
   bench.transport.when = behind_the_write_of_b();
