@@ -27,6 +27,7 @@ bool Outage::is_over() {
   auto since = recorder.now();
   const auto deadline = since + run_.options.bus_patience;
   recorder.stop_producing("");
+  const bool was_stopped = run_.session.is_stopped();
   bool back = false;
   // The link may go down again while the device is asked.
   while (!back && is_one() && bus_is_back(deadline)) {
@@ -37,7 +38,7 @@ bool Outage::is_over() {
     // Nobody knows what it went through meanwhile.
     run_.session.device_restarted();
     run_.session.sdo_channel_dirty();
-    back = device_answers();
+    back = device_answers(was_stopped);
     if (!back && !recorder.fault())
       recorder.set_fault({"the bus was away, and nothing was heard of the device since it is back", {}, {}});
     ++count_;
@@ -61,8 +62,12 @@ bool Outage::bus_is_back(BusTime deadline) {
   return false;
 }
 
-/// Or was never heard to do so: that is for the scenarios.
-bool Outage::device_answers() {
+/// Or is heard at least: what else it owes is for the scenarios. In Stopped it answers nothing, and the time
+/// that the questions take may be longer than the bus stays.
+bool Outage::device_answers(bool was_stopped) {
+  if (was_stopped && run_.may(scenario::Risk::config) &&
+      !run_.session.command(canopen::NmtCommand::pre_operational))
+    return false;
   auto revival = look_for_life(run_.session, life_.means());
   run_.session.clear_silence_seen();
   return revival && revival->life != Alive::gone;

@@ -23,7 +23,7 @@ class Outage {
 
  private:
   [[nodiscard]] bool bus_is_back(BusTime deadline);
-  [[nodiscard]] bool device_answers();
+  [[nodiscard]] bool device_answers(bool was_stopped);
 
   RunContext& run_;
   Life& life_;

@@ -190,6 +190,29 @@ TEST_CASE("an outage in the preparation of a run is waited for, and the preparat
   CHECK(told(out, "the bus was away once"));
 }
 
+TEST_CASE("a device that was stopped when the bus went away is not asked in vain") {
+  Bench bench;
+  bool stopped = false;
+  bench.device.before = [&stopped](ScriptedDevice&, const can::Frame&, BusTime) { return stopped; };
+  bench.transport.when = [&](const can::Frame& frame) {
+    if (frame.id == 0) stopped = frame.data[0] == 0x02;
+    return stopped && frame.id == 0x601;
+  };
+  const auto out = bench.play(R"(
+  - id: stops
+    title: t
+    risk: config
+    steps:
+      - nmt: stop
+      - upload: {object: 1018h:01}
+        checks: T-MUST
+)" + std::string(three_cases));
+  CHECK_FALSE(out.run.aborted.has_value());
+  CHECK(out.run.cases[0].verdict == Verdict::error);
+  for (const auto i : {1U, 2U, 3U}) CHECK(out.run.cases[i].verdict == Verdict::pass);
+  CHECK(out.run.elapsed < 5s);
+}
+
 TEST_CASE("a bus that stays away longer than the user waits ends the run, and no case is judged by it") {
   Bench bench;
   bench.transport.when = behind_the_write_of_b();
