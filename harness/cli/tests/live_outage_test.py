@@ -85,7 +85,7 @@ class Outages(unittest.TestCase):
                 outages += 1
                 time.sleep(0.7)
             counts = self.ends_well(process, outages)
-        print(f"\n  {outages} outages of 0.3 s: {counts['pass']} cases passed, {counts['error']} errors, on {INTERFACE}, an AF_CAN "
+        print(f"\n  {outages} outages of 0.3 s: {counts['pass']} cases passed, {counts['environment']} errors, on {INTERFACE}, an AF_CAN "
               "socket", flush=True)
 
     def test_an_interface_that_is_deleted_and_made_anew_is_used_again(self):
@@ -100,7 +100,7 @@ class Outages(unittest.TestCase):
             grown = resident(process) - before if process.poll() is None else 0
             counts = self.ends_well(process, outages)
         self.assertLess(grown, 100_000, "kB")
-        print(f"\n  deleted and made anew {outages} times: {counts['pass']} cases passed, {counts['error']} errors, {grown} kB more "
+        print(f"\n  deleted and made anew {outages} times: {counts['pass']} cases passed, {counts['environment']} errors, {grown} kB more "
               f"memory, on {INTERFACE}, an AF_CAN socket", flush=True)
 
     def test_a_bus_that_stays_away_ends_the_run_in_good_order(self):
