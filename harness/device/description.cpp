@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "device/described_value.hpp"
+#include "device/feature_objects.hpp"
 #include "device/standard_objects.hpp"
 #include "eds/expand.hpp"
 
@@ -16,30 +17,6 @@ namespace {
 using canopen::DataType;
 
 constexpr std::uint16_t first_of_device = 0x2000;  // below are the objects of CiA 301 and 302
-
-/// Which objects show that the device has a feature. Features that an object alone does not prove
-/// (whether block transfers are offered) are not claimed; of some the default tells, see claim_features().
-struct ShownBy {
-  std::string_view feature;
-  std::uint16_t first, last;
-};
-constexpr ShownBy shown_by[] = {
-    {"emcy", 0x1014, 0x1014},
-    {"emcy consumer", 0x1028, 0x1028},
-    {"error behaviour", 0x1029, 0x1029},
-    {"heartbeat producer", 0x1017, 0x1017},
-    {"heartbeat consumer", 0x1016, 0x1016},
-    {"life guarding", 0x100D, 0x100D},
-    {"sync counter", 0x1019, 0x1019},
-    {"rpdo", 0x1400, 0x15FF},
-    {"tpdo", 0x1800, 0x19FF},
-    {"store", 0x1010, 0x1010},
-    {"restore", 0x1011, 0x1011},
-    {"additional sdo servers", 0x1201, 0x127F},
-    {"sdo client", 0x1280, 0x12FF},
-    {"modular device", 0x1027, 0x1027},
-    {"program download", 0x1F50, 0x1F50},
-};
 
 std::optional<ObjectCode> code_of(eds::ObjectCode code) {
   switch (code) {
@@ -193,8 +170,8 @@ class Describer {
   void claim_features() {
     for (const auto& entry : out_.entries) {
       const auto index = entry.mux.index.value();
-      for (const auto& row : shown_by) {
-        if (index >= row.first && index <= row.last) out_.claims.emplace(row.feature);
+      for (const auto& row : features_of_objects()) {
+        if (row.holds(index)) out_.claims.emplace(row.feature);
       }
       const bool mapping = (index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF);
       if (mapping && entry.writable()) out_.claims.emplace("variable mapping");

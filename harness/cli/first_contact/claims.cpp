@@ -6,31 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/text.hpp"
+#include "device/feature_objects.hpp"
 
 namespace conform::cli {
 namespace {
-
-/// Objects that alone show a feature (CiA 301, 7.5.2).
-struct ShownBy {
-  std::string_view feature;
-  std::uint16_t first, last;
-};
-constexpr ShownBy shown_by[] = {
-    {"emcy", 0x1014, 0x1014},
-    {"emcy consumer", 0x1028, 0x1028},
-    {"error behaviour", 0x1029, 0x1029},
-    {"heartbeat producer", 0x1017, 0x1017},
-    {"heartbeat consumer", 0x1016, 0x1016},
-    {"sync counter", 0x1019, 0x1019},
-    {"rpdo", 0x1400, 0x15FF},
-    {"tpdo", 0x1800, 0x19FF},
-    {"store", 0x1010, 0x1010},
-    {"restore", 0x1011, 0x1011},
-    {"additional sdo servers", 0x1201, 0x127F},
-    {"sdo client", 0x1280, 0x12FF},
-    {"modular device", 0x1027, 0x1027},
-    {"program download", 0x1F50, 0x1F50},
-};
 
 constexpr std::uint64_t bit30 = std::uint64_t{1} << 30U, bit31 = std::uint64_t{1} << 31U;
 constexpr std::size_t expedited = 4;  ///< bytes of the longest value in one frame
@@ -52,9 +31,10 @@ class Claims {
   void open(std::string_view feature, std::string why) { out_.open.push_back({feature, std::move(why)}); }
 
   void by_objects() {
-    for (const auto& row : shown_by) {
+    for (const auto& row : device::features_of_objects()) {
+      if (row.feature == "life guarding") continue;  // its values tell more, see below
       const auto found = std::ranges::find_if(device_.objects, [&](const engine::ScannedObject& object) {
-        return object.index.value() >= row.first && object.index.value() <= row.last;
+        return row.holds(object.index.value());
       });
       if (found != device_.objects.end()) shown(row.feature, to_string(found->index) + " is there");
     }
