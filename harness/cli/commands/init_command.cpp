@@ -96,10 +96,7 @@ void tell(const Acquaintance& device, const InitCommand& options, bool reset) {
 }  // namespace
 
 int init_command(const InitCommand& options) {
-  if (options.simulate == !options.interface.empty())
-    return report_error(
-        {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
-        exit_usage);
+  if (options.simulate == !options.interface.empty()) return report_error(no_device_named(), exit_usage);
   const bool to_stdout = options.output == "-";
   std::error_code ignored;
   if (!to_stdout && !options.force && std::filesystem::exists(options.output, ignored))

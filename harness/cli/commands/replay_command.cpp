@@ -89,10 +89,7 @@ std::optional<NodeId> node_spoken_to(Frames frames, const Section& section) {
 }
 
 std::optional<Error> mistake_in(const ReplayCommand& options) {
-  if (options.simulate == !options.interface.empty()) {
-    return Error{
-        "say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"};
-  }
+  if (options.simulate == !options.interface.empty()) return no_device_named();
   if (options.case_name.empty() == options.frames.empty())
     return Error{"say what is to be sent", {}, "--case ID as in the report, or --frames FIRST-LAST"};
   if (!options.simulate && !(options.defects.empty() && options.variants.empty()))

@@ -139,9 +139,7 @@ int run(const RunCommand& options, RunReports& reports) {
     return report_error(error, code);
   };
   if (options.simulate == !options.interface.empty() && (options.simulate || options.device.empty())) {
-    return refuse(
-        {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
-        exit_usage);
+    return refuse(no_device_named(), exit_usage);
   }
   for (const auto& [option, ids] :
        {std::pair{"--defect", &options.defects}, {"--variant", &options.variants}}) {

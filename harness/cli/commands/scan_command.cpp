@@ -84,10 +84,7 @@ Result<std::unique_ptr<refnode::Node>> simulated_node(const std::string& twin, N
 }  // namespace
 
 int scan_command(const ScanCommand& options) {
-  if (options.simulate == !options.interface.empty())
-    return report_error(
-        {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"},
-        exit_usage);
+  if (options.simulate == !options.interface.empty()) return report_error(no_device_named(), exit_usage);
   if (!options.node && !options.simulate)
     return report_error({"the node-ID of the device is missing", {}, "--node 1..127"}, exit_usage);
   engine::ScanOptions what;

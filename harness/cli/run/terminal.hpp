@@ -30,6 +30,11 @@ inline std::size_t terminal_width() {
   return 100;
 }
 
+/// Neither of the two, or both.
+inline Error no_device_named() {
+  return {"say where the device is", {}, "--interface can0 for a device, --simulate for the reference node"};
+}
+
 inline int report_error(const Error& error, int code) {
   std::string text = error.where.empty() ? "" : printable(error.where) + ": ";
   text += printable(error.what, true);
