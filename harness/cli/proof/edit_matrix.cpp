@@ -51,13 +51,11 @@ Result<EditMatrix> edit_matrix(const device::Profile& profile, const scenario::S
   if (!only.empty())
     std::erase_if(edits, [&](const auto& edit) { return std::ranges::find(only, edit.id()) == only.end(); });
   const Bench bench{profile, suite, catalogue, seed, good};
-  std::vector<std::optional<Result<EditVerdict>>> verdicts(edits.size());
-  in_parallel(edits.size(), jobs, [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, edits[i])); });
+  auto verdicts =
+      all_in_parallel(edits.size(), jobs, [&](std::size_t i) { return verdict_of(bench, edits[i]); });
+  if (!verdicts) return std::unexpected(verdicts.error());
   EditMatrix out;
-  for (auto& verdict : verdicts) {
-    if (!*verdict) return std::unexpected(verdict->error());
-    out.edits.push_back(std::move(**verdict));
-  }
+  out.edits = std::move(*verdicts);
   return out;
 }
 

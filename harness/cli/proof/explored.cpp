@@ -202,23 +202,16 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
     if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
       rows.push_back(&row);
   }
-  std::vector<std::optional<Result<DefectFound>>> found(rows.size());
-  in_parallel(rows.size(), options.jobs,
-              [&](std::size_t i) { found[i].emplace(found_of(*rows[i], profile, catalogue, options)); });
+  auto found = all_in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
+    return found_of(*rows[i], profile, catalogue, options);
+  });
+  if (!found) return std::unexpected(found.error());
   const auto variants = options.only.empty() ? refnode::variants() : std::span<const refnode::Variant>();
-  std::vector<std::optional<Result<VariantFound>>> legal(variants.size());
-  in_parallel(variants.size(), options.jobs,
-              [&](std::size_t i) { legal[i].emplace(found_of(variants[i], profile, catalogue, options)); });
-  ExploreProof out;
-  for (auto& each : found) {
-    if (!*each) return std::unexpected(each->error());
-    out.defects.push_back(std::move(**each));
-  }
-  for (auto& each : legal) {
-    if (!*each) return std::unexpected(each->error());
-    out.variants.push_back(std::move(**each));
-  }
-  return out;
+  auto legal = all_in_parallel(variants.size(), options.jobs, [&](std::size_t i) {
+    return found_of(variants[i], profile, catalogue, options);
+  });
+  if (!legal) return std::unexpected(legal.error());
+  return ExploreProof{std::move(*found), std::move(*legal)};
 }
 
 }  // namespace conform::cli

@@ -216,29 +216,20 @@ Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::S
   const Bench bench{profile, suite, catalogue, options.seed, good};
   const auto rows = chosen_rows(options.only);
   // Every run has a node, a bus and a clock of its own, and its result does not depend on the others.
-  std::vector<std::optional<Result<DefectVerdict>>> verdicts(rows.size());
-  in_parallel(rows.size(), options.jobs,
-              [&](std::size_t i) { verdicts[i].emplace(verdict_of(bench, *rows[i], options.whole)); });
-  std::vector<std::optional<Result<Blame>>> blames(options.blame ? rows.size() : 0);
-  in_parallel(blames.size(), options.jobs, [&](std::size_t i) {
-    blames[i].emplace(*verdicts[i] ? blame_of(**verdicts[i], bench, options.known) : Blame{});
+  auto verdicts = all_in_parallel(rows.size(), options.jobs,
+                                  [&](std::size_t i) { return verdict_of(bench, *rows[i], options.whole); });
+  if (!verdicts) return std::unexpected(verdicts.error());
+  out.defects = std::move(*verdicts);
+  auto blames = all_in_parallel(options.blame ? rows.size() : 0, options.jobs, [&](std::size_t i) {
+    return blame_of(out.defects[i], bench, options.known);
   });
-  for (auto& blame : blames) {
-    if (!*blame) return std::unexpected(blame->error());
-    out.blames.push_back(std::move(**blame));
-  }
+  if (!blames) return std::unexpected(blames.error());
+  out.blames = std::move(*blames);
   const auto pairs = pairs_of(out.blames, options.pairs, options.seed);
-  std::vector<std::optional<Result<PairBlame>>> pair_blames(pairs.size());
-  in_parallel(pairs.size(), options.jobs,
-              [&](std::size_t i) { pair_blames[i].emplace(blame_of(pairs[i], bench)); });
-  for (auto& blame : pair_blames) {
-    if (!*blame) return std::unexpected(blame->error());
-    out.pairs.push_back(std::move(**blame));
-  }
-  for (auto& verdict : verdicts) {
-    if (!*verdict) return std::unexpected(verdict->error());
-    out.defects.push_back(std::move(**verdict));
-  }
+  auto pair_blames =
+      all_in_parallel(pairs.size(), options.jobs, [&](std::size_t i) { return blame_of(pairs[i], bench); });
+  if (!pair_blames) return std::unexpected(pair_blames.error());
+  out.pairs = std::move(*pair_blames);
   const auto open = without(judged, proven_by(out.defects));
   std::vector<Result<void>> tried(out.defects.size());
   in_parallel(out.defects.size(), options.jobs,
@@ -258,16 +249,9 @@ Result<std::vector<Blame>> blames_of_defects(const device::Profile& profile, con
   const Verdicts none;  // a blame compares with no other run
   const Bench bench{profile, suite, catalogue, options.seed, none};
   const auto rows = chosen_rows(options.only);
-  std::vector<std::optional<Result<Blame>>> blames(rows.size());
-  in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
-    blames[i].emplace(blame_of(said_of(*rows[i], catalogue), bench, options.known));
+  return all_in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
+    return blame_of(said_of(*rows[i], catalogue), bench, options.known);
   });
-  std::vector<Blame> out;
-  for (auto& blame : blames) {
-    if (!*blame) return std::unexpected(blame->error());
-    out.push_back(std::move(**blame));
-  }
-  return out;
 }
 
 }  // namespace conform::cli
