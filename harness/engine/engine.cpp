@@ -29,7 +29,7 @@ using result::CaseResult;
 using result::Verdict;
 
 /// A link that never stays up ends the run.
-constexpr int most_outages_before_a_case = 20;
+constexpr int most_outages_of_a_phase = 20;
 
 /// The phases, in their order; what each of them does stands in a file of its own.
 class Run {
@@ -49,9 +49,7 @@ class Run {
   result::RunResult execute(can::Capture& capture) {
     const auto& profile = run_.profile;
     const auto begin = run_.recorder.now();
-    auto ready = prepare();
-    for (int i = 0; !ready && i < most_outages_before_a_case && come_back_after_fault({}); ++i)
-      ready = prepare();
+    auto ready = again_after_outages([this] { return prepare(); });
     make_plan();
     run_.recorder.observer().planned(out_);
     if (!ready) {
@@ -246,10 +244,8 @@ class Run {
   Result<std::optional<HostTrouble>> try_case(const PlannedCase& planned, CaseResult& result) {
     auto& recorder = run_.recorder;
     begin_part(result, can::CasePart::preparation);
-    auto ready = reach_start(*planned.scenario);
     // The case has not begun: an outage takes nothing from it.
-    for (int i = 0; !ready && i < most_outages_before_a_case && come_back_after_fault({}); ++i)
-      ready = reach_start(*planned.scenario);
+    auto ready = again_after_outages([&] { return reach_start(*planned.scenario); });
     recorder.end_part();
     if (!ready) {
       result.reason = "not run: " + ready.error().text();
@@ -291,6 +287,14 @@ class Run {
     if (auto trouble = trouble_of(health, recorder.transport().health(), lateness, other_client))
       return trouble;
     return machine_trouble(recorder.transport().info(), recorder.latest_late_waking(), result.begin);
+  }
+
+  /// A phase that judges nothing, once more behind each outage that ended it.
+  template <typename Phase>
+  Result<void> again_after_outages(const Phase& phase) {
+    auto done = phase();
+    for (int i = 0; !done && i < most_outages_of_a_phase && come_back_after_fault({}); ++i) done = phase();
+    return done;
   }
 
   /// After a fault that ended a case: waits for a bus that went away, and puts back what the case has
