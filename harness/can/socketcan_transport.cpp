@@ -139,6 +139,7 @@ Result<std::unique_ptr<SocketCanTransport>> SocketCanTransport::from_descriptor(
 }
 
 Result<void> SocketCanTransport::configure() {
+  backlog_drops_at_start_ = backlog_drops();
   const int fd = socket_.get();
   const auto failed = [this](const char* action) {
     return fail(std::string("cannot ") + action + ": " + reason(errno), facts_.name);
@@ -171,7 +172,6 @@ Result<void> SocketCanTransport::configure() {
       .tv_sec = 0,
       .tv_usec = std::chrono::duration_cast<std::chrono::microseconds>(patience_of_socket).count()};
   may_block_ = set_option(fd, SOL_SOCKET, SO_RCVTIMEO, patience);
-  backlog_drops_at_start_ = backlog_drops();
   return {};
 }
 
@@ -241,7 +241,6 @@ bool SocketCanTransport::reopen() {
   overflow_count_ = 0;
   socket_ = std::move(socket);
   facts_ = std::move(*facts);
-  backlog_drops_at_start_ = backlog_drops();
   if (!configure()) return false;
   link_down_ = bus_off_now_ = false;
   dead_.reset();
