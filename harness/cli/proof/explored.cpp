@@ -197,11 +197,7 @@ std::string exploration_words(const ExploreProof& proof, bool verbose) {
 
 Result<ExploreProof> prove_exploration(const device::Profile& profile, const scenario::Catalogue& catalogue,
                                        const ExploreProofOptions& options) {
-  std::vector<const refnode::Defect*> rows;
-  for (const auto& row : refnode::defects()) {
-    if (options.only.empty() || std::ranges::find(options.only, row.id) != options.only.end())
-      rows.push_back(&row);
-  }
+  const auto rows = chosen_rows(options.only);
   auto found = all_in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
     return found_of(*rows[i], profile, catalogue, options);
   });

@@ -124,14 +124,6 @@ DefectVerdict said_of(const refnode::Defect& row, const scenario::Catalogue& cat
   return defect;
 }
 
-std::vector<const refnode::Defect*> chosen_rows(const std::vector<std::string>& only) {
-  std::vector<const refnode::Defect*> rows;
-  for (const auto& row : refnode::defects()) {
-    if (only.empty() || std::ranges::find(only, row.id) != only.end()) rows.push_back(&row);
-  }
-  return rows;
-}
-
 /// The rules around these: SDO-ERR-04 is one of SDO-ERR-*, and with the whole service one of SDO-*.
 std::vector<std::string> rules_around(const std::vector<std::string>& rules, bool of_service) {
   std::set<std::string> out;
@@ -199,6 +191,14 @@ std::vector<std::string> without(const std::set<std::string>& all, const std::se
 }
 
 }  // namespace
+
+std::vector<const refnode::Defect*> chosen_rows(const std::vector<std::string>& only) {
+  std::vector<const refnode::Defect*> rows;
+  for (const auto& row : refnode::defects()) {
+    if (only.empty() || std::ranges::find(only, row.id) != only.end()) rows.push_back(&row);
+  }
+  return rows;
+}
 
 Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
                                const scenario::Catalogue& catalogue, const KillOptions& options) {

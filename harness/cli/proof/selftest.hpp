@@ -12,6 +12,7 @@
 
 #include "can/capture.hpp"
 #include "can/simulated_bus.hpp"
+#include "defects/defect.hpp"
 #include "device/profile.hpp"
 #include "eds/eds.hpp"
 #include "engine/engine.hpp"
@@ -106,6 +107,9 @@ struct KillOptions {
   unsigned jobs =
       0;  ///< threads, 0: as many as the machine has cores. The result is the same with any number.
 };
+/// The defects of these ids; of none: all.
+[[nodiscard]] std::vector<const refnode::Defect*> chosen_rows(const std::vector<std::string>& only);
+
 [[nodiscard]] Result<KillMatrix> kill_matrix(const device::Profile& profile, const scenario::Suite& suite,
                                              const scenario::Catalogue& catalogue,
                                              const KillOptions& options);
