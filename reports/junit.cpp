@@ -347,11 +347,15 @@ void write_suite(pugi::xml_node root, const RunResult& run, const JUnitOptions& 
     write_case(node, run, options, causes, *one, suite.class_name, taken);
 }
 
-void write_empty_run(pugi::xml_node root, const RunResult& run) {
-  pugi::xml_node node = begin_suite(root, run, fallback_suite, {1, 0, 1, 0}, run.elapsed, {});
+/// Of a run without cases: it is one error.
+constexpr Numbers of_empty_run{1, 0, 1, 0};
+
+void write_empty_run(pugi::xml_node root, const RunResult& run, const JUnitOptions& options) {
+  const auto name = options.class_prefix + std::string(fallback_suite);
+  pugi::xml_node node = begin_suite(root, run, name, of_empty_run, run.elapsed, {});
   write_properties(node, run);
   pugi::xml_node only = node.append_child("testcase");
-  set(only, "classname", fallback_suite);
+  set(only, "classname", name);
   set(only, "name", "run");
   set(only, "time", seconds(run.elapsed));
   const std::string message = clip_bytes(
@@ -359,28 +363,63 @@ void write_empty_run(pugi::xml_node root, const RunResult& run) {
   write_outcome(only, "error", run.aborted ? "environment" : "not-run", message, message);
 }
 
-}  // namespace
+Numbers numbers_of(const RunResult& run) {
+  if (run.cases.empty()) return of_empty_run;
+  std::vector<const CaseResult*> all;
+  for (const CaseResult& one : run.cases) all.push_back(&one);
+  return numbers_of(all);
+}
 
-std::string junit(const RunResult& run, const JUnitOptions& options) {
-  pugi::xml_document document;
+pugi::xml_node begin_document(pugi::xml_document& document, const std::string& name) {
   pugi::xml_node declaration = document.append_child(pugi::node_declaration);
   set(declaration, "version", "1.0");
   set(declaration, "encoding", "UTF-8");
   pugi::xml_node root = document.append_child("testsuites");
-  set(root, "name", run.device.empty() ? run.tool : run.tool + ": " + run.device);
-  std::vector<const CaseResult*> all;
-  for (const CaseResult& one : run.cases) all.push_back(&one);
-  write_numbers(root, run.cases.empty() ? Numbers{1, 0, 1, 0} : numbers_of(all));
-  set(root, "time", seconds(run.elapsed));
+  set(root, "name", name);
+  return root;
+}
+
+void write_run(pugi::xml_node root, const RunResult& run, const JUnitOptions& options) {
   const auto causes = result::causes_of(run);
   const auto by_case = causes_by_case(causes);
   for (const Suite& suite : suites_of(run, options)) write_suite(root, run, options, by_case, suite);
-  if (run.cases.empty()) write_empty_run(root, run);
+  if (run.cases.empty()) write_empty_run(root, run, options);
+}
 
+std::string text_of(const pugi::xml_document& document) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
   document.save(out, "  ", pugi::format_indent, pugi::encoding_utf8);
   return std::move(out).str();
+}
+
+}  // namespace
+
+std::string junit(const RunResult& run, const JUnitOptions& options) {
+  pugi::xml_document document;
+  auto root = begin_document(document, run.device.empty() ? run.tool : run.tool + ": " + run.device);
+  write_numbers(root, numbers_of(run));
+  set(root, "time", seconds(run.elapsed));
+  write_run(root, run, options);
+  return text_of(document);
+}
+
+std::string junit_of_several(std::span<const JUnitDevice> devices) {
+  pugi::xml_document document;
+  auto root = begin_document(document, counted(devices.size(), "device"));
+  Numbers numbers;
+  Duration elapsed{};
+  for (const auto& each : devices) {
+    const auto of_device = numbers_of(*each.run);
+    numbers.tests += of_device.tests;
+    numbers.failures += of_device.failures;
+    numbers.errors += of_device.errors;
+    elapsed += each.run->elapsed;
+  }
+  write_numbers(root, numbers);
+  set(root, "time", seconds(elapsed));
+  for (const auto& each : devices) write_run(root, *each.run, each.options);
+  return text_of(document);
 }
 
 }  // namespace conform::reports

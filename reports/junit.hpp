@@ -3,6 +3,7 @@
 // read.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "result/run_result.hpp"
@@ -21,5 +22,12 @@ struct JUnitOptions {
 /// fail <failure>; error, inconclusive and not run <error>; not applicable <skipped>; a warning passes and
 /// says so in <system-out>. A run without cases becomes one <error>, so that an empty report is never green.
 [[nodiscard]] std::string junit(const result::RunResult& run, const JUnitOptions& options = {});
+
+struct JUnitDevice {
+  const result::RunResult* run = nullptr;
+  JUnitOptions options;  ///< with a class_prefix of its own
+};
+/// The same of several devices in one file, one after the other.
+[[nodiscard]] std::string junit_of_several(std::span<const JUnitDevice> devices);
 
 }  // namespace conform::reports

@@ -2,12 +2,11 @@
 #include "reports/requirements_csv.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <vector>
 
+#include "reports/csv.hpp"
 #include "reports/phrases.hpp"
 #include "reports/tally.hpp"
-#include "reports/text_tools.hpp"
 
 namespace conform::reports {
 namespace {
@@ -15,17 +14,6 @@ namespace {
 using result::CaseResult;
 using result::Judgement;
 using result::RunResult;
-
-/// A device may call itself "=cmd|...": what a spreadsheet would run gets an apostrophe in front.
-std::string cell(std::string_view text) {
-  std::string out = prose(text);
-  if (!out.empty() && std::string_view("=+-@").find(out.front()) != std::string_view::npos)
-    out.insert(0, "'");
-  if (out.find_first_of("\",") == std::string::npos) return out;
-  std::string quoted = "\"";
-  for (const char c : out) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 struct Judged {
   std::size_t cases = 0;
@@ -71,8 +59,7 @@ std::string requirements_csv(const RunResult& run) {
         found.worst_case == nullptr ? "" : found.worst_case->name(),
         found.worst == nullptr ? "" : decided_by(*found.worst),
         found.worst == nullptr ? "" : found.worst->waived};
-    for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cell(cells[i]);
-    out += "\r\n";
+    out += csv_line(cells);
   }
   return out;
 }
