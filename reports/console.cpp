@@ -408,10 +408,25 @@ std::string summary(const RunResult& run, const Style& style) {
   return page.take();
 }
 
-std::string progress(std::size_t number, std::size_t total, std::string_view name, const Counts& counts,
-                     const Style& style) {
+std::string clock_words(Duration time) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(time).count();
+  if (seconds >= 3600) return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+}
+
+std::string about(Duration time) {
+  const auto seconds = std::chrono::ceil<std::chrono::seconds>(time).count();
+  if (seconds < 10) return fmt::format("{} s", seconds);
+  if (seconds < 90) return fmt::format("{} s", (seconds + 9) / 10 * 10);
+  const auto minutes = (seconds + 59) / 60;
+  return minutes < 90 ? fmt::format("{} min", minutes) : fmt::format("{} h", (minutes + 30) / 60);
+}
+
+std::string progress(std::size_t number, std::size_t total, std::string_view times, std::string_view name,
+                     const Counts& counts, const Style& style) {
   const std::string of = fmt::format("{}", total);
   std::string plain = fmt::format("[{}/{}]", pad_left(fmt::format("{}", number), of.size()), of);
+  if (!times.empty()) plain += fmt::format("  {}", times);
   std::string painted = plain;
   for (const Verdict verdict : {Verdict::fail, Verdict::error, Verdict::inconclusive, Verdict::warn}) {
     const Column& column = *std::ranges::find(verdict_columns, verdict, &Column::verdict);

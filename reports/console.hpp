@@ -30,9 +30,14 @@ struct Style {
 [[nodiscard]] std::string finding_card(const result::RunResult& run, const result::CaseResult& one,
                                        const result::Finding& finding, const Style& style);
 
-/// A line for a live terminal, never wider than the style: "[ 37/412]  1 fail  2 warn  cia301/sdo/...". Of a
-/// long name the end is shown. No newline.
-[[nodiscard]] std::string progress(std::size_t number, std::size_t total, std::string_view name,
-                                   const result::Counts& counts, const Style& style);
+/// Minutes and seconds, of a long time also hours: "0:41", "1:02:03".
+[[nodiscard]] std::string clock_words(Duration time);
+/// A time that is guessed, so that it is not told more exactly than it is known: "20 s", "4 min", "2 h".
+[[nodiscard]] std::string about(Duration time);
+
+/// A line for a live terminal, never wider than the style: "[ 37/412]  0:41, 4 min left  1 fail  2 warn
+/// cia301/sdo/...". `times` may be empty. Of a long name the end is shown. No newline.
+[[nodiscard]] std::string progress(std::size_t number, std::size_t total, std::string_view times,
+                                   std::string_view name, const result::Counts& counts, const Style& style);
 
 }  // namespace conform::reports

@@ -42,9 +42,13 @@ int dispatch(int argc, char** argv) {
   ReportCommand report;
   auto* report_sub =
       app.add_subcommand("report", "Make the reports of a run anew, from its result.json or its journal");
-  report_sub->add_option("source", report.source, "Result (run --json) or journal of the run")
+  report_sub
+      ->add_option("source", report.sources,
+                   "Result (run --json) or journal of the run; several with --merge")
       ->required()
       ->type_name("RESULT|JOURNAL");
+  report_sub->add_flag("--merge", report.merge,
+                       "Join them: the parts of a run (--shard) to the run, several devices to a matrix");
   add_reports(*report_sub, report.reports);
   report_sub
       ->add_option("--capture", report.capture,
@@ -389,6 +393,12 @@ int dispatch(int argc, char** argv) {
       ->add_option("--patterns", selftest.patterns,
                    "Write how each defect shows in a run of the whole suite, by which reports name known "
                    "mistakes; as JSON")
+      ->type_name("FILE");
+  selftest_sub
+      ->add_option(
+          "--worth", selftest.worth,
+          "Write how long each case takes and how many defects it finds first, by which `run --budget` chooses; "
+          "as JSON")
       ->type_name("FILE");
   selftest_sub->add_flag("--whole", selftest.whole,
                          "Run the whole suite for every defect, to see with -v what else it spoils");

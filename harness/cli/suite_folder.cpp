@@ -120,6 +120,16 @@ Result<std::vector<result::Pattern>> load_patterns(const std::string& root) {
   return result::read_patterns(*text, path);
 }
 
+Result<result::Worths> load_worths(const std::string& root) {
+  constexpr std::uint64_t largest = std::uint64_t{16} << 20U;
+  const auto path = root + "/patterns/worth.json";
+  std::error_code error;
+  if (!fs::exists(path, error)) return result::Worths{};
+  const auto text = read_file(path, largest);
+  if (!text) return std::unexpected(text.error());
+  return result::read_worths(*text, path);
+}
+
 void name_known_mistakes(result::RunResult& run, const std::string& root) {
   // What a run found is told in any case.
   if (const auto patterns = load_patterns(root)) run.likenesses = result::likenesses_of(run, *patterns);

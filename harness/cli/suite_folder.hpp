@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "result/patterns.hpp"
+#include "result/worth.hpp"
 #include "scenario/catalogue.hpp"
 #include "scenario/loader.hpp"
 
@@ -45,6 +46,10 @@ struct LoadedSuites {
 /// How known mistakes show, by the file that belongs to the program's suites at `root`; none where it is
 /// missing. Error: it is no such file.
 [[nodiscard]] Result<std::vector<result::Pattern>> load_patterns(const std::string& root);
+
+/// What cases are worth and how long they take, by the file that belongs to the program's suites at `root`;
+/// of nothing is anything known where it is missing. Error: it is no such file.
+[[nodiscard]] Result<result::Worths> load_worths(const std::string& root);
 
 /// Adds to a run that was killed which known mistakes it looks like, if the suites are still at `root`.
 void name_known_mistakes(result::RunResult& run, const std::string& root);

@@ -101,6 +101,13 @@ std::span<const DurationField> duration_fields() {
   return fields;
 }
 
+void scale_times(Profile& profile, double factor) {
+  for (const DurationField& field : duration_fields()) {
+    const auto scaled = std::chrono::duration<double, Duration::period>(profile.*field.member) * factor;
+    profile.*field.member = std::chrono::round<Duration>(scaled);
+  }
+}
+
 Dictionary dictionary_of(const Profile& profile) {
   Dictionary dictionary = standard_dictionary(profile.node);
   for (const Entry& entry : profile.objects) dictionary.add(at_node(entry, profile.node));

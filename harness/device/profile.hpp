@@ -142,6 +142,9 @@ struct Profile {
   [[nodiscard]] std::optional<Duration> duration(std::string_view name) const;
 };
 
+/// All of these times, for a device or a machine that is slower than they were written for.
+void scale_times(Profile& profile, double factor);
+
 /// What CiA 301 defines, with the claimed entries of the profile laid over it and the node-ID in the
 /// defaults. Records and arrays of the profile's own get their sub-index 00h when it is not listed.
 [[nodiscard]] Dictionary dictionary_of(const Profile& profile);

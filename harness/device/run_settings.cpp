@@ -26,7 +26,8 @@ constexpr RunKey keys[] = {
     {"repeat", Kind::word},       {"until-fail", Kind::flag},
     {"fail-fast", Kind::flag},    {"shard", Kind::word},
     {"annotate", Kind::flag},     {"slow", Kind::flag},
-    {"wait-for-bus", Kind::word}, {"seed", Kind::word},
+    {"wait-for-bus", Kind::word}, {"timeout-scale", Kind::word},
+    {"budget", Kind::word},       {"seed", Kind::word},
     {"quiet", Kind::flag},        {"color", Kind::word},
 };
 

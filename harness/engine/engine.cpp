@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "can/capture_marks.hpp"
 #include "engine/baseline.hpp"
+#include "engine/budget.hpp"
 #include "engine/case_runner.hpp"
 #include "engine/channels.hpp"
 #include "engine/discovery.hpp"
@@ -42,6 +43,7 @@ class Run {
         outage_(run_, life_),
         putting_back_(run_),
         errors_(run_),
+        budget_(options.budget, options.plan.worths),
         runner_(run_.session, catalogue, run_.live, options.strict, run_.may(scenario::Risk::config)) {
     run_.session.set_power_switch(life_.power_switch());
   }
@@ -49,9 +51,10 @@ class Run {
   result::RunResult execute(can::Capture& capture) {
     const auto& profile = run_.profile;
     const auto begin = run_.recorder.now();
+    budget_.begin(begin);
     auto ready = again_after_outages([this] { return prepare(); });
     make_plan();
-    run_.recorder.observer().planned(out_);
+    run_.recorder.observer().planned(out_, to_play());
     if (!ready) {
       abort_run(ready.error());
     } else if (!alive_) {
@@ -65,6 +68,7 @@ class Run {
       run_.recorder.end_part();
       if (!out_.aborted) out_.aborted = ended_early_;
     }
+    if (auto note = budget_.note()) out_.notes.push_back(std::move(*note));
     life_.tell_restarts();
     life_.tell_tries();
     outage_.tell();
@@ -140,9 +144,21 @@ class Run {
 
   void make_plan() {
     plan_ = plan(suite_, run_.catalogue, run_.session.known(), run_.options.plan);
+    // Where nothing was heard of the device, nobody knows what it has.
+    if (alive_)
+      std::ranges::move(named_but_absent(suite_, run_.catalogue, run_.session.known(), run_.options.plan),
+                        std::back_inserter(plan_));
     for (const auto& planned : plan_) out_.cases.push_back(planned_result(planned, run_.catalogue));
     plan_monitors(run_.monitors, run_.catalogue, out_);
     describe_requirements(run_.catalogue, out_);
+  }
+
+  /// Of each case of the result.
+  std::vector<bool> to_play() const {
+    std::vector<bool> out(out_.cases.size(), false);
+    for (std::size_t i = 0; i < plan_.size(); ++i)
+      out[i] = plan_[i].held_back.empty() && plan_[i].not_applicable.empty() && plan_[i].absent.empty();
+    return out;
   }
 
   void abort_run(const Error& error) {
@@ -163,6 +179,12 @@ class Run {
         end_unplayed(result, i);
         continue;
       }
+      if (!plan_[i].absent.empty()) {
+        result.verdict = Verdict::inconclusive;
+        result.reason = plan_[i].absent;
+        end_unplayed(result, i);
+        continue;
+      }
       if (mute_ && !scenario.basic) continue;
       if (const auto* broken = channels_.broken_for(scenario)) {
         // It costs no bus time: whatever came would say nothing.
@@ -172,8 +194,18 @@ class Run {
         end_unplayed(result, i);
         continue;
       }
+      if (!budget_.admits(result.name(), run_.recorder.now())) {
+        budget_.left_out();
+        result.verdict = Verdict::not_applicable;
+        result.reason = budget_.why();
+        result.wants = {{"option", "a longer --budget, or none"}};
+        end_unplayed(result, i);
+        continue;
+      }
       run_.recorder.observer().case_begun(out_, i);
+      const auto begun = run_.recorder.now();
       auto done = run_case(plan_[i], result);
+      budget_.took(result.name(), run_.recorder.now() - begun);
       channels_.note(scenario, result);
       run_.recorder.observer().case_ended(out_, i);
       if (!done) {
@@ -372,6 +404,7 @@ class Run {
   Outage outage_;
   PuttingBack putting_back_;
   LastingErrors errors_;
+  Budget budget_;
   CaseRunner runner_;
   Channels channels_;
   std::vector<PlannedCase> plan_;

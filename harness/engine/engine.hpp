@@ -21,6 +21,9 @@ namespace conform::engine {
 
 struct RunOptions {
   PlanOptions plan;
+  /// The run leaves out what would not have ended within this time from its begin, by plan.worths; nothing:
+  /// all is played.
+  std::optional<Duration> budget{};
   bool fail_fast = false;  ///< the first case that fails is the last one
   Repeat repeat;
   bool strict = false;            ///< recommended and optional rules fail as well

@@ -131,6 +131,24 @@ bool names_a_case(const scenario::Suite& suite, std::string_view pattern) {
                              [&](const auto& rule) { return matches(monitor::case_id(rule)); });
 }
 
+std::optional<std::string> names_nothing(const scenario::Suite& suite, const scenario::Selection& selection) {
+  for (const auto* patterns : {&selection.patterns, &selection.excludes}) {
+    for (const auto& pattern : *patterns) {
+      if (!names_a_case(suite, pattern)) return pattern;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> case_ids(const scenario::Suite& suite) {
+  std::vector<std::string> out;
+  for (const auto& file : suite.files) {
+    for (const auto& each : file.scenarios) out.push_back(each.id);
+  }
+  for (const auto& rule : monitor::rules()) out.push_back(monitor::case_id(rule));
+  return out;
+}
+
 void describe_requirements(const scenario::Catalogue& catalogue, result::RunResult& out) {
   std::set<std::string> mentioned;
   for (const auto& each : out.cases) mentioned.insert(each.requirements.begin(), each.requirements.end());

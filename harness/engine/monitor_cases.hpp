@@ -2,6 +2,7 @@
 // The monitors as cases of a run: which are chosen, how they are planned, and their judgement of the trace.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,6 +57,13 @@ void withdraw_all(std::span<result::CaseResult> monitors, const std::string& why
 
 /// Whether a pattern names a scenario or a monitor that there is.
 [[nodiscard]] bool names_a_case(const scenario::Suite& suite, std::string_view pattern);
+
+/// The first pattern, of what is taken or left out, that names no case at all: a misspelt one, which would
+/// leave its part of the run out, or in, without a word.
+[[nodiscard]] std::optional<std::string> names_nothing(const scenario::Suite& suite,
+                                                       const scenario::Selection& selection);
+/// Ids of all scenarios and monitors.
+[[nodiscard]] std::vector<std::string> case_ids(const scenario::Suite& suite);
 
 /// Fills RunResult::requirements with what the cases mention.
 void describe_requirements(const scenario::Catalogue& catalogue, result::RunResult& out);

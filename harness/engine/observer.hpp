@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
@@ -25,8 +26,9 @@ class Observer {
   virtual void recorded(const can::CapturedFrame& /*frame*/) {}
   /// The bus was silent until now.
   virtual void waited(BusTime /*now*/) {}
-  /// The result holds every planned case from here on, as "not run".
-  virtual void planned(const result::RunResult& /*run*/) {}
+  /// The result holds every planned case from here on, as "not run". `to_play`: of each case, whether it is
+  /// to be played; the others are left out, do not apply, or watch.
+  virtual void planned(const result::RunResult& /*run*/, const std::vector<bool>& /*to_play*/) {}
   virtual void case_begun(const result::RunResult& /*run*/, std::size_t /*index*/) {}  ///< index into cases
   virtual void case_ended(const result::RunResult& /*run*/, std::size_t /*index*/) {}
   /// Before the first frame of a case that may change this entry goes out.

@@ -72,14 +72,34 @@ std::string name_of(const PlannedCase& planned) {
                                   : planned.scenario->id + "[" + planned.instance + "]";
 }
 
+std::string_view id_of(std::string_view name) { return name.substr(0, name.find('[')); }
+
+/// Ids of the scenarios of which instances are named one by one, as patterns.
+std::set<std::string, std::less<>> with_named_instances(const PlanOptions& options) {
+  std::set<std::string, std::less<>> out;
+  const auto add = [&out](const std::string& name) {
+    if (const auto id = id_of(name); id.size() < name.size()) out.emplace(id);
+  };
+  std::ranges::for_each(options.selection.patterns, add);
+  if (options.only) std::ranges::for_each(*options.only, add);
+  return out;
+}
+
 std::vector<PlannedCase> chosen(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                                 const device::Dictionary& dictionary, const PlanOptions& options) {
   std::vector<PlannedCase> out;
+  const auto named = with_named_instances(options);
+  auto whole = options;
+  whole.all_objects = true;
   for (const auto& file : suite.files) {
     for (const auto& scenario : file.scenarios) {
       // Before its objects are looked for: of a few rules most scenarios decide none.
       if (!options.selection.takes_any_of(scenario, catalogue)) continue;
-      for (auto& planned : expand(scenario, dictionary, options)) {
+      // An instance that is named is wanted also where the sample would be without it.
+      const bool each = std::ranges::any_of(named, [&scenario](const std::string& pattern) {
+        return scenario::matches_pattern(pattern, scenario.id);
+      });
+      for (auto& planned : expand(scenario, dictionary, each ? whole : options)) {
         if (!options.selection.takes(scenario, planned.instance, catalogue)) continue;
         if (scenario.risk > options.allowed) {
           planned.held_back = "held back: risk '" + std::string(steps::word_of(scenario.risk)) +
@@ -117,6 +137,16 @@ void put_in_order(std::vector<PlannedCase>& out, const PlanOptions& options) {
     for (std::size_t i = out.size(); i > 1; --i) std::swap(out[i - 1], out[next_random(seed) % i]);
     return;
   }
+  if (options.worths != nullptr) {
+    std::vector<std::string> names;
+    for (const auto& planned : out) names.push_back(name_of(planned));
+    const auto places = options.worths->places(names);
+    std::vector<std::pair<std::size_t, PlannedCase>> placed;
+    for (std::size_t i = 0; i < out.size(); ++i) placed.emplace_back(places[i], std::move(out[i]));
+    std::ranges::stable_sort(placed, {}, &std::pair<std::size_t, PlannedCase>::first);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::move(placed[i].second);
+    return;
+  }
   std::ranges::stable_sort(out, {}, [](const PlannedCase& planned) {
     // What others rest on is judged before them, as early as its risk allows.
     const auto& establishes = planned.scenario->establishes;
@@ -135,6 +165,38 @@ std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Cata
   std::size_t number = 0;
   std::erase_if(out,
                 [&](const PlannedCase&) { return number++ % options.shard.of != options.shard.number - 1; });
+  return out;
+}
+
+std::vector<PlannedCase> named_but_absent(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
+                                          const device::Dictionary& dictionary, const PlanOptions& options) {
+  std::set<std::string> wanted;
+  for (const auto& pattern : options.selection.patterns) {
+    if (pattern.contains('[')) wanted.insert(pattern);
+  }
+  if (options.only) wanted.insert(options.only->begin(), options.only->end());
+  if (wanted.empty() || options.shard.number != 1) return {};
+  for (const auto& planned : chosen(suite, catalogue, dictionary, options)) {
+    std::erase_if(wanted, [name = name_of(planned)](const std::string& pattern) {
+      return scenario::matches_pattern(pattern, name);
+    });
+  }
+  std::vector<PlannedCase> out;
+  for (const auto& name : wanted) {
+    for (const auto& file : suite.files) {
+      for (const auto& scenario : file.scenarios) {
+        if (!scenario::matches_pattern(id_of(name), scenario.id)) continue;
+        const auto instance = name.substr(std::min(name.size(), id_of(name).size() + 1));
+        out.push_back({.scenario = &scenario,
+                       .instance = instance.substr(0, instance.find(']')),
+                       .names = {},
+                       .held_back = {},
+                       .not_applicable = {},
+                       .wants = {},
+                       .absent = "'" + name + "' is asked for, and there is no such case for this device"});
+      }
+    }
+  }
   return out;
 }
 

@@ -175,7 +175,7 @@ TEST_CASE("Cases that were not run are one item with the cause") {
 
 TEST_CASE("A hostile device cannot steer the terminal or the CI system") {
   const RunResult run = testing::hostile_run(testing::hostile_text());
-  std::string text = summary(run, {}) + progress(1, 2, testing::hostile_text(), {}, {});
+  std::string text = summary(run, {}) + progress(1, 2, "", testing::hostile_text(), {}, {});
   for (const auto& one : run.cases) text += case_line(one, {});
   CHECK(std::ranges::none_of(text, [](char c) { return (c >= 0 && c < 0x20 && c != '\n') || c == 0x7F; }));
   CHECK_FALSE(contains(text, "\u202E"));
@@ -185,11 +185,11 @@ TEST_CASE("A hostile device cannot steer the terminal or the CI system") {
 
 TEST_CASE("Progress is one line that never exceeds the width") {
   const RunResult run = testing::sample_run();
-  CHECK(progress(37, 412, "cia301/sdo/upload", {}, {}) == "[ 37/412]  cia301/sdo/upload");
-  CHECK(progress(37, 412, run.cases[1].name(), run.counts(), {false, 60, 0}) ==
+  CHECK(progress(37, 412, "", "cia301/sdo/upload", {}, {}) == "[ 37/412]  cia301/sdo/upload");
+  CHECK(progress(37, 412, "", run.cases[1].name(), run.counts(), {false, 60, 0}) ==
         "[ 37/412]  2 fail  1 error  1 inconcl  1 warn  ...write[02h]");
   for (std::size_t width = 1; width < 120; ++width) {
-    const std::string line = progress(37, 412, run.cases[1].name(), run.counts(), {true, width, 0});
+    const std::string line = progress(37, 412, "", run.cases[1].name(), run.counts(), {true, width, 0});
     CHECK(columns(without_colours(line)) <= width);
   }
 }

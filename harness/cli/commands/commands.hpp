@@ -36,9 +36,10 @@ struct RunCommand {
   std::vector<std::string> defects;   ///< of the simulated reference node
   std::vector<std::string> variants;  ///< legal ones, of the same node
   std::optional<std::uint32_t> node;
-  std::string device;  ///< profile file
-  std::string eds;     ///< description of the device
-  std::string allow;   ///< risk tier; empty: by interface
+  std::vector<std::uint32_t> nodes;  ///< several, one after the other; then `node` is none
+  std::string device;                ///< profile file
+  std::string eds;                   ///< description of the device
+  std::string allow;                 ///< risk tier; empty: by interface
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> shuffle;  ///< seed of a random order of the cases
   std::vector<std::string> waivers;      ///< files
@@ -47,6 +48,7 @@ struct RunCommand {
   bool cct = false;  ///< the cases of CiA's tool, in its order
   Choice choice;
   std::string wait_for_bus = "10 s";  ///< how long a run waits for a bus that went away
+  double timeout_scale = 1;           ///< of all times of the profile
   bool slow = false;
   bool dry_run = false;
   bool annotate = false;  ///< workflow commands of GitHub Actions
@@ -62,6 +64,8 @@ struct RunCommand {
   std::string baseline;  ///< result.json or journal of an earlier run: red is only what is new; empty: none
 };
 [[nodiscard]] int run_command(const RunCommand& options);
+/// The same for each of `nodes`, with a report for each and one for all: the exit code is that of the matrix.
+[[nodiscard]] int run_nodes(const RunCommand& options);
 
 struct DoctorCommand {
   std::string interface;  ///< empty: all are told
@@ -86,8 +90,9 @@ struct InitCommand {
 [[nodiscard]] int init_command(const InitCommand& options);
 
 struct ReportCommand {
-  std::string source;  ///< result.json or journal
-  Reports reports;     ///< all empty, and no capture and bundle: those that the run was asked for
+  std::vector<std::string> sources;  ///< result.json or journal; several are merged
+  bool merge = false;                ///< parts of a run become the run, several devices a matrix
+  Reports reports;  ///< all empty, and no capture and bundle: those that the run was asked for
   std::string capture;
   std::string captures;  ///< folder; from `capture`
   std::string bundle, sign;
@@ -263,6 +268,7 @@ struct SelftestCommand {
   bool blame = false;
   std::size_t pairs = 0;            ///< with blame
   std::string blame_page;           ///< file for docs/blame.md
+  std::string worth;                ///< file for suites/patterns/worth.json
   std::string patterns;             ///< file for suites/patterns/reference-node.json
   bool variants = false;            ///< legal variants instead of the defects: none may be failed
   bool full = false;                ///< the defects with blame, and legal variants and edits beside them

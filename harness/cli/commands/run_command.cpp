@@ -18,6 +18,7 @@
 #include "cli/pages/cct_run.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/run/bus_facts.hpp"
+#include "cli/run/choice.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/guardian.hpp"
 #include "cli/run/run_journal.hpp"
@@ -169,6 +170,7 @@ int run(const RunCommand& options, RunReports& reports) {
   if (!known) return refuse(known.error(), exit_usage);
   auto* const profile = &known->profile;
   if (!options.interface.empty()) profile->interface = options.interface;
+  device::scale_times(*profile, options.timeout_scale);
 
   engine::RunOptions run_options;
   run_options.strict = options.strict;
@@ -190,12 +192,26 @@ int run(const RunCommand& options, RunReports& reports) {
     return refuse({"'" + options.wait_for_bus + "' is no time", {}, "--wait-for-bus '30 s'"}, exit_usage);
   run_options.bus_patience = *patience;
   if (auto chosen = choose(options.choice, run_options); !chosen) return refuse(chosen.error(), exit_usage);
+  const bool live = ::isatty(STDOUT_FILENO) != 0 && !options.quiet;
+  result::Worths worths;
+  if (run_options.budget || live) {
+    auto read = load_worths(root->root);
+    if (!read) return refuse(read.error(), exit_usage);
+    worths = std::move(*read);
+  }
+  if (run_options.budget) run_options.plan.worths = &worths;
   if (run_options.plan.only && run_options.plan.only->empty()) {
     reports.not_begun(Facts::tool, {"every case of " + options.choice.rerun_failed + " passed", {}, {}});
     print("no case of " + options.choice.rerun_failed +
           " failed or was left open: there is nothing to run again\n");
     return 0;
   }
+  if (!options.choice.rerun_failed.empty() && !run_options.plan.only && !options.quiet)
+    std::fprintf(
+        stderr,
+        "canopen-conform: a rule was broken or left open outside of the cases of %s: all of them are "
+        "played again\n",
+        options.choice.rerun_failed.c_str());
   for (const auto& id : options.requirements) {
     if (id.find('*') == std::string::npos && suites->catalogue.find(id) == nullptr) {
       const auto near = did_you_mean(id, suites->catalogue.ids());
@@ -205,18 +221,8 @@ int run(const RunCommand& options, RunReports& reports) {
                     exit_usage);
     }
   }
-  {
-    auto everything = run_options.plan;
-    everything.allowed = scenario::Risk::motion;
-    everything.only.reset();
-    everything.shard = {};
-    if (engine::plan(suites->suite, suites->catalogue, device::dictionary_of(*profile), everything).empty() &&
-        !engine::names_a_monitor(everything.selection, suites->catalogue)) {
-      return refuse(
-          {"nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is"},
-          exit_usage);
-    }
-  }
+  if (auto sound = is_there(*suites, device::dictionary_of(*profile), run_options.plan); !sound)
+    return refuse(sound.error(), exit_usage);
 
   std::optional<can::InterfaceLock> lock;
   std::unique_ptr<can::SocketCanTransport> transport;
@@ -275,6 +281,8 @@ int run(const RunCommand& options, RunReports& reports) {
   facts.add("run.seed", std::to_string(options.seed));
   if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));
   if (!options.choice.shard.empty()) facts.add("run.shard", options.choice.shard);
+  if (run_options.budget) facts.add("run.budget", to_string(*run_options.budget));
+  if (options.timeout_scale != 1) facts.add("run.timeout_scale", fmt::format("{}", options.timeout_scale));
   facts.add("run.allowed", std::string(steps::word_of(run_options.plan.allowed)));
   if (transport != nullptr) {
     facts.add(bus_properties(transport->info()));
@@ -331,10 +339,9 @@ int run(const RunCommand& options, RunReports& reports) {
     if (options.simulate) watch_progress(kept->descriptor());
   }
 
-  const bool live = ::isatty(1) != 0 && !options.quiet;
   const reports::Style style{colour, terminal_width(), 0};
-  RunWatch watch({live, options.quiet, style}, reports, journal ? &*journal : nullptr,
-                 [&facts](result::RunResult& run) { facts.complete(run); });
+  RunWatch watch({live, options.quiet, style, live ? &worths : nullptr, run_options.budget}, reports,
+                 journal ? &*journal : nullptr, [&facts](result::RunResult& run) { facts.complete(run); });
   run_options.observer = &watch;
 
   result::RunResult run;

@@ -22,6 +22,12 @@ void add_choice(CLI::App& app, Choice& into) {
   app.add_flag("--until-fail", into.until_fail, "A case that has failed is not repeated any more")
       ->needs(repeat);
   app.add_flag("--fail-fast", into.fail_fast, "The first case that fails is the last one");
+  app.add_option(
+         "--budget", into.budget,
+         "Play first what finds the most in the least time, and leave out what would not end within this time")
+      ->type_name("TIME")
+      ->excludes(app.get_option("--shuffle"))
+      ->excludes(app.get_option("--cct"));
   app.add_option("--shard", into.shard,
                  "One of several parts of the run, to be played at the same time: 2/5 is the second of five")
       ->type_name("K/N");
@@ -44,9 +50,16 @@ void RunOptions::add_to(CLI::App& app) {
                  "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
       ->allow_extra_args(false)
       ->type_name("ID");
-  app.add_option("-n,--node", command.node, "Node-ID of the device, 1 to 127")
+  auto* node = app.add_option("-n,--node", command.node, "Node-ID of the device, 1 to 127")
+                   ->check(CLI::Range(1, 127).description(""))
+                   ->type_name("NODE-ID");
+  app.add_option(
+         "--nodes", command.nodes,
+         "Several devices of one bus, one after the other: 5,6,7. Reports for each (report.node5.html) and for all")
       ->check(CLI::Range(1, 127).description(""))
-      ->type_name("NODE-ID");
+      ->delimiter(',')
+      ->type_name("NODE-IDS")
+      ->excludes(node);
   app.add_option("-d,--device", command.device, "Device profile (YAML): claims, error triggers, tolerances")
       ->type_name("FILE");
   app.add_option(
@@ -100,6 +113,11 @@ void RunOptions::add_to(CLI::App& app) {
   app.add_option("--wait-for-bus", command.wait_for_bus,
                  "How long to wait for a bus that goes away in the middle of the run (default 10 s)")
       ->type_name("TIME");
+  app.add_option(
+         "--timeout-scale", command.timeout_scale,
+         "Every time that the profile allows the device is so many times as long, for a slow one (default 1)")
+      ->check(CLI::Range(1.0, 100.0).description(""))
+      ->type_name("FACTOR");
   app.add_flag("--slow", command.slow, "Also what takes minutes on a real bus (always in simulation)");
   app.add_option("--seed", command.seed, "Seed of samples and of the simulation (default 1)")
       ->type_name("NUMBER");
@@ -124,7 +142,7 @@ int RunOptions::run(const MergedLine& line) const {
   }
   if (line.profile_found && !command.quiet)
     std::fprintf(stderr, "canopen-conform: the device profile is %s, found in this folder\n", found_profile);
-  return run_command(command);
+  return command.nodes.empty() ? run_command(command) : run_nodes(command);
 }
 
 }  // namespace conform::cli

@@ -11,6 +11,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/pages/proof_page.hpp"
 #include "cli/pages/proof_words.hpp"
+#include "cli/proof/worth.hpp"
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
 #include "device/profile.hpp"
@@ -66,6 +67,20 @@ struct Material {
   std::vector<result::Pattern> known;  ///< of defects, by which reports name them
 };
 
+/// The files of suites/patterns that are asked for.
+Result<void> write_patterns(const SelftestCommand& options, const Material& of,
+                            const std::vector<Blame>& blames) {
+  if (!options.patterns.empty()) {
+    if (auto written = write_file_atomically(options.patterns, result::pattern_file(patterns_of(blames)));
+        !written)
+      return written;
+  }
+  if (options.worth.empty()) return {};
+  const auto conformant = simulate({}, of.profile, of.suites.suite, of.suites.catalogue, {}, options.seed);
+  if (!conformant) return std::unexpected(conformant.error());
+  return write_file_atomically(options.worth, result::worth_file(worths_of(conformant->result, blames)));
+}
+
 /// suites/patterns, without the kill matrix.
 int patterns(const SelftestCommand& options, const Material& of) {
   const auto blames = blames_of_defects(
@@ -74,10 +89,9 @@ int patterns(const SelftestCommand& options, const Material& of) {
   if (!blames) return report_error(blames.error(), exit_usage);
   if (blames->empty())
     return report_error({"no defect is named so", {}, "canopen-refnode --list-defects"}, exit_usage);
-  const auto made = patterns_of(*blames);
   print(recognised_words(*blames, options.verbose));
-  print(fmt::format("{} patterns\n", made.size()));
-  auto written = write_file_atomically(options.patterns, result::pattern_file(made));
+  print(fmt::format("{} patterns\n", patterns_of(*blames).size()));
+  const auto written = write_patterns(options, of, *blames);
   return written ? 0 : report_error(written.error(), exit_environment);
 }
 
@@ -101,10 +115,8 @@ Step defects(const SelftestCommand& options, const Material& of, Proof& proof) {
     return end_with(report_error(written.error(), exit_environment));
   if (const auto written = write_unless_empty(options.blame_page, blame_page(*matrix)); !written)
     return end_with(report_error(written.error(), exit_environment));
-  if (!options.patterns.empty()) {
-    auto written = write_file_atomically(options.patterns, result::pattern_file(patterns_of(matrix->blames)));
-    if (!written) return end_with(report_error(written.error(), exit_environment));
-  }
+  if (const auto written = write_patterns(options, of, matrix->blames); !written)
+    return end_with(report_error(written.error(), exit_environment));
   const bool is_well = matrix->ok() && (!blame || !options.defects.empty() || is_blamed_well(matrix->blames));
   proof.has_blame = blame;
   proof.matrix = std::move(*matrix);
@@ -159,7 +171,8 @@ int selftest_command(const SelftestCommand& options) {
   if (!known) return report_error(known.error(), exit_usage);
   const Material of{profile->profile, *suites, std::move(*known)};
   const bool instead = options.variants || options.edits || options.mutants;
-  if (!options.patterns.empty() && !options.blame && !options.full && !instead) return patterns(options, of);
+  if (!(options.patterns.empty() && options.worth.empty()) && !options.blame && !options.full && !instead)
+    return patterns(options, of);
   // What takes minutes is not lost in the end: the page says that it is not ready until it is.
   if (const auto tried = write_unless_empty(options.html, "the selftest has not ended\n"); !tried)
     return report_error(tried.error(), exit_environment);

@@ -22,6 +22,27 @@ std::string words_of(const result::Cause& cause) {
                      cause.cases.size(), cause.resting.size(), join(cause.requirements, " "));
 }
 
+/// Of a run in which something was wrong.
+std::set<std::string> cases_that_told(const result::RunResult& run) {
+  const auto is_told = [](result::Verdict verdict) {
+    return verdict == result::Verdict::fail || verdict == result::Verdict::warn;
+  };
+  std::set<std::string> out;
+  for (const auto& each : run.cases) {
+    if (!is_told(each.verdict)) continue;
+    if (each.suite != "monitor") {
+      out.insert(each.name());
+      continue;
+    }
+    for (const auto& judgement : each.judgements) {
+      for (const auto& finding : judgement.findings) {
+        if (is_told(finding.verdict) && !finding.during.empty()) out.insert(finding.during);
+      }
+    }
+  }
+  return out;
+}
+
 /// The whole suite against a node with `defects`. Scenarios of long transfers take ten times as long as all
 /// others together; few defects need them.
 Result<result::RunResult> run_against(const std::vector<std::string>& defects, const Bench& bench) {
@@ -49,6 +70,7 @@ Result<Blame> blame_of(const DefectVerdict& defect, const Bench& bench,
   out.pattern = {defect.id, defect.summary, {}};
   if (!causes.empty()) out.pattern.footprint = result::footprint_of(causes.front());
   for (const auto& each : result::likenesses_of(*run, known)) out.named.push_back(each.name);
+  out.seen_in = cases_that_told(*run);
   for (const auto& cause : causes) {
     out.causes.push_back(cause.primary.finding->requirement);
     out.about.push_back(words_of(cause));

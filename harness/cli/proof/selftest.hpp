@@ -66,6 +66,8 @@ struct Blame {
   std::set<std::string> broken;       ///< requirements that the run found broken
   bool right = false;                 ///< the first one's is a requirement that the defect violates
   result::Pattern pattern;            ///< how the first one shows; without a lead where there is none
+  std::set<std::string>
+      seen_in;  ///< names of the cases that told of it, by themselves or while a monitor watched
   /// Defects that the causes are said to look like, by the patterns that were known before.
   std::vector<std::string> named;
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/choice.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <set>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "cli/run/run_source.hpp"
+#include "cli/suite_folder.hpp"
 #include "engine/engine.hpp"
+#include "engine/monitor_cases.hpp"
+#include "engine/plan.hpp"
 
 namespace conform::cli {
 namespace {
@@ -27,12 +32,34 @@ std::optional<engine::Shard> parse_shard(std::string_view text) {
   return engine::Shard{*number, *of};
 }
 
-/// Cases that say nothing good of the device: failed, left open, or not run.
-std::set<std::string> not_passed(const result::RunResult& run) {
-  std::set<std::string> out;
+/// The cases that say nothing good of the device: failed, left open, or not run; nothing: all, because a
+/// monitor has failed where no case is known to have run. Empty: all passed.
+///
+/// A monitor is no case that can be played: what it failed is met again in the cases that ran meanwhile, and
+/// what it left open in those that are open as well, or in all where none is.
+std::optional<std::set<std::string>> not_passed(const result::RunResult& run) {
+  std::set<std::string> out, played;
   for (const auto& each : run.cases) {
-    if (each.verdict >= result::Verdict::inconclusive && each.suite != "monitor") out.insert(each.name());
+    if (each.suite != "monitor") played.insert(each.name());
   }
+  bool open_monitor = false;
+  for (const auto& each : run.cases) {
+    if (each.verdict < result::Verdict::inconclusive) continue;
+    if (each.suite != "monitor") {
+      out.insert(each.name());
+      continue;
+    }
+    open_monitor = true;
+    for (const auto& judgement : each.judgements) {
+      if (judgement.verdict < result::Verdict::inconclusive) continue;
+      for (const auto& finding : judgement.findings) {
+        // Such as the preparation of the run, which is no case.
+        if (!played.contains(finding.during)) return std::nullopt;
+        out.insert(finding.during);
+      }
+    }
+  }
+  if (open_monitor && out.empty()) return std::nullopt;
   return out;
 }
 
@@ -51,11 +78,43 @@ Result<void> choose(const Choice& choice, engine::RunOptions& options) {
     if (!run) return std::unexpected(run.error());
     options.plan.only = not_passed(*run);
   }
+  if (!choice.budget.empty()) {
+    const auto budget = parse_duration(choice.budget);
+    if (!budget) return fail("'" + choice.budget + "' is no time", {}, "--budget '60 s'");
+    options.budget = *budget;
+  }
   if (choice.until_fail && choice.repeat < 2)
     return fail("--until-fail needs to know how often at most", {}, "--repeat 100 --until-fail");
   options.repeat = {choice.repeat, choice.until_fail};
   options.fail_fast = choice.fail_fast;
   return {};
+}
+
+Result<void> is_there(const LoadedSuites& suites, const device::Dictionary& described,
+                      engine::PlanOptions plan) {
+  const auto no_case = [&suites](const std::string& pattern) {
+    const auto ids = engine::case_ids(suites.suite);
+    const std::vector<std::string_view> candidates(ids.begin(), ids.end());
+    const auto near = did_you_mean(pattern.substr(0, pattern.find('[')), candidates);
+    return fail("nothing is selected: no scenario and no monitor is named '" + pattern + "'", {},
+                near.empty() ? "'canopen-conform list' shows what there is"
+                             : "did you mean '" + std::string(near) + "'?");
+  };
+  if (const auto pattern = engine::names_nothing(suites.suite, plan.selection)) return no_case(*pattern);
+  if (plan.only) {
+    for (const auto& name : *plan.only) {
+      if (!engine::names_a_case(suites.suite, name)) return no_case(name);
+    }
+  }
+  const auto names_an_instance = [](const std::string& pattern) { return pattern.contains('['); };
+  if (std::ranges::any_of(plan.selection.patterns, names_an_instance)) return {};
+  plan.allowed = scenario::Risk::motion;
+  plan.only.reset();
+  plan.shard = {};
+  if (!engine::plan(suites.suite, suites.catalogue, described, plan).empty() ||
+      engine::names_a_monitor(plan.selection, suites.catalogue))
+    return {};
+  return fail("nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is");
 }
 
 }  // namespace conform::cli

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "cli/run/run_reports.hpp"
 #include "engine/observer.hpp"
 #include "journal/writer.hpp"
 #include "reports/console.hpp"
+#include "result/worth.hpp"
 
 namespace conform::cli {
 
@@ -17,6 +21,8 @@ class RunWatch final : public engine::Observer {
     bool live = false;   ///< a terminal: the running case is shown
     bool quiet = false;  ///< only what did not pass
     reports::Style style;
+    const result::Worths* worths = nullptr;  ///< by which the time that is left is told; outlives this
+    std::optional<Duration> budget{};        ///< the run ends within it
   };
   /// Adds what only the command line knows to a result that goes into the journal.
   using Complete = std::function<void(result::RunResult&)>;
@@ -26,7 +32,7 @@ class RunWatch final : public engine::Observer {
 
   void recorded(const can::CapturedFrame& frame) override;
   void waited(BusTime now) override;
-  void planned(const result::RunResult& run) override;
+  void planned(const result::RunResult& run, const std::vector<bool>& to_play) override;
   void case_begun(const result::RunResult& run, std::size_t index) override;
   void case_ended(const result::RunResult& run, std::size_t index) override;
   void changing(Multiplexer object, const Bytes& before) override;
@@ -37,6 +43,9 @@ class RunWatch final : public engine::Observer {
   [[nodiscard]] const std::vector<result::Change>& changes() const { return changes_; }
 
  private:
+  /// "0:41, 3 min left"; empty where nothing is known of the cases.
+  [[nodiscard]] std::string times() const;
+
   Console console_;
   RunReports& reports_;
   journal::Writer* journal_;
@@ -44,6 +53,11 @@ class RunWatch final : public engine::Observer {
   result::Counts counts_;  ///< of the cases that ended
   std::string running_;
   BusTime now_;
+  std::optional<BusTime> begin_;    ///< of the first frame or silence
+  std::vector<Duration> expected_;  ///< of each case; none where it is not to be played
+  Duration to_come_{};              ///< of those that have not ended
+  BusTime case_begin_;
+  result::Pace pace_;
   std::vector<result::Change> changes_;
 };
 

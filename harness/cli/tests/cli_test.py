@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The command line as a user meets it: exit codes, reports, messages. Simulation only. Usage: cli_test.py PROGRAM"""
+import csv
 import json
 import os
 import signal
@@ -111,6 +112,104 @@ class CommandLine(unittest.TestCase):
         nothing = run("run", "--simulate", "--rerun-failed", self.path("good.json"))
         self.assertEqual(nothing.returncode, 0)
         self.assertIn("nothing to run again", nothing.stdout)
+
+    def test_a_rule_that_only_a_monitor_found_broken_is_run_again_too(self):
+        defect = ["--defect", "trace-frame-with-29-bits"]
+        first = run("run", "--simulate", *defect, "--json", self.path("r.json"), "cia301/nmt*")
+        self.assertEqual(first.returncode, 1, first.stdout[-3000:] + first.stderr)
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            failed = [case["suite"] for case in json.load(file)["cases"] if case["verdict"] == "fail"]
+        self.assertEqual(set(failed), {"monitor"})
+        again = run("run", "--simulate", *defect, "--rerun-failed", self.path("r.json"))
+        self.assertEqual(again.returncode, 1, again.stdout[-3000:] + again.stderr)
+        self.assertNotIn("nothing to run again", again.stdout)
+
+    def test_a_case_is_run_by_its_name_also_where_only_the_device_knows_of_it(self):
+        done = run("run", "--simulate", "--node", "5", "cia301/dictionary/object-structure/standard-objects[1011h:00]",
+                   "--junit", self.path("j.xml"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        names = [case.get("name") for case in ElementTree.parse(self.path("j.xml")).getroot().iter("testcase")
+                 if case.get("classname") != "monitor"]
+        self.assertEqual(names, ["standard-objects[1011h:00]"])
+        absent = run("run", "--simulate", "cia301/dictionary/object-structure/standard-objects[5FFFh:00]")
+        self.assertEqual(absent.returncode, 3, absent.stdout + absent.stderr)
+        self.assertIn("there is no such case for this device", absent.stdout)
+
+    def test_a_misspelt_name_among_others_is_not_passed_over(self):
+        for words in (["cia301/emergency*", "cia301/emergancy*"], ["cia301/emergency*", "-x", "cia301/heartbeet"]):
+            done = run("run", "--simulate", *words)
+            self.assertEqual(done.returncode, 2, done.stdout[-3000:])
+            self.assertIn(f"no scenario and no monitor is named '{words[-1]}'", done.stderr)
+
+    def test_a_short_budget_finds_most_of_what_a_whole_run_finds(self):
+        found = 0
+        defects = ["1003-nonzero-write-accepted", "1017-period-a-fifth-longer", "mux-not-echoed", "1018-absent"]
+        for defect in defects:
+            done = run("run", "--simulate", "--defect", defect, "--budget", "60 s", "--json", self.path("r.json"))
+            found += done.returncode == 1
+            with open(self.path("r.json"), encoding="utf-8") as file:
+                result = json.load(file)
+            self.assertLessEqual(result["run"]["elapsed"], 66e9)
+        self.assertGreaterEqual(found, 3)
+        self.assertIn("left out to end within --budget 60 s", done.stdout)
+
+    def test_the_parts_of_a_run_are_merged_to_what_the_whole_run_says(self):
+        select = ["--defect", "1003-nonzero-write-accepted", "cia301/dictionary/1003*", "cia301/emergency*"]
+        whole = run("run", "--simulate", *select, "--csv", self.path("whole.csv"))
+        parts = [self.path(f"part{number}.json") for number in (1, 2, 3)]
+        for number, part in enumerate(parts, 1):
+            run("run", "--simulate", *select, "--shard", f"{number}/3", "--json", part)
+        merged = run("report", "--merge", *parts, "--csv", self.path("merged.csv"), "--json", self.path("merged.json"),
+                     "--junit", self.path("merged.xml"), "--html", self.path("merged.html"))
+        self.assertEqual(merged.returncode, whole.returncode, merged.stdout[-3000:] + merged.stderr)
+        self.assertIn("FAIL: OD-1003-06", merged.stdout)
+        self.assertIn("looks like 1003-nonzero-write-accepted", merged.stdout)
+
+        def verdicts(name):
+            with open(self.path(name), encoding="utf-8", newline="") as file:
+                return {row["requirement"]: (row["verdict"], row["cases"]) for row in csv.DictReader(file)}
+
+        self.assertEqual(verdicts("merged.csv"), verdicts("whole.csv"))
+        missing = run("report", "--merge", *parts[1:], "-q")
+        self.assertEqual(missing.returncode, 1)
+        self.assertIn("part 1 of 3 is missing", run("report", "--merge", *parts[1:]).stdout)
+        for sources, words in (([parts[0], parts[0]], "is part 1 of 3 as well as"), ([*parts, "/no/such.json"], "/no/such.json")):
+            refused = run("report", "--merge", *sources)
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            self.assertIn(words, refused.stderr)
+        self.assertIn("--merge joins them", run("report", *parts).stderr)
+
+    def test_several_nodes_are_run_one_after_the_other_and_told_side_by_side(self):
+        done = run("run", "--simulate", "--nodes", "5,9", "cia301/dictionary/1003*", "--html", self.path("all.html"), "--junit",
+                   self.path("all.xml"), "--csv", self.path("all.csv"), "--json", self.path("r.json"))
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+        self.assertIn("canopen-refnode, node 9", done.stdout)
+        for name in ("all.html", "all.node5.html", "all.node9.html", "r.node5.json", "all.node5.xml"):
+            self.assertTrue(os.path.exists(self.path(name)), name)
+        self.assertFalse(os.path.exists(self.path("r.json")))
+        ElementTree.parse(self.path("all.html"))
+        suites = ElementTree.parse(self.path("all.xml")).getroot()
+        classes = {case.get("classname").split(".")[0] for case in suites.iter("testcase")}
+        self.assertEqual(classes, {"canopen-refnode_node_5", "canopen-refnode_node_9"})
+        self.assertEqual(int(suites.get("tests")), len(list(suites.iter("testcase"))))
+        with open(self.path("all.csv"), encoding="utf-8", newline="") as file:
+            header = next(csv.reader(file))
+        self.assertEqual(header[-2:], ["canopen-refnode, node 5", "canopen-refnode, node 9"])
+        matrix = run("report", "--merge", self.path("r.node5.json"), self.path("r.node9.json"), "--markdown", self.path("m.md"))
+        self.assertEqual(matrix.returncode, 0, matrix.stderr)
+        refused = run("report", "--merge", self.path("r.node5.json"), self.path("r.node9.json"), "--tap", self.path("t"))
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("several devices cannot be in one file of --tap", refused.stderr)
+        twice = run("run", "--simulate", "--nodes", "5,5")
+        self.assertEqual(twice.returncode, 2)
+
+    def test_slower_devices_are_given_more_time_by_one_option(self):
+        done = run("run", "--simulate", "--timeout-scale", "3", "cia301/nmt*", "--json", self.path("r.json"))
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr)
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            properties = {each["name"]: each["value"] for each in json.load(file)["run"]["properties"]}
+        self.assertEqual(properties["run.timeout_scale"], "3")
+        self.assertEqual(run("run", "--simulate", "--timeout-scale", "0.5").returncode, 2)
 
     def test_a_run_is_repeated_cut_in_parts_and_ended_at_the_first_failure(self):
         cases = []

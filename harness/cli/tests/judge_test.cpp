@@ -177,7 +177,7 @@ TEST_CASE("A run that stopped before any scenario passes nothing") {
   options.stop = &stop;
   struct StopsAtOnce final : engine::Observer {
     explicit StopsAtOnce(std::atomic<int>& stop) : stop_(stop) {}
-    void planned(const result::RunResult&) override { stop_ = 2; }
+    void planned(const result::RunResult&, const std::vector<bool>&) override { stop_ = 2; }
     std::atomic<int>& stop_;
   } observer(stop);
   options.observer = &observer;

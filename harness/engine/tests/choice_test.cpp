@@ -70,6 +70,65 @@ TEST_CASE("of a run that is repeated in part only the named cases are played") {
   CHECK(names(options) == std::vector{whole[1], whole[4]});
 }
 
+TEST_CASE("what is asked for by name and is not there stays open instead of passing in silence") {
+  RunOptions options;
+  SECTION("by a pattern") { options.plan.selection.patterns = {"*reads[1018h:09]"}; }
+  SECTION("by the name of a case of an earlier run") {
+    options.plan.only = {{names({})[0].substr(0, names({})[0].find('[')) + "[1018h:09]"}};
+  }
+  ScriptedDevice device;
+  const auto out = play(device, five_reads, options);
+  REQUIRE(out.run.cases.size() >= 1);
+  CHECK(out.run.cases.front().verdict == Verdict::inconclusive);
+  CHECK(out.run.cases.front().instance == "1018h:09");
+  CHECK(out.run.cases.front().reason.contains("there is no such case for this device"));
+  CHECK(exit_code(out.run) == 3);
+}
+
+TEST_CASE("an instance is played by its name also where the sample is without it") {
+  const std::string sampled = R"(
+  - id: reads
+    title: t
+    sample: 1
+    for_each: {object: "objects with access ro"}
+    steps:
+      - upload: {object: $object}
+        checks: T-MUST
+)";
+  const auto some = names({}, sampled);
+  REQUIRE(some.size() == 1);
+  RunOptions options;
+  options.plan.all_objects = true;
+  const auto all = names(options, sampled);
+  REQUIRE(all.size() > 1);
+  options.plan.all_objects = false;
+  options.plan.only = {{all.back()}};
+  CHECK(names(options, sampled) == std::vector{all.back()});
+}
+
+TEST_CASE("a run with a budget plays what is worth most first and leaves out what would not end in time") {
+  const auto whole = names({});
+  const result::Worths worths({{whole[3], std::chrono::milliseconds(1), 9},
+                               {whole[1], std::chrono::hours(1), 8},
+                               {whole[0], std::chrono::milliseconds(1), 7}});
+  RunOptions options;
+  options.plan.worths = &worths;
+  options.budget = std::chrono::seconds(60);
+  ScriptedDevice device;
+  const auto out = play(device, five_reads, options);
+  const auto& cases = out.run.cases;
+  REQUIRE(cases.size() >= 5);
+  CHECK(cases[0].name() == whole[3]);
+  CHECK(cases[0].verdict == Verdict::pass);
+  CHECK(cases[1].name() == whole[1]);
+  CHECK(cases[1].verdict == Verdict::not_applicable);
+  CHECK(cases[1].reason == "left out: does not fit into --budget 60 s");
+  CHECK(cases[2].name() == whole[0]);
+  CHECK(cases[2].verdict == Verdict::pass);
+  CHECK(std::ranges::any_of(
+      out.run.notes, [](const std::string& note) { return note.starts_with("3 cases were left out"); }));
+}
+
 TEST_CASE("what happens now and then is found by repetition, and how often is told") {
   ScriptedDevice device;
   std::size_t asked = 0;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/budget.hpp"
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace conform::engine {
+bool Budget::admits(std::string_view name, BusTime now) const {
+  if (!total_ || worths_ == nullptr) return true;
+  return (now - begin_) + pace_.of(worths_->takes(name)) <= *total_;
+}
+
+void Budget::took(std::string_view name, Duration time) {
+  if (worths_ != nullptr) pace_.took(worths_->takes(name), time);
+}
+
+std::string Budget::why() const {
+  return "left out: does not fit into --budget " + to_string(total_.value_or(Duration{}));
+}
+
+std::optional<std::string> Budget::note() const {
+  if (left_out_ == 0) return std::nullopt;
+  return fmt::format(
+      "{} {} left out to end within --budget {}: the run looks for what is found soonest and is no proof "
+      "that the rest conforms",
+      left_out_, left_out_ == 1 ? "case was" : "cases were", to_string(*total_));
+}
+
+}  // namespace conform::engine
