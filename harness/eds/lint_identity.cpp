@@ -17,7 +17,7 @@ constexpr Rule revision{"EDS402", Severity::warning, "RevisionNumber is not the 
 constexpr Rule half_said{"EDS403", Severity::warning,
                          "[DeviceInfo] and 1018h differ, and one of the two is 0", identity};
 constexpr Rule no_vendor{"EDS404", Severity::warning, "The vendor-ID in 1018h:01 is 0, which nobody has",
-                         "CiA 301, 7.5.2.19"};
+                         "CiA 301, 7.5.2.21"};
 
 constexpr const Rule* all[] = {&vendor, &product, &revision, &half_said, &no_vendor};
 

@@ -29,7 +29,7 @@ constexpr Rule mandatory_absent{"EDS158", Severity::error,
                                 "1000h or 1001h is missing, which every device has", "CiA 301, 7.5.2"};
 constexpr Rule identity_absent{"EDS159", Severity::warning,
                                "1018h is missing, which every device has since CiA 301 version 4",
-                               "CiA 301, 7.5.2.19"};
+                               "CiA 301, 7.5.2.21"};
 constexpr Rule link_count{"EDS160", Severity::error, "ObjectLinks is not the number of links",
                           "CiA 306, object links"};
 constexpr Rule dead_link{"EDS161", Severity::error, "A link leads to an object that is not described",

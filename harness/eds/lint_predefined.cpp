@@ -28,7 +28,7 @@ constexpr Rule not_readable{"EDS233", Severity::error, "An object of CiA 301 can
 constexpr Rule mappable{"EDS234", Severity::error, "An object that CiA 301 keeps out of PDOs can be mapped",
                         dictionary};
 constexpr Rule half_guarding{"EDS235", Severity::error, "Of guard time and life time factor one is missing",
-                             "CiA 301, 7.5.2.9 and 7.5.2.10"};
+                             "CiA 301, 7.5.2.11 and 7.5.2.12"};
 constexpr Rule incomplete{"EDS236", Severity::warning, "An object lacks the one that it works with",
                           dictionary};
 constexpr Rule too_closed{"EDS237", Severity::error, "An object of CiA 301 that can be written is read-only",
