@@ -272,8 +272,9 @@ void check_can_ids(const Subject& subject, Findings& findings) {
     const auto& field = effective_value(*cob_id);
     const auto number = valid_cob_id(field);
     if (!number) continue;
-    const auto [first, fresh] =
-        used.emplace(std::pair(number->node_id, number->magnitude & can_id), object.index);
+    const bool formula = number->node_id && !subject.node;
+    const auto id = (number->magnitude & can_id) + (number->node_id ? subject.node.value_or(0) : 0U);
+    const auto [first, fresh] = used.emplace(std::pair(formula, id), object.index);
     if (!fresh)
       findings.add(same_cob_id, field.at,
                    fmt::format("{}: '{}' is the CAN-ID of {}, too", section_name(object.index, SubIndex(1)),
