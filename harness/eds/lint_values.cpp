@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <compare>
+#include <expected>
+#include <optional>
 #include <ranges>
 
 #include "base/text.hpp"
@@ -81,8 +83,8 @@ std::optional<Value> as_value(const Number& number, const TypeInfo& type) {
 
 class Check {
  public:
-  Check(const Spot& spot, const TypeInfo& type, bool xml, Findings& findings)
-      : spot_(spot), type_(type), xml_(xml), findings_(findings) {}
+  Check(const Spot& spot, const TypeInfo& type, const Subject& subject, Findings& findings)
+      : spot_(spot), type_(type), xml_(subject.file.is_xml()), node_(subject.node), findings_(findings) {}
 
   void run() {
     const auto& entry = spot_.entry;
@@ -150,6 +152,27 @@ class Check {
             entry.default_value);
     compare(low, high, integer("ParameterValue", entry.parameter_value, value_range), "ParameterValue",
             entry.parameter_value);
+    if (type_.kind != TypeKind::unsigned_integer || (low && high && *low > *high)) return;
+    formula(low, high, "DefaultValue", entry.default_value);
+    formula(low, high, "ParameterValue", entry.parameter_value);
+  }
+
+  /// Limits that hold for some node-IDs only may be meant: nodes above them are not allowed.
+  void formula(const std::optional<Value>& low, const std::optional<Value>& high, std::string_view key,
+               const Field& field) {
+    constexpr std::uint64_t nodes = 127;
+    const auto number = low || high ? parse_number(field.text) : std::unexpected(NumberFault::empty);
+    if (!number || !number->node_id || number->negative || number->magnitude > all_ones(64) - nodes) return;
+    const auto first = number->magnitude + node_.value_or(1);
+    const auto last = number->magnitude + node_.value_or(nodes);
+    const auto tell = [&](std::string_view where, const Field& limit) {
+      const auto when = node_ ? fmt::format("with node-ID {}", *node_) : std::string("with every node-ID");
+      findings_.add(outside_limits, field.at,
+                    fmt::format("{}: {} is {} {} {}", label(key), shortened(field.text), when, where,
+                                shortened(limit.text)));
+    };
+    if (low && Value{false, last} < *low) tell("below LowLimit", spot_.entry.low_limit);
+    if (high && Value{false, first} > *high) tell("above HighLimit", spot_.entry.high_limit);
   }
 
   template <typename Number>
@@ -231,6 +254,7 @@ class Check {
   const Spot& spot_;
   const TypeInfo& type_;
   bool xml_;
+  std::optional<std::uint8_t> node_;
   Findings& findings_;
 };
 
@@ -248,7 +272,7 @@ void configured_list(const Subject& subject, const Object& object, Findings& fin
   if (object.entry.high_limit.text.size() <= longest) entry.high_limit = object.entry.high_limit;
   for (const auto& value : object.lists->values.entries | std::views::take(most)) {
     entry.parameter_value = value.field;
-    Check({object, {}, entry}, *info, subject.file.is_xml(), findings).run();
+    Check({object, {}, entry}, *info, subject, findings).run();
   }
 }
 
@@ -260,7 +284,7 @@ void check(const Subject& subject, Findings& findings) {
     const bool is_domain = object_code(spot.entry) == ObjectCode::domain;
     const auto type = is_domain ? domain : data_type(spot.entry);
     const auto* info = type ? find_type(*type) : nullptr;
-    if (info != nullptr) Check(spot, *info, subject.file.is_xml(), findings).run();
+    if (info != nullptr) Check(spot, *info, subject, findings).run();
   });
   for (const auto& object : subject.file.objects) configured_list(subject, object, findings);
   // Texts of the information sections are quoted by the same mistake.
