@@ -3,6 +3,7 @@
 // and 23:59:00.
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,7 @@ namespace conform::eds {
 
 struct FileDate {
   unsigned year = 0, month = 0, day = 0;
-  friend constexpr bool operator==(const FileDate&, const FileDate&) = default;
+  friend constexpr auto operator<=>(const FileDate&, const FileDate&) = default;
 };
 
 /// Both forms; nullopt for anything else and for a day that no month has.

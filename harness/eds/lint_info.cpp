@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "base/text.hpp"
+#include "eds/file_date.hpp"
 #include "eds/ini_file.hpp"
 #include "eds/lint_rules.hpp"
 #include "eds/type_table.hpp"
@@ -55,13 +56,15 @@ constexpr Rule open_dummy{"EDS119", Severity::warning, "A dummy that is allowed 
 
 constexpr Rule more_comments{"EDS120", Severity::warning, "There are more comment lines than Lines says",
                              "CiA 306, [Comments]"};
+constexpr Rule early_change{"EDS121", Severity::note, "The file was changed before it was created",
+                            file_information};
 
 constexpr const Rule* all[] = {
     &no_file_info,     &no_device_info, &no_dummy_usage, &no_version,         &bad_version,
     &bad_date,         &bad_time,       &other_name,     &missing_file_entry, &missing_device_entry,
     &no_baud_rate,     &odd_baud_rate,  &comment_count,  &no_commissioning,   &bad_node_id,
     &unsupported_rate, &reserved_entry, &fine_dummy,     &dynamic_channels,   &open_dummy,
-    &more_comments};
+    &more_comments,    &early_change};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -114,6 +117,14 @@ void check_file_info(const EdsFile& file, Findings& findings) {
       findings.add(bad_date, date->at,
                    fmt::format("'{}' is no date of the form mm-dd-yyyy", shortened(date->text)));
   }
+  const auto created = file_date(info.creation_date.text);
+  const auto changed = file_date(info.modification_date.text);
+  if (is_date(info.creation_date.text) && is_date(info.modification_date.text) && created && changed &&
+      *changed < *created)
+    findings.add(early_change, info.modification_date.at,
+                 fmt::format("ModificationDate {} is before CreationDate {}", info.modification_date.text,
+                             info.creation_date.text),
+                 "the month comes first: mm-dd-yyyy");
   for (const auto* time : {&info.creation_time, &info.modification_time}) {
     if (!time->empty() && !is_time(time->text))
       findings.add(bad_time, time->at,
