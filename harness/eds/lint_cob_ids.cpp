@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -41,10 +42,15 @@ constexpr Rule other_default{"EDS459", Severity::note,
 constexpr Rule fifth_pdo{"EDS460", Severity::note,
                          "A PDO from the fifth on is valid by default, which only a profile may say",
                          "CiA 301, 7.5.2.35 and 7.5.2.37"};
+constexpr Rule watched_twice{"EDS461", Severity::error, "Two heartbeat times are given for one node",
+                             "CiA 301, 7.5.2.19"};
+constexpr Rule no_request{"EDS462", Severity::warning,
+                          "A TPDO is sent only on RTR, but bit 30 of its COB-ID forbids RTR",
+                          "CiA 301, 7.5.2.37"};
 
-constexpr const Rule* all[] = {&upper_bits,    &reserved_bits, &default_sdo,  &not_predefined,
-                               &limit_of_bits, &transmission,  &out_of_range, &same_rpdos,
-                               &same_can_id,   &other_default, &fifth_pdo};
+constexpr const Rule* all[] = {&upper_bits,   &reserved_bits, &default_sdo, &not_predefined, &limit_of_bits,
+                               &transmission, &out_of_range,  &same_rpdos,  &same_can_id,    &other_default,
+                               &fifth_pdo,    &watched_twice, &no_request};
 
 constexpr std::uint64_t not_valid = 0x8000'0000, bit_30 = 0x4000'0000, extended = 0x2000'0000;
 constexpr std::uint64_t base_can_id = 0x7FF, upper = 0x1FFF'F800;
@@ -156,6 +162,13 @@ class Check {
     const std::uint64_t last_reserved = is_rpdo(object_.index) ? 0xFD : 0xFB;
     if (value >= 0xF1 && value <= last_reserved)
       add(transmission, spot, field, fmt::format("transmission type {:02X}h is reserved", value));
+    const bool on_request = is_tpdo(object_.index) && (value == 0xFC || value == 0xFD);
+    const auto* cob_id = on_request ? object_.find(SubIndex(1)) : nullptr;
+    const auto id = cob_id == nullptr ? std::nullopt : cob_id_of(effective_value(*cob_id));
+    if (id && (id->magnitude & (not_valid | bit_30)) == bit_30)
+      add(no_request, spot, field,
+          fmt::format("with transmission type {:02X}h it waits for an RTR that '{}' forbids", value,
+                      shortened(effective_value(*cob_id).text)));
   }
 
   /// 1016h: bits 31..24 reserved | 23..16 node-ID | 15..0 heartbeat time in ms
@@ -240,8 +253,31 @@ void check_shared(const Subject& subject, Findings& findings) {
   }
 }
 
+/// A second heartbeat time unequal 0 for the same node is refused with 0604 0043h.
+void check_watched(const Subject& subject, Findings& findings) {
+  const auto* object = find_object(subject.objects, Index(0x1016));
+  if (object == nullptr) return;
+  std::map<std::uint64_t, SubIndex> first;
+  std::set<std::uint64_t> told;
+  for (const auto& sub : object->subs) {
+    const auto& field = effective_value(sub.entry);
+    const auto value = number_of(field);
+    if (sub.sub == SubIndex(0) || !value || *value > 0xFFFF'FFFF) continue;
+    const auto node = (*value >> 16U) & 0xFFU;
+    // Such an entry is not used.
+    if ((*value & 0xFFFFU) == 0 || node == 0 || node > 127) continue;
+    const auto [known, fresh] = first.try_emplace(node, sub.sub);
+    if (fresh || !told.insert(node).second) continue;
+    findings.add(watched_twice, place_of(field, sub.entry.at),
+                 fmt::format("{}: node {} is watched by {} already", section_name(object->index, sub.sub),
+                             node, section_name(object->index, known->second)),
+                 "a device answers it with abort 0604 0043h");
+  }
+}
+
 void check(const Subject& subject, Findings& findings) {
   check_shared(subject, findings);
+  check_watched(subject, findings);
   for (const auto& object : subject.objects) {
     if (object.index.value() > 0x19FF) break;
     Check(subject, object, findings).run();
