@@ -8,6 +8,27 @@ namespace {
 // Each section in a line.
 // clang-format off
 constexpr LintExample examples[] = {
+    {"EDS262",
+     "[SupportedModules]\nNrOfEntries=1\n"
+     "[M1ModuleInfo]\nProductName=Input 1\nProductVersion=1\nProductRevision=1\nOrderCode=E2\n"
+     "[M1FixedObjects]\nNrOfEntries=1\n1=0x2100\n"
+     "[M1Fixed2100]\nParameterName=State\nDataType=0x0005\nAccessType=ro\nDefaultValue=0\n"
+     "[1027]\nParameterName=Module list\nObjectType=0x8\nSubNumber=2\n"
+     "[1027sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=1\n"
+     "[1027sub1]\nParameterName=Module 1\nDataType=0x0006\nAccessType=ro\nDefaultValue=0\n"
+     "[2000]\nParameterName=Gains\nObjectType=0x8\nSubNumber=2\n"
+     "[2000sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n"
+     "[2000sub1]\nParameterName=Part\nDataType=0x0006\nAccessType=rw\n",
+     "[SupportedModules]\nNrOfEntries=1\n"
+     "[M1ModuleInfo]\nProductName=Input 1\nProductVersion=1\nProductRevision=1\nOrderCode=E2\n"
+     "[M1FixedObjects]\nNrOfEntries=1\n1=0x2100\n"
+     "[M1Fixed2100]\nParameterName=State\nDataType=0x0005\nAccessType=ro\nDefaultValue=0\n"
+     "[1027]\nParameterName=Module list\nObjectType=0x8\nSubNumber=2\n"
+     "[1027sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=1\n"
+     "[1027sub1]\nParameterName=Module 1\nDataType=0x0006\nAccessType=ro\nDefaultValue=0\n"
+     "[2000]\nParameterName=Gains\nObjectType=0x8\nSubNumber=2\n"
+     "[2000sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=1\n"
+     "[2000sub1]\nParameterName=Part\nDataType=0x0006\nAccessType=rw\n"},
     {"EDS420",
      "[1027]\nParameterName=Module list\nObjectType=0x8\nSubNumber=2\n"
      "[1027sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=1\n"

@@ -27,14 +27,14 @@ constexpr LintExample examples[] = {
      "[FileInfo]\nFileName=example.eds\nFileRevision=1\nEDSVersion=4.0\n",
      "[FileInfo]\nFileName=example.eds\nFileVersion=1\nFileRevision=1\nEDSVersion=4.0\n"},
     {"EDS109",
-     "[DeviceInfo]\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n"},
+     "[DeviceInfo]\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n",
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n"},
     {"EDS110",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n"},
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=0\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n",
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n"},
     {"EDS111",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_100=1\n",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_250=1\n"},
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_100=1\n",
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_250=1\n"},
     {"EDS112",
      "[Comments]\nLines=2\nLine1=Made for the first series\n",
      "[Comments]\nLines=1\nLine1=Made for the first series\n"},
@@ -42,9 +42,9 @@ constexpr LintExample examples[] = {
      "[DeviceComissioning]\nNodeID=128\nBaudrate=125\n",
      "[DeviceComissioning]\nNodeID=127\nBaudrate=125\n"},
     {"EDS115",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_250=0\n"
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_250=0\n"
      "[DeviceComissioning]\nNodeID=5\nBaudrate=250\n",
-     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_250=1\n"
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\nBaudRate_250=1\n"
      "[DeviceComissioning]\nNodeID=5\nBaudrate=250\n"},
     {"EDS119",
      "[DummyUsage]\nDummy0009=1\n",
@@ -147,10 +147,12 @@ constexpr LintExample examples[] = {
     {"EDS231",
      "[1003]\nParameterName=Pre-defined error field\nObjectType=0x9\nSubNumber=2\n"
      "[1003sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n"
-     "[1003sub1]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n",
+     "[1003sub1]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"
+     "[1014]\nParameterName=COB-ID EMCY\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x80\n",
      "[1003]\nParameterName=Pre-defined error field\nObjectType=0x8\nSubNumber=2\n"
      "[1003sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n"
-     "[1003sub1]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"},
+     "[1003sub1]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"
+     "[1014]\nParameterName=COB-ID EMCY\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x80\n"},
     {"EDS232",
      "[1008]\nParameterName=Manufacturer device name\nObjectType=0x7\nDataType=0x0009\nAccessType=rw\nDefaultValue=Example\n",
      "[1008]\nParameterName=Manufacturer device name\nObjectType=0x7\nDataType=0x0009\nAccessType=const\nDefaultValue=Example\n"},
@@ -217,11 +219,13 @@ constexpr LintExample examples[] = {
      "[1003]\nParameterName=Pre-defined error field\nObjectType=0x8\nSubNumber=3\n"
      "[1003sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n"
      "[1003sub1]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"
-     "[1003sub2]\nParameterName=Part\nDataType=0x0006\nAccessType=ro\n",
+     "[1003sub2]\nParameterName=Part\nDataType=0x0006\nAccessType=ro\n"
+     "[1014]\nParameterName=COB-ID EMCY\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x80\n",
      "[1003]\nParameterName=Pre-defined error field\nObjectType=0x8\nSubNumber=3\n"
      "[1003sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n"
      "[1003sub1]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"
-     "[1003sub2]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"},
+     "[1003sub2]\nParameterName=Part\nDataType=0x0007\nAccessType=ro\n"
+     "[1014]\nParameterName=COB-ID EMCY\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x80\n"},
     {"EDS259",
      "[2000]\nParameterName=Gains\nObjectType=0x8\nSubNumber=2\n"
      "[2000sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=1\n"

@@ -176,6 +176,9 @@ constexpr LintExample examples[] = {
      "[1A00sub0]\nParameterName=Number of mapped objects\nDataType=0x0005\nAccessType=ro\nDefaultValue=1\n"
      "[1A00sub1]\nParameterName=Object 1\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x20000010\n"
      "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=ro\nDefaultValue=0\nPDOMapping=1\n"},
+    {"EDS315",
+     "[1004]\nParameterName=Number of PDOs supported\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x00010002\n",
+     "[1004]\nParameterName=Number of PDOs supported\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\n"},
     {"EDS316",
      "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nDynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO=0\nNrOfTXPDO=1\nLSS_Supported=0\nCompactPDO=0x41\n",
      "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nDynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO=0\nNrOfTXPDO=1\nLSS_Supported=0\nCompactPDO=0x03\n"},

@@ -227,6 +227,35 @@ constexpr LintExample examples[] = {
      "[1A04sub0]\nParameterName=Number of mapped objects\nDataType=0x0005\nAccessType=rw\nDefaultValue=1\n"
      "[1A04sub1]\nParameterName=Object 1\nDataType=0x0007\nAccessType=rw\nDefaultValue=0x20000010\n"
      "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=ro\nDefaultValue=0\nPDOMapping=1\n"},
+    {"EDS461",
+     "[1016]\nParameterName=Consumer heartbeat time\nObjectType=0x8\nSubNumber=3\n"
+     "[1016sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n"
+     "[1016sub1]\nParameterName=Node 2, 500 ms\nDataType=0x0007\nAccessType=rw\nDefaultValue=0\nParameterValue=0x000201F4\n"
+     "[1016sub2]\nParameterName=Node 2, 300 ms\nDataType=0x0007\nAccessType=rw\nDefaultValue=0\nParameterValue=0x0002012C\n",
+     "[1016]\nParameterName=Consumer heartbeat time\nObjectType=0x8\nSubNumber=3\n"
+     "[1016sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n"
+     "[1016sub1]\nParameterName=Node 2, 500 ms\nDataType=0x0007\nAccessType=rw\nDefaultValue=0\nParameterValue=0x000201F4\n"
+     "[1016sub2]\nParameterName=Node 3, 300 ms\nDataType=0x0007\nAccessType=rw\nDefaultValue=0\nParameterValue=0x0003012C\n",
+     "example.dcf"},
+    {"EDS462",
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nDynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO=0\nNrOfTXPDO=1\nLSS_Supported=0\n"
+     "[1800]\nParameterName=PDO communication\nObjectType=0x9\nSubNumber=3\n"
+     "[1800sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n"
+     "[1800sub1]\nParameterName=COB-ID\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x40000180\n"
+     "[1800sub2]\nParameterName=Transmission type\nDataType=0x0005\nAccessType=rw\nDefaultValue=253\n"
+     "[1A00]\nParameterName=PDO mapping\nObjectType=0x9\nSubNumber=2\n"
+     "[1A00sub0]\nParameterName=Number of mapped objects\nDataType=0x0005\nAccessType=rw\nDefaultValue=1\n"
+     "[1A00sub1]\nParameterName=Object 1\nDataType=0x0007\nAccessType=rw\nDefaultValue=0x20000010\n"
+     "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=ro\nDefaultValue=0\nPDOMapping=1\n",
+     "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nDynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO=0\nNrOfTXPDO=1\nLSS_Supported=0\n"
+     "[1800]\nParameterName=PDO communication\nObjectType=0x9\nSubNumber=3\n"
+     "[1800sub0]\nParameterName=Highest sub-index\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n"
+     "[1800sub1]\nParameterName=COB-ID\nDataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x40000180\n"
+     "[1800sub2]\nParameterName=Transmission type\nDataType=0x0005\nAccessType=rw\nDefaultValue=254\n"
+     "[1A00]\nParameterName=PDO mapping\nObjectType=0x9\nSubNumber=2\n"
+     "[1A00sub0]\nParameterName=Number of mapped objects\nDataType=0x0005\nAccessType=rw\nDefaultValue=1\n"
+     "[1A00sub1]\nParameterName=Object 1\nDataType=0x0007\nAccessType=rw\nDefaultValue=0x20000010\n"
+     "[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=ro\nDefaultValue=0\nPDOMapping=1\n"},
     {"EDS470",
      "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nDynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n",
      "[DeviceInfo]\nVendorName=Example\nVendorNumber=0x1F\nProductName=Example\nProductNumber=0x2\nRevisionNumber=0x10000\nOrderCode=E2\nBaudRate_125=1\nSimpleBootUpMaster=0\nSimpleBootUpSlave=0\nGranularity=8\nDynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO=0\nNrOfTXPDO=0\nLSS_Supported=0\n"},

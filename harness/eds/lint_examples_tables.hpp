@@ -9,6 +9,6 @@
 namespace conform::eds {
 
 extern const std::span<const LintExample> forms_examples, objects_examples, pdos_examples, values_examples,
-    parameters_examples, mapping_examples, modules_examples, services_examples;
+    parameters_examples, mapping_examples, modules_examples, services_examples, files_examples, xml_examples;
 
 }  // namespace conform::eds

@@ -25,9 +25,10 @@ Json rule_json(const eds::Rule& rule, std::string_view group, const std::string&
   auto help = fmt::format("{}. Source: {}.", title, rule.source);
   auto markdown = fmt::format("{}.\n\nSource: {}\n", title, rule.source);
   if (example != nullptr) {
-    help += fmt::format("\n\nWrong:\n{}\nRight:\n{}", example->wrong, example->right);
-    markdown +=
-        fmt::format("\nWrong:\n```ini\n{}```\nRight:\n```ini\n{}```\n", example->wrong, example->right);
+    const auto wrong = eds::shown(example->wrong), right = eds::shown(example->right);
+    const auto* language = example->file.ends_with(".xdd") ? "xml" : "ini";
+    help += fmt::format("\n\nWrong:\n{}\nRight:\n{}", wrong, right);
+    markdown += fmt::format("\nWrong:\n```{0}\n{1}```\nRight:\n```{0}\n{2}```\n", language, wrong, right);
   }
   Json out = {{"id", std::string(rule.code)},
               {"shortDescription", {{"text", title}}},

@@ -28,8 +28,10 @@ std::string_view meaning(eds::Severity severity) {
   return {};
 }
 
-std::string indented(std::string_view text) {
+std::string indented(std::string_view example) {
   std::string out;
+  const auto printed = eds::shown(example);
+  std::string_view text = printed;
   if (text.ends_with('\n')) text.remove_suffix(1);
   for (const auto line : split(text, '\n')) {
     // An empty line makes sections easier to tell apart.
@@ -39,6 +41,12 @@ std::string indented(std::string_view text) {
   return out;
 }
 
+/// Where an example stands, unless it is an EDS.
+std::string_view kind_of(const eds::LintExample& example) {
+  if (example.file.ends_with(".dcf")) return ", in a DCF";
+  return example.file.ends_with(".xdd") ? ", in an XDD" : "";
+}
+
 }  // namespace
 
 std::string explain_rule(const eds::Rule& rule) {
@@ -46,8 +54,11 @@ std::string explain_rule(const eds::Rule& rule) {
   out += fmt::format("  source    {}\n", rule.source);
   out += fmt::format("  severity  {}: {}\n", to_string(rule.severity), meaning(rule.severity));
   if (const auto* example = eds::find_example(rule.code)) {
-    out += "\n  Wrong\n" + indented(example->wrong);
-    out += "\n  Right\n" + indented(example->right);
+    const auto kind = kind_of(*example);
+    out += fmt::format("\n  Wrong{}\n{}", kind, indented(example->wrong));
+    out += fmt::format("\n  Right{}\n{}", kind, indented(example->right));
+  } else if (const auto reason = eds::why_no_example(rule.code); !reason.empty()) {
+    out += fmt::format("  example   none: {}\n", reason);
   }
   return out +
          fmt::format(

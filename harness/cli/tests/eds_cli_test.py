@@ -328,7 +328,12 @@ class Descriptions(unittest.TestCase):
         for said in ("Sub-index 00h is read-only and not the highest sub-index", "CiA 301, 7.4.8", "error", "Wrong\n", "Right\n", "lint: allow EDS254 REASON"):
             self.assertIn(said, done.stdout)
         self.assertIn("A listed object", explained("EDS154").stdout)
-        self.assertNotIn("Wrong", explained("EDS100").stdout)
+        self.assertIn("Wrong, in an XDD\n    <ProfileHeader>\n", explained("EDS707").stdout)
+        self.assertIn("    ParameterName=Temp\\xE9rature\n", explained("EDS013").stdout)
+        self.assertIn("    \\xEF\\xBB\\xBF; The example\n", explained("EDS017").stdout)
+        without = explained("EDS276").stdout
+        self.assertIn("example   none: it takes hundreds of objects", without)
+        self.assertNotIn("Wrong", without)
         self.assertIn("did you mean 'EDS", explained("EDS0254").stderr)
 
     def test_usage_mistakes_exit_2(self):
