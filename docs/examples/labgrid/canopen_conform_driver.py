@@ -31,7 +31,8 @@ class CANopenConformDriver(Driver):
     @Driver.check_active
     @step(args=["arguments"], result=True)
     def run(self, arguments, reports):
-        """Runs the suite. Whatever it ends with, junit.xml, report.html, result.json and run.pcapng come into the folder `reports`.
+        """Runs the suite. Whatever it ends with, junit.xml, report.html, result.json and run.pcapng come into the folder `reports`. When it is
+        interrupted, it returns to its caller after the run has put back what it changed.
 
         Args:
             arguments (list): of `canopen-conform run`, beside the interface and the profile
@@ -43,6 +44,8 @@ class CANopenConformDriver(Driver):
         Raises:
             ExecutionError: the host was not reached, or the connection broke
         """
+        # A local interface has no prefix. Taken once: after Ctrl-C labgrid holds the connection for lost, although it is not.
+        self._prefix = self.interface.command_prefix
         folder = self._output("mktemp -d /tmp/canopen-conform.XXXXXXXX").decode().strip()
         try:
             self._send(folder)
@@ -50,13 +53,27 @@ class CANopenConformDriver(Driver):
                        "--device", f"{folder}/{os.path.basename(self.profile)}", *arguments]
             for option, name in (("--junit", "junit.xml"), ("--html", "report.html"), ("--json", "result.json"), ("--capture", "run.pcapng")):
                 command += [option, f"{folder}/reports/{name}"]
-            code = self._on_host(f"mkdir {folder}/reports && {shlex.join(command)}").returncode
-            os.makedirs(reports, exist_ok=True)
-            packed = self._output(f"tar -c -C {folder}/reports .")
-            subprocess.run(["tar", "-x", "-C", reports], input=packed, check=True)
-            return code
+            self._on_host(f"mkdir {folder}/reports")
+            try:
+                return self._run_with_us(shlex.join(command))
+            finally:
+                os.makedirs(reports, exist_ok=True)
+                subprocess.run(["tar", "-x", "-C", reports], input=self._output(f"tar -c -C {folder}/reports ."), check=True)
         finally:
             self._on_host(f"rm -rf {folder}")
+
+    def _run_with_us(self, command):
+        """Neither SSH nor a shell ends a program whose client is gone, and the place would be given back before the run is over. So the other
+        side ends it when its standard input does, however that came."""
+        line = (f"exec 3<&0; {command} & run=$!; {{ cat <&3 >/dev/null; kill -TERM $run; }} 2>/dev/null >/dev/null & watch=$!; "
+                "wait $run; code=$?; kill $watch 2>/dev/null; exit $code")
+        # Ctrl-C is for us and not for SSH.
+        process = subprocess.Popen(self._line(line), stdin=subprocess.PIPE, start_new_session=True)
+        try:
+            return self._connected(process.wait(), command)
+        finally:
+            process.stdin.close()
+            process.wait()
 
     def _send(self, folder):
         profile = self.target.env.config.resolve_path(self.profile)
@@ -72,12 +89,17 @@ class CANopenConformDriver(Driver):
         told["LG_USERNAME"] = os.environ.get("LG_USERNAME", getuser())
         return [f"{name}={value}" for name, value in told.items()]
 
-    def _on_host(self, line, **options):
-        # A local interface has no prefix; behind SSH's the shell of the other side takes the line.
-        prefix = self.interface.command_prefix
-        done = subprocess.run([*prefix, line] if prefix else ["sh", "-c", line], check=False, **options)
-        if prefix and done.returncode == 255:
+    def _line(self, line):
+        return [*self._prefix, line] if self._prefix else ["sh", "-c", line]  # behind SSH the shell of the other side takes it
+
+    def _connected(self, code, line):
+        if self._prefix and code == 255:
             raise ExecutionError(f"no connection to {self.interface.host}, or it broke: {line}")
+        return code
+
+    def _on_host(self, line, **options):
+        done = subprocess.run(self._line(line), check=False, **options)
+        self._connected(done.returncode, line)
         return done
 
     def _output(self, line):
