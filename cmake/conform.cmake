@@ -62,6 +62,22 @@ function(conform_library name)
   conform_reuse_headers(conform_${name})
 endfunction()
 
+# conform_share(PROGRAM): the program writes its man pages and completions below share/ in the build folder, from where they are
+# installed (cmake/install.cmake). Each time it is linked, so that they tell what it takes.
+function(conform_share program)
+  if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    message(STATUS "No man pages and completions of ${program}: it does not run here")
+    return()
+  endif()
+  # Who builds twice and wants the same bytes sets SOURCE_DATE_EPOCH.
+  string(TIMESTAMP date "%Y-%m-%d" UTC)
+  set(folder ${CMAKE_BINARY_DIR}/share/${program})
+  add_custom_command(TARGET ${program} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
+    COMMAND ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${program}> __share ${folder} ${date}
+    VERBATIM)
+endfunction()
+
 # One object library holds Catch's main (v2) and the include path of the version shim.
 function(conform_test_support)
   add_library(conform_test_main STATIC ${CMAKE_SOURCE_DIR}/cmake/testing/main.cpp)
