@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // canopen-refnode: the reference node on a CAN interface.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -14,11 +15,14 @@
 #include "defects/defect.hpp"
 #include "eds/eds.hpp"
 #include "eds/read.hpp"
+#include "main_usage.hpp"
 #include "node/eds_text.hpp"
 #include "node/powered_node.hpp"
 #include "parts/parts.hpp"
 #include "storage/memory.hpp"
 #include "twin/twin.hpp"
+#include "usage/program.hpp"
+#include "usage/shells.hpp"
 #include "variants/variant.hpp"
 
 namespace {
@@ -100,6 +104,7 @@ int complain(const conform::Error& error, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  namespace usage = conform::usage;
   CLI::App app{
       "A conformant CANopen device (CiA 301) on a CAN interface, with defects on request: the reference node, "
       "or with --eds the twin of any device. SIGUSR1 switches its power off and on: what was not stored is "
@@ -113,31 +118,55 @@ int main(int argc, char** argv) {
   bool list = false;
   bool list_legal = false;
   bool print_eds = false;
-  app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0");
+  std::string shell;
+  app.add_option("-i,--interface", interface_name, "CAN interface, for example vcan0")->type_name("NAME");
   const auto* node_option =
       app.add_option(
              "-n,--node", node_id,
              "node-ID, 1 to 127, or 255: none, it waits for one by LSS; without it that of the DCF given by "
              "--eds")
-          ->check(CLI::Range(1, 127) | CLI::IsMember({255}))
+          ->check((CLI::Range(1, 127) | CLI::IsMember({255})).description(""))
+          ->type_name("NODE-ID")
           ->capture_default_str();
-  auto* description_option = app.add_option(
-      "--eds", description_file,
-      "serve the device that this EDS, DCF, XDD or XDC describes; what cannot be served as it is "
-      "written is warned of");
-  app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated");
-  app.add_option("--variant", options.variants, "legal variant to switch on; may be repeated");
-  auto* serial_option = app.add_option("--serial", serial, "serial number, 1018h:04, instead of 1");
-  app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h");
+  auto* description_option =
+      app.add_option(
+             "--eds", description_file,
+             "serve the device that this EDS, DCF, XDD or XDC describes; what cannot be served as it is "
+             "written is warned of")
+          ->type_name("FILE");
+  app.add_option("-d,--defect", options.defects, "defect to switch on; may be repeated")->type_name("ID");
+  app.add_option("--variant", options.variants, "legal variant to switch on; may be repeated")
+      ->type_name("ID");
+  auto* serial_option =
+      app.add_option("--serial", serial, "serial number, 1018h:04, instead of 1")->type_name("NUMBER");
+  app.add_option("--storage", storage_file, "file that keeps the parameters stored by 1010h")
+      ->type_name("FILE");
   app.add_flag("--list-defects", list, "print all defects and what they violate");
   app.add_flag("--list-variants", list_legal, "print all legal variants and why they are legal");
   app.add_flag("--print-eds", print_eds, "print the device description (EDS) of the reference node")
       ->excludes(description_option);
-  app.set_version_flag("--version", "canopen-refnode " CONFORM_VERSION);
+  app.add_option("--completion", shell, "print what a shell (bash, zsh or fish) reads to complete options")
+      ->check(
+          CLI::IsMember(std::vector<std::string>(usage::shells.begin(), usage::shells.end())).description(""))
+      ->type_name("SHELL");
+  app.set_version_flag("--version", "canopen-refnode " CONFORM_VERSION, "print the version");
+  const auto told = refnode::manual();
+  usage::add_examples(app, told);
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  if (const auto answer =
+          usage::answer_hidden(app, arguments, told, refnode::known_values, CONFORM_VERSION)) {
+    if (!*answer) return complain(answer->error(), exit_usage);
+    fmt::print("{}", **answer);
+    return 0;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
+  }
+  if (!shell.empty()) {
+    fmt::print("{}", usage::completion_script(shell, "canopen-refnode"));
+    return 0;
   }
   if (list) {
     list_defects();
