@@ -1,7 +1,7 @@
 # What `cmake --install` leaves beside the programs and the suites.
 
 install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform)
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform PATTERN man EXCLUDE)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform)
 install(DIRECTORY docs/wireshark DESTINATION ${CMAKE_INSTALL_DATADIR}/canopen-conform)
 # What the pages link to.
 foreach(file reference-node/README.md reports/junit.xsd reports/schema/result.schema.json reports/schema/comparison.schema.json harness/bundle/manifest.schema.json scripts/install-packages suites/patterns/reference-node.json suites/requirements/README.md
@@ -24,6 +24,13 @@ install(FILES ${CMAKE_BINARY_DIR}/package/canopen-conform-config.cmake ${CMAKE_B
 install(PROGRAMS cmake/package/run-test scripts/with-vcan DESTINATION ${CONFORM_HELPERS})
 install(FILES scripts/uml-xstate.c DESTINATION ${CONFORM_HELPERS})
 
-install(FILES docs/man/canopen-conform.1 docs/man/canopen-refnode.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+# What the programs have written of themselves (conform_share).
+set(CONFORM_ZSH_COMPLETIONS ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Where the completion of zsh is installed")
+foreach(program canopen-conform canopen-refnode)
+  set(share ${CMAKE_BINARY_DIR}/share/${program})
+  install(DIRECTORY ${share}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR} OPTIONAL)
+  install(DIRECTORY ${share}/zsh/site-functions/ DESTINATION ${CONFORM_ZSH_COMPLETIONS} OPTIONAL)
+  install(DIRECTORY ${share}/bash-completion ${share}/fish DESTINATION ${CMAKE_INSTALL_DATADIR} OPTIONAL)
+endforeach()
 
 include(cmake/deb.cmake)

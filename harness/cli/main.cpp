@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Command line of canopen-conform.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -16,6 +17,11 @@
 #include "cli/run/command_line.hpp"
 #include "cli/run/guardian.hpp"
 #include "cli/run/settings.hpp"
+#include "cli/run/terminal.hpp"
+#include "cli/usage/known_values.hpp"
+#include "cli/usage/manual.hpp"
+#include "usage/program.hpp"
+#include "usage/shells.hpp"
 
 namespace {
 
@@ -26,6 +32,7 @@ const char* environment(const std::string& name) {
 
 int dispatch(int argc, char** argv) {
   using namespace conform::cli;
+  namespace usage = conform::usage;
   CLI::App app{
       "CANopen (CiA 301) conformance harness.\n"
       "Exit codes: 0 conforms, 1 a requirement failed, 2 usage or nothing applicable, 3 environment or inconclusive, 130/143 signal."};
@@ -436,6 +443,15 @@ int dispatch(int argc, char** argv) {
                    "Write the matrix of requirements and defects, or the score of the mutants, as Markdown")
       ->type_name("FILE");
 
+  std::string shell;
+  auto* completion_sub = app.add_subcommand(
+      "completion", "Print what a shell reads to complete the command lines of this program");
+  completion_sub->add_option("shell", shell, "bash, zsh or fish")
+      ->required()
+      ->check(
+          CLI::IsMember(std::vector<std::string>(usage::shells.begin(), usage::shells.end())).description(""))
+      ->type_name("SHELL");
+
   BenchCommand bench;
   auto* bench_sub = app.add_subcommand("bench", "Round trips per second through the harness");
   bench_sub->group("");
@@ -454,6 +470,14 @@ int dispatch(int argc, char** argv) {
            "Folder of own scenarios and requirements, beside those that came with the program; repeatable")
         ->allow_extra_args(false)
         ->type_name("FOLDER");
+  }
+  const auto told = manual();
+  usage::add_examples(app, told);
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  if (const auto answer = usage::answer_hidden(app, arguments, told, known_values, CONFORM_VERSION)) {
+    if (!*answer) return report_error(answer->error(), exit_usage);
+    print(**answer);
+    return 0;
   }
   const auto line = merge_settings(std::span(argv, static_cast<std::size_t>(argc)), environment);
   std::vector<const char*> words;
@@ -489,6 +513,10 @@ int dispatch(int argc, char** argv) {
   if (explain_sub->parsed()) return explain_command(explain);
   if (explore_sub->parsed()) return explore_command(explore);
   if (selftest_sub->parsed()) return selftest_command(selftest);
+  if (completion_sub->parsed()) {
+    print(usage::completion_script(shell, "canopen-conform"));
+    return 0;
+  }
   return bench_command(bench);
 }
 

@@ -49,16 +49,6 @@ std::string name_of(const CLI::Option& option) {
 
 bool is_list(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
 
-/// "all-objects" -> "CANOPEN_CONFORM_ALL_OBJECTS"
-std::string variable_of(std::string_view option) {
-  // CANOPEN_CONFORM_SUITES is where the suites of the program are.
-  if (option == "suites") return "CANOPEN_CONFORM_OWN_SUITES";
-  std::string out = "CANOPEN_CONFORM_";
-  for (const char c : option)
-    out += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return out;
-}
-
 class Merger {
  public:
   Merger(std::span<char* const> arguments, const Environment& environment)
@@ -231,6 +221,15 @@ std::string value_of(const Setting& setting) {
 }
 
 }  // namespace
+
+std::string variable_of(std::string_view option) {
+  // CANOPEN_CONFORM_SUITES is where the suites of the program are.
+  if (option == "suites") return "CANOPEN_CONFORM_OWN_SUITES";
+  std::string out = "CANOPEN_CONFORM_";
+  for (const char c : option)
+    out += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return out;
+}
 
 MergedLine merge_settings(std::span<char* const> arguments, const Environment& environment) {
   return Merger(arguments, environment).merged();

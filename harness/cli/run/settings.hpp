@@ -28,6 +28,9 @@ struct MergedLine {
 /// The profile that is used where nothing says which device is meant.
 inline constexpr const char* found_profile = "device.yaml";
 
+/// The variable that stands for an option of a run: "all-objects" -> "CANOPEN_CONFORM_ALL_OBJECTS".
+[[nodiscard]] std::string variable_of(std::string_view option);
+
 /// A variable of the environment; nullptr: not there.
 using Environment = std::function<const char*(const std::string& name)>;
 

@@ -46,6 +46,14 @@ class Install(unittest.TestCase):
                      "doc/canopen-conform/README.md", "doc/canopen-conform/LICENSE", "doc/canopen-conform/docs/architecture.md"):
             self.assertTrue(os.path.exists(os.path.join(share, name)), name)
 
+    def test_man_pages_and_completions_come_along(self):
+        for name in ("man/man1/canopen-conform.1", "man/man1/canopen-conform-run.1", "man/man1/canopen-conform-eds-lint.1",
+                     "man/man1/canopen-refnode.1", "bash-completion/completions/canopen-conform",
+                     "bash-completion/completions/canopen-refnode", "zsh/site-functions/_canopen-conform",
+                     "zsh/site-functions/_canopen-refnode", "fish/vendor_completions.d/canopen-conform.fish",
+                     "fish/vendor_completions.d/canopen-refnode.fish"):
+            self.assertTrue(os.path.isfile(os.path.join(self.prefix, "share", name)), name)
+
     def test_what_the_documents_link_to_comes_along(self):
         top = os.path.join(self.prefix, "share/doc/canopen-conform")
         for folder, _, names in os.walk(top):
