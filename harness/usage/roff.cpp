@@ -39,7 +39,7 @@ std::string escaped(std::string_view text, bool typed) {
 }
 
 /// A full stop at the beginning of a line makes a request of it.
-std::string no_request(std::string text) { return text.starts_with('.') ? "\\&" + text : text; }
+std::string no_request(const std::string& text) { return text.starts_with('.') ? "\\&" + text : text; }
 
 /// Options in a sentence are typed, too: "--allow".
 std::string with_options(std::string_view text) {
