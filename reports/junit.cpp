@@ -64,6 +64,10 @@ std::string dotted(std::string_view path) {
   return out.empty() ? std::string(fallback_suite) : out;
 }
 
+std::string with_prefix(std::string class_name, const JUnitOptions& options) {
+  return options.class_prefix.empty() ? class_name : dotted(options.class_prefix) + "." + class_name;
+}
+
 /// What one <testsuite> is made of.
 struct Suite {
   std::string class_name;
@@ -74,7 +78,7 @@ std::vector<Suite> suites_of(const RunResult& run, const JUnitOptions& options) 
   std::vector<Suite> suites;
   for (const CaseResult& one : run.cases) {
     std::string name = dotted(one.suite);
-    if (!options.class_prefix.empty()) name = fmt::format("{}.{}", dotted(options.class_prefix), name);
+    name = with_prefix(std::move(name), options);
     auto suite = std::ranges::find(suites, name, &Suite::class_name);
     if (suite == suites.end()) suite = suites.insert(suites.end(), {std::move(name), {}});
     suite->cases.push_back(&one);
@@ -351,7 +355,7 @@ void write_suite(pugi::xml_node root, const RunResult& run, const JUnitOptions& 
 constexpr Numbers of_empty_run{1, 0, 1, 0};
 
 void write_empty_run(pugi::xml_node root, const RunResult& run, const JUnitOptions& options) {
-  const auto name = options.class_prefix + std::string(fallback_suite);
+  const auto name = with_prefix(std::string(fallback_suite), options);
   pugi::xml_node node = begin_suite(root, run, name, of_empty_run, run.elapsed, {});
   write_properties(node, run);
   pugi::xml_node only = node.append_child("testcase");

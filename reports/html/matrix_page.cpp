@@ -42,7 +42,7 @@ std::string device_section(const Matrix& matrix) {
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{} {}{}</td></tr>\n",
         clipped(column.name, 100), property("dut.node_id"), property("dut.serial"),
         property("dut.software_version"), bar(counts), count_badges(counts),
-        run.aborted ? "<br>" + badge(Verdict::error) + " ended early: " + clipped(*run.aborted, 300)
+        run.aborted ? "<br/>" + badge(Verdict::error) + " ended early: " + clipped(*run.aborted, 300)
                     : std::string());
   }
   return section("devices", "Devices",
@@ -54,7 +54,7 @@ std::string requirement_rows(const Matrix& matrix, const std::string& area) {
   std::string rows;
   for (const auto& row : matrix.rows()) {
     if (row.info->area != area) continue;
-    rows += fmt::format("<tr data-v=\"{}\"><th scope=\"row\">{}<br><span class=\"quiet\">{}</span></th>",
+    rows += fmt::format("<tr data-v=\"{}\"><th scope=\"row\">{}<br/><span class=\"quiet\">{}</span></th>",
                         kind_of(row.worst()), clipped(row.info->id, 60),
                         clipped(prose(row.info->statement), 400));
     for (const auto& verdict : row.verdicts) rows += fmt::format("<td>{}</td>", badge_of(verdict));

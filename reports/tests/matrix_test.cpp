@@ -70,7 +70,7 @@ TEST_CASE("what hostile devices call themselves stays text in every form of the 
 
 TEST_CASE("several devices share one JUnit file in which their classes stay apart") {
   const auto wrong = testing::sample_run(), right = right_run();
-  const std::vector<JUnitDevice> devices{{&wrong, {"a.", ""}}, {&right, {"b.", ""}}};
+  const std::vector<JUnitDevice> devices{{&wrong, {"a", ""}}, {&right, {"b", ""}}};
   const auto xml = junit_of_several(devices);
   CHECK(contains(xml, "<testsuites name=\"2 devices\""));
   CHECK(contains(xml, "classname=\"a."));

@@ -58,6 +58,7 @@ void RunOptions::add_to(CLI::App& app) {
          "Several devices of one bus, one after the other: 5,6,7. Reports for each (report.node5.html) and for all")
       ->check(CLI::Range(1, 127).description(""))
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NODE-IDS")
       ->excludes(node);
   app.add_option("-d,--device", command.device, "Device profile (YAML): claims, error triggers, tolerances")

@@ -42,7 +42,7 @@ void name_apart(std::vector<NamedRun>& devices) {
   for (std::size_t i = 0; i < devices.size(); ++i) devices[i].name = names[i];
 }
 
-/// In front of class names: "drive_a_node_5.".
+/// In front of class names: "drive_a_node_5".
 std::string class_prefix(const std::string& name) {
   std::string out;
   for (const char c : name) {
@@ -53,7 +53,7 @@ std::string class_prefix(const std::string& name) {
       out += '_';
   }
   while (out.ends_with('_')) out.pop_back();
-  return out + ".";
+  return out;
 }
 
 std::string junit_of(const std::vector<NamedRun>& devices) {

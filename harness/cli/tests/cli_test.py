@@ -124,14 +124,13 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(again.returncode, 1, again.stdout[-3000:] + again.stderr)
         self.assertNotIn("nothing to run again", again.stdout)
 
-    def test_a_case_is_run_by_its_name_also_where_only_the_device_knows_of_it(self):
-        done = run("run", "--simulate", "--node", "5", "cia301/dictionary/object-structure/standard-objects[1011h:00]",
-                   "--junit", self.path("j.xml"))
+    def test_a_case_is_run_by_its_name_and_one_that_is_not_there_stays_open(self):
+        done = run("run", "--simulate", "cia301/sync/consumer/present-data[1801h:00]", "--json", self.path("r.json"))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        names = [case.get("name") for case in ElementTree.parse(self.path("j.xml")).getroot().iter("testcase")
-                 if case.get("classname") != "monitor"]
-        self.assertEqual(names, ["standard-objects[1011h:00]"])
-        absent = run("run", "--simulate", "cia301/dictionary/object-structure/standard-objects[5FFFh:00]")
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            names = [case["name"] for case in json.load(file)["cases"] if case["suite"] != "monitor"]
+        self.assertEqual(names, ["cia301/sync/consumer/present-data[1801h:00]"])
+        absent = run("run", "--simulate", "cia301/sync/consumer/present-data[19FFh:00]")
         self.assertEqual(absent.returncode, 3, absent.stdout + absent.stderr)
         self.assertIn("there is no such case for this device", absent.stdout)
 

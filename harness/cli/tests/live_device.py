@@ -63,8 +63,6 @@ def verdicts(junit):
     return out
 
 
-def left_open_by_the_machine(done, junit):
-    """The cases that nobody may judge yet, because the machine that ran them was late."""
-    if done.returncode != 3 or "the machine was late" not in done.stdout:
-        return []
-    return [name for name, (word, _) in verdicts(junit).items() if word == "inconclusive"]
+def left_open_by_the_machine(done):
+    """Nothing failed, but the machine that ran it was late, so nobody may judge some cases yet."""
+    return done.returncode == 3 and "the machine was late" in done.stdout

@@ -51,15 +51,15 @@ class Live(unittest.TestCase):
         with open(times, "w", encoding="utf-8") as file:
             file.write(TIMES)
         with Node():
-            done = run("--device", times, "--junit", self.junit, "--capture", self.capture)
+            last, next_ = (os.path.join(os.path.dirname(self.junit), name) for name in ("last.json", "next.json"))
+            done = run("--device", times, "--junit", self.junit, "--capture", self.capture, "--json", last)
             whole = done.stdout
-            again = os.path.join(os.path.dirname(self.junit), "again.xml")
             for _ in range(3):
                 # What a busy machine was late for is rightly left open; another run tells.
-                open_ = left_open_by_the_machine(done, again if os.path.exists(again) else self.junit)
-                if not open_:
+                if not left_open_by_the_machine(done):
                     break
-                done = run("--device", times, "--junit", again, *open_)
+                done = run("--device", times, "--json", next_, "--rerun-failed", last)
+                os.replace(next_, last)
         self.assertEqual(done.returncode, 0, done.stdout[-6000:] + done.stderr)
         self.assertNotIn("\nwarn ", "\n" + whole)
         self.assertGreater(len(self.cases()), 100)
