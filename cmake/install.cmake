@@ -4,7 +4,7 @@ install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/canopen-conform)
 install(DIRECTORY docs/wireshark DESTINATION ${CMAKE_INSTALL_DATADIR}/canopen-conform)
 # What the pages link to.
-foreach(file reference-node/README.md reports/junit.xsd reports/schema/result.schema.json reports/schema/comparison.schema.json harness/bundle/manifest.schema.json scripts/install-packages suites/patterns/reference-node.json suites/requirements/README.md
+foreach(file reference-node/README.md reports/junit.xsd reports/schema/result.schema.json reports/schema/comparison.schema.json harness/bundle/manifest.schema.json scripts/install-packages suites/patterns/reference-node.json suites/patterns/worth.json suites/requirements/README.md
         harness/cli/tests/interop/device.js harness/cli/tests/interop/device.yaml
         action.yml Dockerfile)
   get_filename_component(folder ${file} DIRECTORY)

@@ -125,12 +125,12 @@ class CommandLine(unittest.TestCase):
         self.assertNotIn("nothing to run again", again.stdout)
 
     def test_a_case_is_run_by_its_name_and_one_that_is_not_there_stays_open(self):
-        done = run("run", "--simulate", "cia301/sync/consumer/present-data[1801h:00]", "--json", self.path("r.json"))
+        done = run("run", "--simulate", "cia301/sdo/block-upload/correct-crc[1008h:00]", "--json", self.path("r.json"))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with open(self.path("r.json"), encoding="utf-8") as file:
             names = [case["name"] for case in json.load(file)["cases"] if case["suite"] != "monitor"]
-        self.assertEqual(names, ["cia301/sync/consumer/present-data[1801h:00]"])
-        absent = run("run", "--simulate", "cia301/sync/consumer/present-data[19FFh:00]")
+        self.assertEqual(names, ["cia301/sdo/block-upload/correct-crc[1008h:00]"])
+        absent = run("run", "--simulate", "cia301/sdo/block-upload/correct-crc[5FFFh:00]")
         self.assertEqual(absent.returncode, 3, absent.stdout + absent.stderr)
         self.assertIn("there is no such case for this device", absent.stdout)
 

@@ -144,7 +144,7 @@ TEST_CASE("every option of a run can stand in the profile, but for those it has 
   CLI::App app;
   options.add_to(app);
   std::set<std::string> on_the_line,
-      in_the_profile{"device", "interface", "node", "eds", "show-config", "help"};
+      in_the_profile{"device", "interface", "node", "nodes", "eds", "show-config", "help"};
   for (const auto* option : app.get_options())
     on_the_line.insert(option->get_lnames().empty() ? option->get_name() : option->get_lnames().front());
   for (const auto& each : device::run_keys()) in_the_profile.insert(std::string(each.key));
