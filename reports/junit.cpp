@@ -64,7 +64,7 @@ std::string dotted(std::string_view path) {
   return out.empty() ? std::string(fallback_suite) : out;
 }
 
-std::string with_prefix(std::string class_name, const JUnitOptions& options) {
+std::string with_prefix(const std::string& class_name, const JUnitOptions& options) {
   return options.class_prefix.empty() ? class_name : dotted(options.class_prefix) + "." + class_name;
 }
 
@@ -78,7 +78,7 @@ std::vector<Suite> suites_of(const RunResult& run, const JUnitOptions& options) 
   std::vector<Suite> suites;
   for (const CaseResult& one : run.cases) {
     std::string name = dotted(one.suite);
-    name = with_prefix(std::move(name), options);
+    name = with_prefix(name, options);
     auto suite = std::ranges::find(suites, name, &Suite::class_name);
     if (suite == suites.end()) suite = suites.insert(suites.end(), {std::move(name), {}});
     suite->cases.push_back(&one);
