@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "reports/csv.hpp"
+#include "reports/markdown_parts.hpp"
 #include "reports/markdown_text.hpp"
 #include "reports/paint.hpp"
 #include "reports/phrases.hpp"
@@ -26,21 +27,6 @@ std::string_view words_of(const std::optional<Verdict>& verdict) {
 bool is_trouble(const MatrixRow& row) {
   const auto worst = row.worst();
   return worst && *worst > Verdict::pass;
-}
-
-/// "3 fail, 120 pass", worst first; what is not there is left out.
-std::string counts_words(const result::Counts& counts) {
-  std::string out;
-  const auto add = [&out](std::size_t count, std::string_view noun) {
-    if (count > 0) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, noun);
-  };
-  add(counts.fail, "fail");
-  add(counts.error, "error");
-  add(counts.inconclusive, "inconclusive");
-  add(counts.warn, "warn");
-  add(counts.waived, "waived");
-  add(counts.pass, "pass");
-  return out.empty() ? "nothing judged" : out;
 }
 
 }  // namespace
@@ -108,7 +94,7 @@ std::string matrix_text(const Matrix& matrix, const Style& style) {
                      : counts.error + counts.inconclusive > 0 || run.aborted ? Verdict::inconclusive
                                                                              : Verdict::pass;
     out +=
-        fmt::format("{}  {}\n", pad_right(names[i], width), paint(counts_words(counts), ink_of(ink), style));
+        fmt::format("{}  {}\n", pad_right(names[i], width), paint(counts_text(counts), ink_of(ink), style));
     if (run.aborted) {
       for (const auto& line : wrap("ended early: " + log_safe(*run.aborted), style.width - 4))
         out += "    " + line + "\n";
@@ -147,7 +133,7 @@ std::string matrix_markdown(const Matrix& matrix) {
   std::string out = "# CANopen conformance of several devices\n\n| device | requirements |\n|---|---|\n";
   for (std::size_t i = 0; i < matrix.columns().size(); ++i) {
     const auto& column = matrix.columns()[i];
-    out += fmt::format("| {} | {}{} |\n", escaped(column.name, 100), counts_words(matrix.counts(i)),
+    out += fmt::format("| {} | {}{} |\n", escaped(column.name, 100), counts_text(matrix.counts(i)),
                        column.run->aborted ? "; ended early: " + escaped(*column.run->aborted) : "");
   }
   const auto shown = [](const MatrixRow& row) { return is_trouble(row) || row.differs(); };

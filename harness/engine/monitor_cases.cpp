@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "result/case_name.hpp"
+
 namespace conform::engine {
 namespace {
 
@@ -121,7 +123,7 @@ void withdraw_all(std::span<result::CaseResult> monitors, const std::string& why
 
 bool names_a_case(const scenario::Suite& suite, std::string_view pattern) {
   // An instance in brackets belongs to a case that there may be on this device.
-  const auto id = pattern.substr(0, pattern.find('['));
+  const auto id = result::scenario_of(pattern);
   const auto matches = [id](std::string_view each) { return scenario::matches_pattern(id, each); };
   const auto holds = [&](const auto& file) {
     return std::ranges::any_of(file.scenarios, matches, &scenario::Scenario::id);

@@ -8,10 +8,14 @@
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "engine/given.hpp"
+#include "result/case_name.hpp"
 #include "scenario/query.hpp"
 
 namespace conform::engine {
 namespace {
+
+using result::instance_of;
+using result::scenario_of;
 
 /// `count` of the items, in their old order: the first and the last one, where a device is wrong most easily,
 /// and what the seed chooses between them.
@@ -72,13 +76,11 @@ std::string name_of(const PlannedCase& planned) {
                                   : planned.scenario->id + "[" + planned.instance + "]";
 }
 
-std::string_view id_of(std::string_view name) { return name.substr(0, name.find('[')); }
-
 /// Ids of the scenarios of which instances are named one by one, as patterns.
 std::set<std::string, std::less<>> with_named_instances(const PlanOptions& options) {
   std::set<std::string, std::less<>> out;
   const auto add = [&out](const std::string& name) {
-    if (const auto id = id_of(name); id.size() < name.size()) out.emplace(id);
+    if (!instance_of(name).empty()) out.emplace(scenario_of(name));
   };
   std::ranges::for_each(options.selection.patterns, add);
   if (options.only) std::ranges::for_each(*options.only, add);
@@ -172,7 +174,7 @@ std::vector<PlannedCase> named_but_absent(const scenario::Suite& suite, const sc
                                           const device::Dictionary& dictionary, const PlanOptions& options) {
   std::set<std::string> wanted;
   for (const auto& pattern : options.selection.patterns) {
-    if (pattern.contains('[')) wanted.insert(pattern);
+    if (!instance_of(pattern).empty()) wanted.insert(pattern);
   }
   if (options.only) wanted.insert(options.only->begin(), options.only->end());
   if (wanted.empty() || options.shard.number != 1) return {};
@@ -185,10 +187,11 @@ std::vector<PlannedCase> named_but_absent(const scenario::Suite& suite, const sc
   for (const auto& name : wanted) {
     for (const auto& file : suite.files) {
       for (const auto& scenario : file.scenarios) {
-        if (!scenario::matches_pattern(id_of(name), scenario.id)) continue;
-        const auto instance = name.substr(std::min(name.size(), id_of(name).size() + 1));
+        if (!scenario::matches_pattern(scenario_of(name), scenario.id)) continue;
+        auto instance = instance_of(name);
+        if (!instance.empty()) instance.remove_prefix(1);
         out.push_back({.scenario = &scenario,
-                       .instance = instance.substr(0, instance.find(']')),
+                       .instance = std::string(instance.substr(0, instance.find(']'))),
                        .names = {},
                        .held_back = {},
                        .not_applicable = {},

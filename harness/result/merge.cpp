@@ -199,11 +199,6 @@ Result<void> belong_together(const NamedRun& first, const NamedRun& other) {
 
 }  // namespace
 
-std::string property_of(const RunResult& run, std::string_view name) {
-  const auto found = std::ranges::find(run.properties, name, &Property::name);
-  return found == run.properties.end() ? std::string() : found->value;
-}
-
 std::optional<PartOfRun> part_of_run(const RunResult& run) {
   const auto text = property_of(run, shard_property);
   PartOfRun out;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "result/properties.hpp"
 #include "result/run_result.hpp"
 
 namespace conform::result {
@@ -24,9 +25,6 @@ struct PartOfRun {
   std::size_t number = 1, of = 1;
 };
 [[nodiscard]] std::optional<PartOfRun> part_of_run(const RunResult& run);
-
-/// A property of a run by its name; empty: it has none.
-[[nodiscard]] std::string property_of(const RunResult& run, std::string_view name);
 
 /// Who was tested, as far as the device itself says so: the node, 1018h and the names of 1008h to 100Ah. Runs
 /// of one device agree in it.

@@ -16,4 +16,10 @@ namespace conform::result {
   return found == run.properties.end() ? nullptr : &found->value;
 }
 
+/// The same as text; empty where there is none.
+[[nodiscard]] inline std::string property_of(const RunResult& run, std::string_view name) {
+  const auto* value = value_of(run, name);
+  return value == nullptr ? std::string() : *value;
+}
+
 }  // namespace conform::result

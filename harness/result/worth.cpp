@@ -4,6 +4,7 @@
 #include <exception>
 #include <set>
 
+#include "result/case_name.hpp"
 #include "result/run_json.hpp"
 
 namespace conform::result {
@@ -11,8 +12,6 @@ namespace {
 
 constexpr const char* version_key = "canopen_conform_worth";
 constexpr int version = 1;
-
-std::string_view scenario_of(std::string_view name) { return name.substr(0, name.find('[')); }
 
 /// Whole milliseconds, so that the file changes only where a case does.
 std::int64_t milliseconds(Duration time) {

@@ -12,6 +12,7 @@
 #include "reports/matrix.hpp"
 #include "reports/phrases.hpp"
 #include "reports/text_tools.hpp"
+#include "result/properties.hpp"
 
 namespace conform::reports {
 namespace {
@@ -35,8 +36,7 @@ std::string device_section(const Matrix& matrix) {
     const auto& run = *column.run;
     const auto counts = matrix.counts(i);
     const auto property = [&run](std::string_view name) {
-      const auto found = std::ranges::find(run.properties, name, &result::Property::name);
-      return found == run.properties.end() ? std::string() : clipped(found->value, 60);
+      return clipped(result::property_of(run, name), 60);
     };
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{} {}{}</td></tr>\n",

@@ -14,6 +14,9 @@
 namespace conform::device {
 struct Profile;
 }
+namespace conform::result {
+struct RunResult;
+}
 
 namespace conform::cli {
 
@@ -63,7 +66,8 @@ struct RunCommand {
   std::string command;   ///< the command line itself, for the reports
   std::string baseline;  ///< result.json or journal of an earlier run: red is only what is new; empty: none
 };
-[[nodiscard]] int run_command(const RunCommand& options);
+/// `done` may be null: what the run found; nothing where it was refused, or was only planned.
+[[nodiscard]] int run_command(const RunCommand& options, std::optional<result::RunResult>* done = nullptr);
 /// The same for each of `nodes`, with a report for each and one for all: the exit code is that of the matrix.
 [[nodiscard]] int run_nodes(const RunCommand& options);
 

@@ -18,6 +18,7 @@
 #include "device/profile.hpp"
 #include "eds/lint.hpp"
 #include "monitor/watch.hpp"
+#include "result/case_name.hpp"
 #include "steps/channels.hpp"
 #include "steps/condition.hpp"
 #include "steps/step.hpp"
@@ -272,7 +273,7 @@ std::string explain_one(const std::string& topic, const LoadedSuites& suites, co
   if (const auto* variant = refnode::find_variant(topic)) return explain_variant(*variant, suites.catalogue);
   for (const auto id : suites.catalogue.ids()) known.emplace_back(id);
   // An instance of a case, "upper-bits[1400h:01]", is explained by its scenario.
-  const auto name = topic.substr(0, topic.find('['));
+  const auto name = result::scenario_of(topic);
   for (const auto& file : suites.suite.files) {
     for (const auto& each : file.scenarios) {
       if (each.id == name) return explain_scenario(each, suites.catalogue);

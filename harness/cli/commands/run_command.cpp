@@ -134,7 +134,7 @@ int compare_with(const result::RunResult& baseline, const result::RunResult& run
   return code;
 }
 
-int run(const RunCommand& options, RunReports& reports) {
+int run(const RunCommand& options, RunReports& reports, std::optional<result::RunResult>* done) {
   const auto refuse = [&reports](const Error& error, int code) {
     reports.not_begun(Facts::tool, error);
     return report_error(error, code);
@@ -379,12 +379,13 @@ int run(const RunCommand& options, RunReports& reports) {
   if (options.annotate) print(reports::github_annotations(run));
   const int code = baseline ? compare_with(*baseline, run, options, style) : result::exit_code(run);
   std::fflush(stdout);
+  if (done != nullptr) *done = std::move(run);
   return code;
 }
 
 }  // namespace
 
-int run_command(const RunCommand& options) {
+int run_command(const RunCommand& options, std::optional<result::RunResult>* done) {
   catch_signals();
   // Also into a file, so that what was said is there when the program is killed.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
@@ -394,14 +395,14 @@ int run_command(const RunCommand& options) {
                                                       .bundle = options.bundle}));
   if (options.dry_run) {
     RunReports none({});
-    return run(options, none);
+    return run(options, none, done);
   }
   if (auto key = reports.sign_with(options.sign); !key) return report_error(key.error(), exit_usage);
   if (auto begun = reports.begin(
           Facts::tool, {options.device, options.eds, options.journal, options.baseline, options.sign});
       !begun)
     return report_error(begun.error(), exit_environment);
-  return run(options, reports);
+  return run(options, reports, done);
 }
 
 }  // namespace conform::cli

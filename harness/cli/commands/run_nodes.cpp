@@ -2,15 +2,12 @@
 // `run --nodes`: several devices of one bus, one after the other.
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <set>
-#include <system_error>
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
-#include "base/files.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/run/run_source.hpp"
 #include "cli/run/several.hpp"
 #include "cli/run/terminal.hpp"
 
@@ -18,27 +15,6 @@ namespace conform::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that is gone with it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    auto path = (fs::temp_directory_path(error) / "canopen-conform-XXXXXX").string();
-    if (!error && ::mkdtemp(path.data()) != nullptr) path_ = path;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    if (!path_.empty()) fs::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 /// "out/report.html" -> "out/report.node5.html"; of "run.tar.zst" both ends stay together.
 std::string of_node(const std::string& path, std::uint32_t node) {
@@ -73,30 +49,21 @@ int run_nodes(const RunCommand& options) {
                          {},
                          "run with --node for --baseline and --rerun-failed"},
                         exit_usage);
-  const TemporaryFolder folder;
-  if (folder.path().empty())
-    return report_error({"cannot make a temporary folder", {}, "is there room, and may it be written to?"},
-                        exit_environment);
   std::vector<result::NamedRun> runs;
   for (const auto node : options.nodes) {
-    auto one = for_node(options, node);
-    auto& json = one.reports["json"];
-    if (json.empty()) json = folder.path() + fmt::format("/node{}.json", node);
     if (!options.quiet) print(fmt::format("\n== node {}\n\n", node));
     std::fflush(stdout);
-    const int code = run_command(one);
-    if (options.dry_run) {
-      if (code != 0) return code;
-      continue;
+    std::optional<result::RunResult> done;
+    const int code = run_command(for_node(options, node), &done);
+    if (done) {
+      runs.push_back({fmt::format("node {}", node), std::move(*done)});
+    } else if (code != 0) {
+      // What is refused for one node is refused for each.
+      return code;
     }
-    auto source = read_run(json);
-    if (!source) return code == 0 ? report_error(source.error(), exit_environment) : code;
-    // What is refused for one node is refused for each.
-    if (code == exit_usage && source->run.cases.empty()) return code;
-    runs.push_back({fmt::format("node {}", node), std::move(source->run)});
     if (code > 128) break;
   }
-  if (options.dry_run) return 0;
+  if (runs.empty()) return 0;
   auto devices = devices_of(std::move(runs));
   if (!devices) return report_error(devices.error(), exit_environment);
   if (!options.quiet) print(fmt::format("\n== {} nodes\n\n", devices->size()));

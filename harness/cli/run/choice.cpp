@@ -13,6 +13,7 @@
 #include "engine/engine.hpp"
 #include "engine/monitor_cases.hpp"
 #include "engine/plan.hpp"
+#include "result/case_name.hpp"
 
 namespace conform::cli {
 namespace {
@@ -95,7 +96,7 @@ Result<void> is_there(const LoadedSuites& suites, const device::Dictionary& desc
   const auto no_case = [&suites](const std::string& pattern) {
     const auto ids = engine::case_ids(suites.suite);
     const std::vector<std::string_view> candidates(ids.begin(), ids.end());
-    const auto near = did_you_mean(pattern.substr(0, pattern.find('[')), candidates);
+    const auto near = did_you_mean(result::scenario_of(pattern), candidates);
     return fail("nothing is selected: no scenario and no monitor is named '" + pattern + "'", {},
                 near.empty() ? "'canopen-conform list' shows what there is"
                              : "did you mean '" + std::string(near) + "'?");
@@ -106,7 +107,9 @@ Result<void> is_there(const LoadedSuites& suites, const device::Dictionary& desc
       if (!engine::names_a_case(suites.suite, name)) return no_case(name);
     }
   }
-  const auto names_an_instance = [](const std::string& pattern) { return pattern.contains('['); };
+  const auto names_an_instance = [](const std::string& pattern) {
+    return !result::instance_of(pattern).empty();
+  };
   if (std::ranges::any_of(plan.selection.patterns, names_an_instance)) return {};
   plan.allowed = scenario::Risk::motion;
   plan.only.reset();
