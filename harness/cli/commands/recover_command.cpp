@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -12,6 +11,7 @@
 #include "can/socketcan_transport.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/run/known_device.hpp"
+#include "cli/run/remains.hpp"
 #include "cli/run/run_journal.hpp"
 #include "cli/run/terminal.hpp"
 #include "engine/recover.hpp"
@@ -33,23 +33,6 @@ class Progress final : public engine::Observer {
  private:
   journal::Writer writer_;
 };
-
-/// 1010h and 1011h act on the memory that outlives a reset: what the case stored there, or the defaults it
-/// wanted back, would come with the next one.
-std::optional<Multiplexer> stored_by(Multiplexer command) {
-  const bool stores = command.index == Index(0x1010), restores = command.index == Index(0x1011);
-  if (!stores && !restores) return std::nullopt;
-  return Multiplexer{Index(0x1010), command.sub};
-}
-
-std::vector<Multiplexer> to_store(const journal::Journal& journal) {
-  std::vector<Multiplexer> out;
-  for (const auto& command : journal.commands) {
-    const auto object = stored_by(command);
-    if (object && std::ranges::find(out, *object) == out.end()) out.push_back(*object);
-  }
-  return out;
-}
 
 /// What commands do no value tells.
 void tell_of_commands(const journal::Journal& journal, bool stores) {
@@ -107,11 +90,9 @@ int recover_command(const RecoverCommand& options) {
         {"cannot open the file: " + std::generic_category().message(errno), journal->path, {}},
         exit_environment);
 
-  engine::Remains remains;
-  for (const auto& each : values) remains.changes.push_back({each.object, each.before});
-  if (!options.no_store) remains.store = to_store(*journal);
   Progress progress(file.get());
-  const auto done = engine::recover(**transport, known->profile, std::move(remains), progress);
+  const auto done = engine::recover(**transport, known->profile,
+                                    remains_of(*journal, options.all, !options.no_store), progress);
   if (!done) return report_error(done.error(), exit_environment);
   tell_of_commands(*journal, !options.no_store);
   const auto& left = done->values.left;
