@@ -59,6 +59,11 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
     }
     case Kind::range:
       if (actual.data.empty() || actual.data.size() > 8) return false;
+      if (!demand.mask.empty()) {
+        auto mask = demand.mask.number(scope);
+        if (!mask) return std::unexpected(mask.error());
+        return demand.range.holds(load_le(actual.data) & *mask, scope);
+      }
       if (actual.type && canopen::is_signed(*actual.type)) {
         const auto width = width_mask(actual.data.size());
         const auto number = load_le(actual.data);
@@ -147,6 +152,9 @@ std::string demand_words(const Demand& demand, Scope& scope, std::optional<canop
       for (const auto& expression : demand.values) parts.push_back(value_words(expression, scope, type));
       return "one of " + join(parts, ", ");
     }
+    case Kind::range:
+      return demand.text +
+             (demand.mask.empty() ? "" : " in the bits " + value_words(demand.mask, scope, type));
     default: return demand.text;
   }
 }

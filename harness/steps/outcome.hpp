@@ -60,7 +60,8 @@ struct Demand {
     measured
   };
   Kind kind = Kind::value;
-  Expression value, mask;          ///< value: equal under the mask (no mask: all bits); holds
+  Expression value;                ///< value, holds
+  Expression mask;                 ///< of value and range: the bits that count; empty: all
   std::vector<Expression> values;  ///< one_of
   Range range;                     ///< range, and size unless exact
   Bytes bytes;

@@ -134,16 +134,17 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
     demand.text = std::move(text);
     outcome.demands.push_back(std::move(demand));
   };
-  const auto mask = fields.optional("mask");
+  Expression bits;
+  if (const auto mask = fields.optional("mask")) {
+    if (auto expression = parse_expression_at(mask, names)) bits = *expression;
+    if (!fields.optional("value") && !fields.optional("range"))
+      mask.error("'mask' needs 'value' or 'range' beside it");
+  }
   if (const auto value = fields.optional("value")) {
     Demand demand;
     if (auto expression = parse_expression_at(value, names)) demand.value = *expression;
-    if (mask) {
-      if (auto expression = parse_expression_at(mask, names)) demand.mask = *expression;
-    }
+    demand.mask = bits;
     if (!demand.value.empty()) add(demand, "");
-  } else if (mask) {
-    mask.error("'mask' needs 'value' beside it");
   }
   if (const auto held = fields.optional("holds")) {
     Demand demand;
@@ -170,6 +171,7 @@ void parse_mapping(const yaml::Field& field, const NameCheck& names, std::vector
         Demand demand;
         demand.kind = Demand::Kind::range;
         demand.range = *parsed;
+        demand.mask = bits;
         add(demand, "value " + range_words(*text));
       }
     }

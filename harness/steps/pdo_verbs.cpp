@@ -365,9 +365,14 @@ class SendSync final : public Action {
   }
   Result<Actual> run(Session& session) const override {
     // The CAN-ID the device listens on; a device without 1005h gets the pre-defined one.
-    auto id = canopen::sync_can_id;
+    CobId cob_id(canopen::sync_can_id.value());
     auto known = session.read({Index(0x1005), SubIndex(0)});
-    if (known && known->number) id = canopen::can_id_of(CobId(static_cast<std::uint32_t>(*known->number)));
+    if (known && known->number) cob_id = CobId(static_cast<std::uint32_t>(*known->number));
+    const auto id = canopen::can_id_of(cob_id);
+    // Other services have these; on 000h it would even be an NMT command.
+    if (!canopen::is_extended(cob_id) && canopen::is_restricted(id))
+      return fail_scenario("1005h:00 is " + known->text() +
+                           ", and no SYNC can be sent on the restricted CAN-ID " + to_string(id));
     std::optional<std::uint8_t> overflow;
     if (!overflow_.empty()) {
       const auto number = overflow_.number(session);
@@ -376,7 +381,8 @@ class SendSync final : public Action {
       if (*number > 0xFF) return fail_scenario("a SYNC counts in one byte");
       if (*number > 1) overflow = static_cast<std::uint8_t>(*number);
     }
-    const auto frame = can::data_frame(id, overflow ? Bytes{1} : Bytes());
+    auto frame = can::data_frame(id, overflow ? Bytes{1} : Bytes());
+    frame.extended = canopen::is_extended(cob_id);
     session.set("sync_can_id", Value::of_number(id.value()));
     if (count_) {
       if (auto reached = session.await_state(); !reached) return std::unexpected(reached.error());

@@ -156,6 +156,12 @@ TEST_CASE("All demands of one mapping must be met") {
   CHECK(fits("{size: declared}", uploaded({1, 2, 3}, canopen::DataType::visible_string)));
 }
 
+TEST_CASE("A range may be asked of some bits only") {
+  CHECK(fits("{mask: 7FFh, range: 181h..580h}", uploaded({0x85, 0x01, 0x00, 0xC0})));
+  CHECK_FALSE(fits("{mask: 7FFh, range: 181h..580h}", uploaded({0x80, 0x01, 0x00, 0xC0})));
+  CHECK(mistake("{mask: 7FFh}") == "'mask' needs 'value' or 'range' beside it");
+}
+
 TEST_CASE("A range of a signed entry knows negative numbers") {
   CHECK(fits("{range: ~1..5}", uploaded({0xFE}, canopen::DataType::integer8)));
   CHECK_FALSE(fits("{range: ~1..5}", uploaded({0xFD}, canopen::DataType::integer8)));
@@ -197,6 +203,7 @@ TEST_CASE("Outcomes say in words what was due, in the notation of the entry") {
   CHECK(words("abort 0601 0000h..0601 0002h") == "abort 0601 0000h to 0601 0002h");
   CHECK(words("{size: 1}") == "1 byte");
   CHECK(words("{range: 1..240}") == "value 1..240");
+  CHECK(words("{mask: 7FFh, range: 80h..100h}") == "value 80h..100h in the bits 07FFh");
   CHECK(words("{bytes: E8 03}") == "bytes E8 03");
   CHECK(words("{value: $before}").find("03E8h") != std::string::npos);
 }
