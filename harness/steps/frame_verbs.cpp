@@ -107,6 +107,10 @@ class Send final : public Action {
   Result<can::Frame> build(Session& session) const {
     const auto id = id_.number(session);
     if (!id) return std::unexpected(id.error());
+    // What a device has in a COB-ID must not make the frame an NMT command; a scenario that means one writes
+    // 000h.
+    if (*id == 0 && !id_.names().empty())
+      return fail_scenario("'" + id_.text() + "' is 000h, the CAN-ID of NMT");
     auto data = data_;
     if (!named_data_.empty()) {
       auto value = named_data_.evaluate(session);

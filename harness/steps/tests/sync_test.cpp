@@ -36,4 +36,17 @@ TEST_CASE("SYNC is not sent where it would be a frame of another service") {
   CHECK(session.sent.empty());
 }
 
+TEST_CASE("A CAN-ID that comes from the device does not make a frame an NMT command") {
+  FakeSession session;
+  session.set("sync", Value::of_number(0));
+  auto steps =
+      parsed_steps("- let: {sync: 0}\n- send: {id: $sync, data: \"01\"}\n- send: {id: 000h, data: \"01\"}\n");
+  REQUIRE(steps.size() == 3);
+  const auto sent = steps[1].action->run(session);
+  REQUIRE_FALSE(sent);
+  CHECK(sent.error().what == "'$sync' is 000h, the CAN-ID of NMT");
+  CHECK(steps[2].action->run(session));
+  CHECK(session.sent.size() == 1);
+}
+
 }  // namespace
