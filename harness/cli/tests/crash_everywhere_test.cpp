@@ -158,7 +158,7 @@ std::string recovered(int journal_file, can::SimulatedBus& bus, refnode::Powered
 }
 
 TEST_CASE("Wherever a run dies, recovering gives the device its values back") {
-  const auto every = cli::shipped::how_many("CONFORM_CRASH_EVERY", 197);
+  const auto every = cli::shipped::how_many("CONFORM_CRASH_EVERY", 397);
   const auto& suites = cli::shipped::suites();
   const auto& profile = cli::shipped::reference();
   auto node = refnode::PoweredNode::create({.node_id = profile.node.value()});
