@@ -108,11 +108,13 @@ class Interop(unittest.TestCase):
         self.assertNotIn("\nstopped ", done.stdout, "the run did not come to its end: " + done.stdout[-1500:])
         not_judged, ran = set(), set()
         # The second attempt at a case meets the device as the first one left it, and a stack that hangs in the one may answer in the other.
-        not_judged |= tried_again(result)
+        twice = tried_again(result)
         came = not_passed(junit, not_judged, ran)
+        self.assertLess(len(not_judged), 20, "the host is too busy for this test")
+        not_judged |= twice
+        self.assertLess(len(not_judged), 60, "the host is too busy for this test")
         if not_judged:
             print(f"\n  not compared, the host was too busy: {', '.join(sorted(not_judged))}", flush=True)
-        self.assertLess(len(not_judged), 20, "the host is too busy for this test")
         return came, not_judged, ran
 
     def lines_to_compare(self, name, came, not_judged, ran):
