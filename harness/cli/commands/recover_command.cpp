@@ -67,7 +67,8 @@ int recover_command(const RecoverCommand& options) {
   const auto& header = journal->header;
   if (header.simulated)
     return report_error({"the run was a simulation: its device is gone with it", path, {}}, exit_usage);
-  const auto& values = options.all ? journal->changed : journal->outstanding;
+  const auto remains = remains_of(*journal, options.all, !options.no_store);
+  const auto& values = remains.changes;
   // A run that was killed may have left the device in Stopped as well, or a transfer open.
   const bool untouched = journal->finished || journal->recovered || header.interface.empty();
   if (values.empty() && untouched) {
@@ -91,8 +92,7 @@ int recover_command(const RecoverCommand& options) {
         exit_environment);
 
   Progress progress(file.get());
-  const auto done = engine::recover(**transport, known->profile,
-                                    remains_of(*journal, options.all, !options.no_store), progress);
+  const auto done = engine::recover(**transport, known->profile, remains, progress);
   if (!done) return report_error(done.error(), exit_environment);
   tell_of_commands(*journal, !options.no_store);
   const auto& left = done->values.left;

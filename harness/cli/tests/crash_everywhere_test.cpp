@@ -4,7 +4,6 @@
 // the process is copied. The copy forgets the run, reads its journal, recovers the device as `recover` does,
 // and compares its object dictionary with that before the run, at once and once more after a power cycle.
 #include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <functional>
@@ -17,6 +16,7 @@
 #include "base/text.hpp"
 #include "can/descriptor.hpp"
 #include "can/simulated_bus.hpp"
+#include "cli/proof/processes.hpp"
 #include "cli/proof/selftest.hpp"
 #include "cli/run/remains.hpp"
 #include "cli/tests/shipped.hpp"
@@ -46,6 +46,14 @@ std::string content(int file) {
   return ::pread(file, out.data(), out.size(), 0) == static_cast<ssize_t>(out.size()) ? out : std::string();
 }
 
+/// The name of a case without what came of it.
+result::CaseResult named_as(const result::CaseResult& other) {
+  result::CaseResult out;
+  out.id = other.id;
+  out.instance = other.instance;
+  return out;
+}
+
 /// Keeps the journal of a run as RunWatch does, but begins it anew with each case, with what is outstanding:
 /// it is read some thousand times.
 class Keeper final : public engine::Observer {
@@ -54,16 +62,11 @@ class Keeper final : public engine::Observer {
 
   void case_begun(const result::RunResult& run, std::size_t index) override {
     running = run.cases[index].name();
-    result::CaseResult one;
-    one.id = run.cases[index].id;
-    one.instance = run.cases[index].instance;
-    begin({one});
+    begin({named_as(run.cases[index])});
     writer_->case_begun(0, BusTime{});
   }
   void case_ended(const result::RunResult& run, std::size_t index) override {
-    result::CaseResult one;
-    one.id = run.cases[index].id;
-    one.instance = run.cases[index].instance;
+    auto one = named_as(run.cases[index]);
     one.finished = true;
     writer_->case_ended(0, one);
     running.clear();
@@ -134,8 +137,9 @@ std::string differences(const Values& before, const Values& now) {
 }
 
 /// In the copy: what recovering leaves wrong; nothing where it leaves nothing.
-std::string recovered(int journal_file, can::SimulatedBus& bus, refnode::PoweredNode& node,
-                      const device::Profile& profile, const Values& before) {
+std::string recovered(int journal_file, can::SimulatedBus& bus, const refnode::PoweredNode& node,
+                      const std::function<Result<void>()>& power_cycle, const device::Profile& profile,
+                      const Values& before) {
   const auto journal = journal::parse(content(journal_file), "journal");
   if (!journal) return journal.error().text();
   engine::Observer nobody;
@@ -145,8 +149,7 @@ std::string recovered(int journal_file, can::SimulatedBus& bus, refnode::Powered
   for (const auto& each : done->values.left) out += " left: " + each + ";";
   for (const auto& each : done->not_stored) out += " not stored: " + each + ";";
   out += differences(before, values_of(node.node().dictionary()));
-  bus.unplug(node);
-  bus.attach(node, "reference node");
+  if (const auto cycled = power_cycle(); !cycled) return cycled.error().text();
   const auto up = bus.now() + refnode::PoweredNode::off_time + profile.boot_time;
   while (bus.now() < up) {
     const auto event = bus.transport().receive(up);
@@ -171,28 +174,20 @@ TEST_CASE("Wherever a run dies, recovering gives the device its values back") {
   REQUIRE(file.valid());
   Keeper keeper(file.get());
 
+  engine::RunOptions options;
+  options.observer = &keeper;
+  options.power_revives = false;
+  cli::give_power_switch(options, bus, **node);
+
   std::map<std::string, std::size_t> wrong;  // how often
   std::map<std::string, std::string> where;
   std::size_t crashes = 0;
   Interrupted transport(bus.transport(), every, [&](std::size_t number) {
-    int ends[2];
-    REQUIRE(::pipe(ends) == 0);
-    const pid_t copy = ::fork();
-    REQUIRE(copy >= 0);
-    if (copy == 0) {
-      ::close(ends[0]);
-      const auto text = recovered(file.get(), bus, **node, profile, before).substr(0, 2000);
-      const bool told = ::write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-      ::_exit(told ? 0 : 1);
-    }
-    ::close(ends[1]);
-    std::string text(2000, '\0');
-    const auto length = ::read(ends[0], text.data(), text.size());
-    text.resize(length < 0 ? 0 : static_cast<std::size_t>(length));
-    ::close(ends[0]);
-    int status = 0;
-    REQUIRE(::waitpid(copy, &status, 0) == copy);
-    if (status != 0) text += fmt::format(" the copy ended with status {:#x}", static_cast<unsigned>(status));
+    const auto copy = cli::in_processes(1, 1, {}, [&](std::size_t) {
+      return recovered(file.get(), bus, **node, options.power_cycle, profile, before);
+    });
+    auto text = copy.front().text;
+    if (copy.front().kind != cli::Ending::Kind::returned) text += " the copy did not come to its end";
     ++crashes;
     // LSS has given the node another node-ID, and no journal says which: recover tells that nobody answers.
     if (text.empty() ||
@@ -203,10 +198,6 @@ TEST_CASE("Wherever a run dies, recovering gives the device its values back") {
         text, fmt::format("frame {}, {}", number, keeper.running.empty() ? "between cases" : keeper.running));
   });
 
-  engine::RunOptions options;
-  options.observer = &keeper;
-  options.power_revives = false;
-  cli::give_power_switch(options, bus, **node);
   can::Capture capture;
   const auto run = engine::run(transport, profile, suites.suite, suites.catalogue, options, capture);
   CHECK(run.counts().fail == 0);
