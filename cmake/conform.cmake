@@ -29,6 +29,16 @@ function(conform_global_flags)
   endif()
 endfunction()
 
+# libyaml brings no package for CMake: the target conform_libyaml.
+function(conform_find_libyaml)
+  find_path(CONFORM_LIBYAML_INCLUDE yaml.h REQUIRED)
+  find_library(CONFORM_LIBYAML yaml REQUIRED)
+  mark_as_advanced(CONFORM_LIBYAML_INCLUDE CONFORM_LIBYAML)
+  add_library(conform_libyaml UNKNOWN IMPORTED GLOBAL)
+  set_target_properties(conform_libyaml PROPERTIES IMPORTED_LOCATION ${CONFORM_LIBYAML}
+                        INTERFACE_INCLUDE_DIRECTORIES ${CONFORM_LIBYAML_INCLUDE})
+endfunction()
+
 # Half of the compile time of a small file goes into the same headers of the standard library and fmt. One target compiles
 # them for all the others; a file must still include what it uses (clang-tidy sees no precompiled header).
 function(conform_precompiled_headers)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From bytes to a checked tree. YAML's traps (duplicate keys, anchors, tags, words that readers take for
-// booleans, octal and sexagesimal numbers) are refused here with the reason; yaml-cpp and its exceptions do
-// not leave loader.cpp.
+// booleans, octal and sexagesimal numbers) are refused here with the reason. Two parsers read: libyaml
+// quickly what is right, yaml-cpp all else.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace conform::yaml {
 
-/// The parser takes about 240 bytes for each open bracket: with this limit no text makes it take 256 MB.
+/// yaml-cpp takes about 240 bytes for each open bracket: with this limit no text makes it take 256 MB.
 inline constexpr std::size_t max_file_size = 1'000'000;
 inline constexpr std::size_t max_nodes = 100'000;
 inline constexpr int max_depth = 64;
