@@ -157,12 +157,14 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const auto& request = jobs[i].request;
     const auto& answer = (*answers)[i];
+    const bool refused = answer.kind == steps::SdoAnswer::Kind::aborted;
     if (!request.upload) {
-      write_refused_ = answer.kind == steps::SdoAnswer::Kind::aborted;
+      write_refused_ = refused;
       if (answer.kind == steps::SdoAnswer::Kind::confirmed) note_written(request.object, request.data.size());
     }
     if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
-    if (!request.upload && request.object.index == Index(0x1011)) restored_ = true;
+    // A refused one shows in the case that tries it, and costs no look at the whole dictionary.
+    if (!request.upload && !refused && request.object.index == Index(0x1011)) restored_ = true;
   }
   return answers;
 }
