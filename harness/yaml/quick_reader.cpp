@@ -107,6 +107,7 @@ bool feed(Builder& builder, const yaml_event_t& event, std::size_t offset) {
 
 std::optional<Node> read_quickly(const Source& source, Diagnostics& scratch) {
   const auto text = source.text();
+  if (text.contains("\xEF\xBB\xBF")) return std::nullopt;  // where there may be a mark, the parsers disagree
   const ByteOffsets bytes(text);
   Builder builder(source, scratch);
   Parser parser(text);

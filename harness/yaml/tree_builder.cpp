@@ -17,6 +17,14 @@ namespace {
 constexpr std::string_view no_anchor = "anchors and aliases (& and *) are not allowed";
 constexpr std::string_view why_no_anchor = "write the value out: a reader sees it where it is used";
 
+/// Of a line that ends in no text.
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
+  }
+  return line;
+}
+
 }  // namespace
 
 std::optional<Node> Builder::take_root() { return std::exchange(root_, std::nullopt); }
@@ -126,14 +134,15 @@ void Builder::stand_at_parent(Node& node, std::size_t offset) const {
     node.length_ = stack_.back().key->length_;
     return;
   }
-  const auto before = source_.text().substr(0, offset);
-  const auto last = before.find_last_not_of(" \n");
-  if (last == std::string_view::npos) return;
-  const auto between = before.substr(last);
-  if (between.find('\n') == std::string_view::npos) {
-    node.position_.column -= code_points(between);
-  } else {
-    node.position_ = source_.position(last);
+  // Between the dash and where the parser noticed there are only blanks and comments.
+  for (int number = source_.position(offset).line; number > 0; --number) {
+    auto line = source_.line(number);
+    const auto begins = source_.offset({.line = number, .column = 1});
+    line = without_comment(line.substr(0, offset - begins));
+    const auto last = line.find_last_not_of(' ');
+    if (last == std::string_view::npos) continue;
+    node.position_ = {.line = number, .column = code_points(line.substr(0, last)) + 1};
+    return;
   }
 }
 

@@ -41,6 +41,15 @@ TEST_CASE("A document becomes a tree with kinds, texts and places") {
   CHECK(talk.length() == 4);
 }
 
+TEST_CASE("An item without a value stands at its dash, whatever comment follows") {
+  const Checked file("- # nothing\n# more\n\n-\n- a\n-   \n");
+  REQUIRE(file.root);
+  REQUIRE(file.root->items().size() == 4);
+  CHECK(file.root->items().at(0).position() == Position{1, 1});
+  CHECK(file.root->items().at(1).position() == Position{4, 1});
+  CHECK(file.root->items().at(3).position() == Position{6, 1});
+}
+
 TEST_CASE("Every line of a literal block knows where it stands") {
   const Checked file("talk: |   # two frames\n"
                      "    > 600+N: 40\n"
