@@ -54,7 +54,12 @@ enum class LineEnd { none, lf, crlf, cr };
 }  // namespace
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) { return lower_ascii(x) == lower_ascii(y); });
+  if (a.size() != b.size()) return false;
+  // Nearly all words that are compared differ in the first letter, or not at all.
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] != b[i] && lower_ascii(a[i]) != lower_ascii(b[i])) return false;
+  }
+  return true;
 }
 
 const IniEntry* IniSection::find(std::string_view key) const {

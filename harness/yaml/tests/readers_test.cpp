@@ -57,7 +57,6 @@ TEST_CASE("What is written in every way YAML has becomes the same tree") {
            "? a\n: b\n",
            "a:   # comment\n  b: c#d  # e\n'f' : \"g\"\n",
            "[a, {b: c}, [d]]",
-           "\xEF\xBB\xBF\xEF\xBB\xBF++",
            "a:\n  - # nothing\n  -\n",
            "{a: [b, c], 'd': e}",
            "a: -1\nb: 1..240\nc: $x + 1\nd: 80h+$node\n",
