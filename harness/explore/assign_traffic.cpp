@@ -153,6 +153,11 @@ std::optional<Assigned> assign_error_control(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   const auto& due = difference.what == What::surplus ? difference.came : difference.due;
   if (due.remote) return violates("NMT-SVC-05");
+  // A heartbeat on its way when the reset came, on one side only: when it was sent is the device's matter.
+  const auto boots = [](const can::Frame& frame) { return frame.dlc == 1 && frame.data[0] == 0; };
+  if (difference.what == What::other_data && boots(difference.came) && !boots(difference.due) &&
+      last_reset(evidence).found)
+    return std::nullopt;
   if (due.size() == 0 || (due.data[0] & 0x7FU) == 0) return assign_boot_up(evidence);
   const bool guarded = evidence.some([&](const Action& each) {
     return each.kind == Action::Kind::frame && each.frame.remote && (each.frame.id & 0x780U) == 0x700U;

@@ -16,11 +16,11 @@ using What = Difference::What;
 
 /// How far two equal frames may lie apart, beside what the answers before them took longer.
 constexpr Duration tolerance = 4ms;
-/// The model's longest answer, and how long the device gets where the model was silent. What comes later is a
-/// frame that nobody asked for.
+/// How long each frame is waited for. What comes where the model is silent and later than this is a frame
+/// that nobody asked for; but a transfer that breaks off by a fault has answers before.
 constexpr Duration model_patience = 500ms;
 constexpr Duration stopped_patience = 10ms;
-constexpr Duration device_patience = 1000ms;
+constexpr Duration device_patience = 3000ms;
 constexpr Duration silent_patience = 20ms;
 /// An answer so much later than the model's is worth telling.
 constexpr Duration late_answer = 80ms;
@@ -49,12 +49,23 @@ class Duel {
  public:
   Duel(std::unique_ptr<can::Participant> device, std::unique_ptr<can::Participant> model, const Bench& bench)
       : device_(std::move(device), bench.facts, bench.bus_seed, bench.monitors),
-        model_(std::move(model), bench.facts, bench.bus_seed, {}) {}
+        model_(std::move(model), bench.facts, bench.bus_seed, {}) {
+    // How long they take to boot is not compared, only what they say then.
+    meet(std::max(device_.now(), model_.now()));
+    auto& came = device_.unasked();
+    auto& due = model_.unasked();
+    while (!came.empty() && !due.empty() && came.front().frame == due.front().frame) {
+      came.erase(came.begin());
+      due.erase(due.begin());
+    }
+  }
 
   std::optional<Difference> perform(const Action& action, std::size_t number) {
     const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
-    const auto answer_of_device = device_.perform(
-        action, answer_of_model.kind == Answer::Kind::silence ? silent_patience : device_patience);
+    const bool silent = answer_of_model.kind == Answer::Kind::silence;
+    const auto answer_of_device = device_.perform(action, !silent                ? device_patience
+                                                          : action.fault.empty() ? silent_patience
+                                                                                 : model_patience);
     drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
     meet(std::max(device_.now(), model_.now()));
     auto out = look();

@@ -2,10 +2,12 @@
 #include "explore/explorer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "explore/adapt.hpp"
 #include "explore/shrink.hpp"
 
 namespace conform::explore {
@@ -15,12 +17,28 @@ namespace {
 /// episodes: there may be more behind it.
 constexpr std::uint64_t all_the_same = 8;
 
+/// What nearly every device answers alike: a model that does not any more is not the right one, whatever else
+/// it explains.
+std::vector<Conversation> introductions(NodeId node) {
+  using namespace std::chrono_literals;
+  const auto alive = upload({Index(0x1000), SubIndex(0)});
+  const auto to = [node](std::uint8_t command) { return nmt(node, command); };
+  return {{alive},
+          {to(1), wait(200ms), alive, to(0x80), wait(200ms), alive},
+          {to(0x82), wait(300ms), alive, to(0x81), wait(300ms), alive, to(2), wait(200ms), to(1), alive}};
+}
+
 class Search {
  public:
   Search(const Bench& bench, const Vocabulary& words, const SearchOptions& options)
-      : bench_(bench), words_(words), options_(options), seeds_(options.seed) {}
+      : bench_(bench), adapter_(bench_), words_(words), options_(options), seeds_(options.seed) {}
 
   Result<SearchResult> run() {
+    for (const auto& each : introductions(words_.node)) {
+      auto played = play(bench_, each);
+      if (!played) return std::unexpected(played.error());
+      if (!played->difference) adapter_.agrees_always(each);
+    }
     while (out_.actions < options_.most_actions && out_.findings.size() < options_.most_findings) {
       if (options_.is_over && options_.is_over()) break;
       const auto conversation = next_conversation();
@@ -28,11 +46,15 @@ class Search {
       if (!played) return std::unexpected(played.error());
       out_.actions += played->actions;
       ++out_.episodes;
-      if (!played->difference) continue;
+      if (!played->difference) {
+        adapter_.agreed(conversation);
+        continue;
+      }
       auto ends = look_at(conversation, *played);
       if (!ends) return std::unexpected(ends.error());
       if (*ends) break;
     }
+    for (const auto choice : adapter_.chosen()) out_.chosen.push_back(bench_.choices[choice].name);
     return std::move(out_);
   }
 
@@ -77,14 +99,23 @@ class Search {
     finding.episode = out_.episodes;
     finding.actions_until = out_.actions;
     finding.drawn = head.size();
-    finding.assigned = assign({words_, finding.conversation, finding.played});
+    repeat(finding, signature);
+    // Another model does not change what a monitor has seen.
+    const bool may_be_chosen = finding.played.difference->what != Difference::What::rule;
+    if (const auto choice = may_be_chosen ? adapter_.learn(finding.conversation) : std::nullopt) {
+      known_.erase(signature);
+      const auto& tolerated = bench_.choices[*choice].warns;
+      if (tolerated.empty()) return false;
+      finding.assigned = strains(tolerated);
+    } else {
+      finding.assigned = assign({words_, finding.conversation, finding.played});
+    }
     step_round(finding);
     // The same rule is broken once more: that is known.
     if (finding.assigned && !rules_.insert(finding.assigned->requirement).second) {
       ++out_.known;
       return false;
     }
-    repeat(finding, signature);
     out_.findings.push_back(std::move(finding));
     return options_.on_finding && options_.on_finding(out_.findings.back());
   }
@@ -110,7 +141,8 @@ class Search {
     }
   }
 
-  const Bench& bench_;
+  Bench bench_;
+  Adapter adapter_;
   const Vocabulary& words_;
   const SearchOptions& options_;
   std::uint64_t seeds_;

@@ -47,8 +47,9 @@ struct SearchOptions {
 struct SearchResult {
   std::vector<Finding> findings;
   std::size_t actions = 0, episodes = 0;
-  std::size_t shrinking = 0;  ///< conversations played to make others shorter
-  std::size_t known = 0;      ///< episodes that ended with what was known already
+  std::size_t shrinking = 0;          ///< conversations played to make others shorter
+  std::size_t known = 0;              ///< episodes that ended with what was known already
+  std::vector<std::string> chosen{};  ///< legal choices of the device that its model was told of on the way
 };
 
 /// Error: device or model cannot be made.

@@ -18,7 +18,8 @@ namespace {
 using namespace std::chrono_literals;
 
 /// The device is up by then, or counts as one that does not start.
-constexpr Duration boot_time = 100ms;
+constexpr Duration longest_boot = 5500ms;
+constexpr Duration behind_boot_up = 50ms;
 /// Behind a fault that ends a transfer, and behind a frame that asks for nothing.
 constexpr Duration after_fault = 5ms;
 constexpr Duration after_frame = 1ms;
@@ -92,7 +93,17 @@ World::World(std::unique_ptr<can::Participant> device, const monitor::Facts& fac
       watch_(facts, chosen),
       watched_(!chosen.empty()) {
   bus_.attach(*device_, "device");
-  run_until(BusTime(boot_time));
+  boot();
+}
+
+/// The boot-up message may take its time; what follows it closely belongs to the boot.
+void World::boot() {
+  const auto boot_up = canopen::connection_set(node_).error_control;
+  while (const auto event = next(BusTime(longest_boot))) {
+    keep(*event);
+    if (event->direction == can::Direction::received && event->frame.is_data(boot_up)) break;
+  }
+  run_until(now() + behind_boot_up);
 }
 
 std::optional<can::BusEvent> World::next(BusTime deadline) {

@@ -74,6 +74,7 @@ class World {
   [[nodiscard]] const std::string& broken() const { return broken_; }
 
  private:
+  void boot();
   Answer transfer(const Action& action, Duration patience);
   Answer ask(const Action& action, Duration patience);
   void send(const can::Frame& frame);

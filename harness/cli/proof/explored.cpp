@@ -30,6 +30,43 @@ explore::MakeDevice maker_of(const NodeSwitches& switches, NodeId node) {
   };
 }
 
+/// Whether a device that has chosen so can be the one that the profile tells of: with its entries, their
+/// access and defaults, and with its features.
+bool fits(const refnode::Variant& variant, const device::Profile& profile, const NodeSwitches& model) {
+  auto chosen = model.variants;
+  if (std::ranges::find(chosen, variant.id) == chosen.end()) chosen.emplace_back(variant.id);
+  const auto node = refnode::Node::create(
+      {.node_id = profile.node.value(), .variants = chosen, .description = model.description});
+  if (!node) return false;
+  const auto would = profile_of_variants(profile, (*node)->dictionary(), {std::string(variant.id)});
+  const auto same = [](const device::Entry& one, const device::Entry& other) {
+    return one.mux == other.mux && one.access == other.access &&
+           (!other.default_value || one.default_value == other.default_value);
+  };
+  return would.claims == profile.claims && std::ranges::equal(would.objects, profile.objects, same);
+}
+
+/// The legal variants as choices of the model, and the models that have chosen.
+void offer_choices(explore::Bench& bench, const device::Profile& profile, const NodeSwitches& model) {
+  std::vector<std::string> ids;
+  for (const auto& variant : refnode::variants()) {
+    if (!fits(variant, profile, model)) continue;
+    ids.emplace_back(variant.id);
+    bench.choices.push_back({.name = std::string(variant.id),
+                             .group = std::string(variant.group),
+                             .warns = std::string(variant.warns.empty() ? "" : variant.warns.front())});
+  }
+  bench.model_of = [ids = std::move(ids), model, node = profile.node](const explore::Choices& chosen) {
+    auto switches = model;
+    for (const auto choice : chosen) {
+      const auto& id = ids[choice];
+      if (std::ranges::find(switches.variants, id) == switches.variants.end())
+        switches.variants.push_back(id);
+    }
+    return maker_of(switches, node);
+  };
+}
+
 bool is_binding(const std::string& requirement, const scenario::Catalogue& catalogue) {
   const auto* rule = catalogue.find(requirement);
   return rule != nullptr && (rule->level == "mandatory" || rule->level == "conditional");
@@ -119,7 +156,9 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
   out.bench.facts.alone = true;
   for (const auto& rule : monitor::rules()) out.bench.monitors.push_back(&rule);
   out.bench.device = maker_of(device, profile.node);
-  out.bench.model = maker_of({.variants = adapted, .description = device.description}, profile.node);
+  const NodeSwitches model{.variants = adapted, .description = device.description};
+  out.bench.model = maker_of(model, profile.node);
+  offer_choices(out.bench, profile, model);
   // What cannot be made is said now, not in the middle of the search.
   for (const auto* make : {&out.bench.device, &out.bench.model}) {
     if (auto made = (*make)(); !made) return std::unexpected(made.error());
