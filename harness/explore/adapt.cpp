@@ -8,6 +8,8 @@ namespace conform::explore {
 namespace {
 
 constexpr std::size_t most_agreed = 16;
+/// Of the choices that may be the first of two.
+constexpr std::size_t most_first = 8;
 
 }  // namespace
 
@@ -20,26 +22,44 @@ void Adapter::agreed(const Conversation& conversation) {
   ++seen_;
 }
 
-std::optional<std::size_t> Adapter::learn(const Conversation& conversation) {
+std::optional<Choices> Adapter::learn(const Conversation& conversation, const Difference& difference) {
+  const auto signature = difference.signature(conversation);
+  // What changes something, though it does not explain all: a device has often chosen twice.
+  std::vector<std::size_t> matters;
   for (std::size_t choice = 0; choice < bench_.choices.size(); ++choice) {
-    const auto candidate = with(choice);
-    auto bench = bench_;
-    bench.model = bench_.model_of(candidate);
-    const auto holds = [&](const Conversation& each) { return agrees(bench, each); };
-    if (!holds(conversation) || !std::ranges::all_of(explained_, holds) ||
-        !std::ranges::all_of(agreed_, holds))
-      continue;
-    chosen_ = candidate;
-    bench_.model = std::move(bench.model);
-    explained_.push_back(conversation);
-    return choice;
+    const auto candidate = with(chosen_, choice);
+    const auto played = play(bench_with(candidate), conversation);
+    if (!played) continue;  // it excludes another
+    if (!played->difference) {
+      if (take(candidate, conversation)) return Choices{choice};
+    } else if (matters.size() < most_first && played->difference->signature(conversation) != signature) {
+      matters.push_back(choice);
+    }
+  }
+  for (const auto first : matters) {
+    for (std::size_t second = 0; second < bench_.choices.size(); ++second) {
+      if (second == first) continue;
+      const auto candidate = with(with(chosen_, first), second);
+      const auto played = play(bench_with(candidate), conversation);
+      if (played && !played->difference && take(candidate, conversation)) return Choices{first, second};
+    }
   }
   return std::nullopt;
 }
 
+/// Where it agrees with all that was played before.
+bool Adapter::take(const Choices& candidate, const Conversation& conversation) {
+  auto bench = bench_with(candidate);
+  if (!holds_for_all(bench)) return false;
+  chosen_ = candidate;
+  bench_.model = std::move(bench.model);
+  explained_.push_back(conversation);
+  return true;
+}
+
 /// One that is chosen already is taken back: it may have explained something else by chance.
-Choices Adapter::with(std::size_t choice) const {
-  auto out = chosen_;
+Choices Adapter::with(const Choices& chosen, std::size_t choice) const {
+  auto out = chosen;
   if (out.erase(choice) > 0) return out;
   const auto& group = bench_.choices[choice].group;
   if (!group.empty())
@@ -48,9 +68,18 @@ Choices Adapter::with(std::size_t choice) const {
   return out;
 }
 
-bool Adapter::agrees(const Bench& bench, const Conversation& conversation) const {
-  const auto played = play(bench, conversation);
-  return played && !played->difference;
+Bench Adapter::bench_with(const Choices& chosen) const {
+  auto out = bench_;
+  out.model = bench_.model_of(chosen);
+  return out;
+}
+
+bool Adapter::holds_for_all(const Bench& bench) const {
+  const auto agrees = [&](const Conversation& each) {
+    const auto played = play(bench, each);
+    return played && !played->difference;
+  };
+  return std::ranges::all_of(explained_, agrees) && std::ranges::all_of(agreed_, agrees);
 }
 
 }  // namespace conform::explore

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a device does otherwise than the model may be its right. Before a difference counts, the model is made
-// such a device: where one of the legal choices explains the conversation, and all that were explained
-// before, the device has chosen so.
+// such a device: where legal choices explain the conversation, and all that was played before, the device has
+// chosen so.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ class Adapter {
   /// `bench` is the search's own; learn() gives it another model.
   explicit Adapter(Bench& bench) : bench_(bench) {}
 
-  /// The choice that explains the difference of this conversation, which the model has from now on; nullopt:
-  /// none does. A conversation that was explained once is played with every later model: what agrees with it
-  /// by chance is found out.
-  [[nodiscard]] std::optional<std::size_t> learn(const Conversation& conversation);
+  /// The choice, or the two of them, that explain the difference of this conversation, which the model has
+  /// from now on; nullopt: none do. A conversation that was explained once is played with every later model:
+  /// what agrees with it by chance is found out.
+  [[nodiscard]] std::optional<Choices> learn(const Conversation& conversation, const Difference& difference);
 
   /// In this conversation the device agreed with its model. It must do so with every later model, too: a
   /// wrong choice explains one conversation by chance, but not all.
@@ -32,8 +32,10 @@ class Adapter {
   [[nodiscard]] const Choices& chosen() const { return chosen_; }
 
  private:
-  [[nodiscard]] Choices with(std::size_t choice) const;
-  [[nodiscard]] bool agrees(const Bench& bench, const Conversation& conversation) const;
+  [[nodiscard]] Choices with(const Choices& chosen, std::size_t choice) const;
+  [[nodiscard]] Bench bench_with(const Choices& chosen) const;
+  [[nodiscard]] bool holds_for_all(const Bench& bench) const;
+  bool take(const Choices& candidate, const Conversation& conversation);
 
   Bench& bench_;
   Choices chosen_;

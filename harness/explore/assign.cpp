@@ -110,6 +110,22 @@ Evidence::Commands Evidence::commands() const {
   return out;
 }
 
+bool Evidence::settled() const {
+  using namespace std::chrono_literals;
+  Duration since{};
+  for (const auto& each : before()) {
+    if (each.nmt_command(words.node) != 0) since = {};
+    if (each.kind == Action::Kind::wait) since += each.time;
+  }
+  return since >= 150ms;
+}
+
+bool Evidence::commanded() const {
+  return some([&](const Action& each) {
+    return each.kind == Action::Kind::power || each.nmt_command(words.node) != 0;
+  });
+}
+
 std::optional<std::uint64_t> Evidence::wrote(std::uint16_t index, std::uint8_t sub) const {
   for (auto i = conversation.size(); i-- > 0;) {
     const auto& each = conversation[i];
@@ -148,7 +164,7 @@ std::optional<Assigned> assign(const Evidence& evidence) {
     const bool reset = evidence.some([&](const Action& each) {
       return each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80;
     });
-    return violates(reset && !evidence.stopped() ? "SDO-GEN-16" : "SDO-GEN-15");
+    return in_its_state(evidence, reset && !evidence.stopped() ? "SDO-GEN-16" : "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);
 }

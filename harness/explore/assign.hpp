@@ -33,6 +33,10 @@ struct Evidence {
   [[nodiscard]] Commands commands() const;
   [[nodiscard]] bool stopped() const { return commands().last == 2; }
   [[nodiscard]] bool operational() const { return commands().last == 1; }
+  /// Time was let pass behind the last NMT command, so that the device has obeyed it (T_NMT).
+  [[nodiscard]] bool settled() const;
+  /// Some NMT command, or a power cycle, came.
+  [[nodiscard]] bool commanded() const;
   /// What was written to the entry last, up to the difference, whether the device took it or not.
   [[nodiscard]] std::optional<std::uint64_t> wrote(std::uint16_t index, std::uint8_t sub) const;
   /// Some action is of this kind.
@@ -54,6 +58,11 @@ struct Assigned {
   std::string requirement;
   Grade grade = Grade::violated;
 };
+
+/// Violated in the state that was commanded; where the device may still be on its way into it, only strained.
+[[nodiscard]] inline std::optional<Assigned> in_its_state(const Evidence& evidence, std::string requirement) {
+  return Assigned{std::move(requirement), evidence.settled() ? Grade::violated : Grade::tolerated};
+}
 
 /// nullopt: differs from the model, no rule known.
 [[nodiscard]] std::optional<Assigned> assign(const Evidence& evidence);

@@ -200,8 +200,11 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
     const bool raised = !evidence.difference().model.data.empty() && evidence.difference().model.data[0] != 0;
     return violates(raised ? "OD-1001-05" : "OD-1001-06");
   }
+  // How many errors the history holds is the device's choice.
   if (mux.index == Index(0x1003))
-    return violates(mux.sub.value() == 0 ? "OD-1003-10" : mux.sub.value() == 1 ? "OD-1003-11" : "OD-1003-12");
+    return mux.sub.value() == 0   ? strains("OD-1003-10")
+           : mux.sub.value() == 1 ? violates("OD-1003-11")
+                                  : strains("OD-1003-12");
   if (auto reset = after_a_reset(evidence)) return reset;
   if (auto written = after_a_write(evidence)) return written;
   if (entry->access == device::Access::constant || !entry->writable()) {
@@ -393,9 +396,10 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
   const bool limit = (entry->low && *entry->low == last.data) || (entry->high && *entry->high == last.data);
   if (limit) return violates("OD-RNG-03");
   const auto rule = find_rule(changes, last.object);
-  // Nothing but the state of the device can be a reason to refuse, where nothing was done before.
+  // A device may have reasons of its own to refuse a value: a COB-ID, a type, or a period that it does not
+  // support.
+  if (!rule.empty()) return strains(rule);
   const bool untouched = evidence.before().empty();
-  if (!rule.empty()) return untouched && last.object.index != Index(0x1600) ? violates(rule) : strains(rule);
   if (last.data.size() > 4) return violates("SDO-SDN-01");
   return last.object.index.value() >= 0x2000 && untouched && entry->size() ? violates("OD-ACC-04")
                                                                            : strains("OD-ACC-04");
@@ -437,7 +441,7 @@ std::optional<Assigned> assign_request(const Evidence& evidence) {
   const auto model = evidence.difference().model.kind;
   const auto own = canopen::connection_set(evidence.words.node);
   if (model == Kind::silence) {
-    if (evidence.stopped()) return violates("SDO-GEN-15");
+    if (evidence.stopped()) return in_its_state(evidence, "SDO-GEN-15");
     if (frame.remote) return violates("SDO-GEN-10");
     if (frame.extended) return violates("SDO-GEN-11");
     if (frame.id == own.sdo_response.value()) return strains("SDO-GEN-12");

@@ -321,6 +321,7 @@ Conversation draw(const Vocabulary& words, std::uint64_t seed, std::size_t lengt
   Conversation out;
   out.reserve(length + 16);
   Draft draft{words, random, out};
+  if (words.entries.empty()) return out;
   std::vector<const Talk*> chosen;
   unsigned total = 0;
   while (chosen.empty()) {
@@ -332,7 +333,10 @@ Conversation draw(const Vocabulary& words, std::uint64_t seed, std::size_t lengt
       }
     }
   }
-  while (out.size() < length) {
+  // A device may have nothing of what was chosen: one without PDOs has nothing to say of RPDOs.
+  constexpr int most_idle = 50;
+  for (int idle = 0; out.size() < length && idle < most_idle;) {
+    const auto before = out.size();
     auto at = random.below(total);
     for (const auto* talk : chosen) {
       if (at < talk->weight) {
@@ -341,6 +345,7 @@ Conversation draw(const Vocabulary& words, std::uint64_t seed, std::size_t lengt
       }
       at -= talk->weight;
     }
+    idle = out.size() == before ? idle + 1 : 0;
   }
   return out;
 }

@@ -21,7 +21,6 @@ constexpr Duration tolerance = 4ms;
 constexpr Duration model_patience = 500ms;
 constexpr Duration stopped_patience = 10ms;
 constexpr Duration device_patience = 3000ms;
-constexpr Duration silent_patience = 20ms;
 /// An answer so much later than the model's is worth telling.
 constexpr Duration late_answer = 80ms;
 
@@ -49,7 +48,8 @@ class Duel {
  public:
   Duel(std::unique_ptr<can::Participant> device, std::unique_ptr<can::Participant> model, const Bench& bench)
       : device_(std::move(device), bench.facts, bench.bus_seed, bench.monitors),
-        model_(std::move(model), bench.facts, bench.bus_seed, {}) {
+        model_(std::move(model), bench.facts, bench.bus_seed, {}),
+        silent_patience_(bench.answer_time) {
     // How long they take to boot is not compared, only what they say then.
     meet(std::max(device_.now(), model_.now()));
     auto& came = device_.unasked();
@@ -64,15 +64,17 @@ class Duel {
     const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
     const bool silent = answer_of_model.kind == Answer::Kind::silence;
     const auto answer_of_device = device_.perform(action, !silent                ? device_patience
-                                                          : action.fault.empty() ? silent_patience
+                                                          : action.fault.empty() ? silent_patience_
                                                                                  : model_patience);
-    drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
+    // Where both say nothing, it is only we who wait longer for the one.
+    const bool both_silent = silent && answer_of_device.kind == Answer::Kind::silence;
+    if (!both_silent) drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
     meet(std::max(device_.now(), model_.now()));
     auto out = look();
     if (!out && !answer_of_device.same_as(answer_of_model)) {
       out.emplace();
       out->what = What::answer;
-    } else if (!out && answer_of_device.kind == answer_of_model.kind &&
+    } else if (!out && !both_silent && answer_of_device.kind == answer_of_model.kind &&
                answer_of_device.taken > answer_of_model.taken + late_answer) {
       out.emplace();
       out->what = What::late;
@@ -220,6 +222,7 @@ class Duel {
   }
 
   World device_, model_;
+  Duration silent_patience_;
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
   Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all

@@ -3,6 +3,7 @@
 // thing in which they differ, or in which the device breaks a rule that a monitor knows.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -65,6 +66,9 @@ struct Bench {
   monitor::Facts facts{};
   std::vector<const monitor::Rule*> monitors{};
   std::uint64_t bus_seed = 1;
+  /// How long an answer may be on its way. Where the model says nothing, the device is waited for so long:
+  /// what comes later would be taken for the answer to the next request.
+  Duration answer_time = std::chrono::milliseconds(20);
 };
 
 struct Played {

@@ -17,6 +17,10 @@ namespace {
 /// episodes: there may be more behind it.
 constexpr std::uint64_t all_the_same = 8;
 
+/// A device that has made more choices than these is too far from the model to be blamed by it; the monitors
+/// still do.
+constexpr std::size_t most_trusted = 8;
+
 /// What nearly every device answers alike: a model that does not any more is not the right one, whatever else
 /// it explains.
 std::vector<Conversation> introductions(NodeId node) {
@@ -28,6 +32,18 @@ std::vector<Conversation> introductions(NodeId node) {
           {to(0x82), wait(300ms), alive, to(0x81), wait(300ms), alive, to(2), wait(200ms), to(1), alive}};
 }
 
+/// With time behind each NMT command for the device to obey it.
+Conversation with_pauses(const Conversation& conversation, NodeId node) {
+  using namespace std::chrono_literals;
+  Conversation out;
+  for (const auto& each : conversation) {
+    out.push_back(each);
+    const auto command = each.nmt_command(node);
+    if (command == 1 || command == 2 || command == 0x80) out.push_back(wait(200ms));
+  }
+  return out;
+}
+
 class Search {
  public:
   Search(const Bench& bench, const Vocabulary& words, const SearchOptions& options)
@@ -35,8 +51,12 @@ class Search {
 
   Result<SearchResult> run() {
     for (const auto& each : introductions(words_.node)) {
-      auto played = play(bench_, each);
+      auto played = play(bench_, each, true);
       if (!played) return std::unexpected(played.error());
+      for (const auto& answer : played->answers) {
+        if (answer.kind == Answer::Kind::confirmed)
+          bench_.answer_time = std::max(bench_.answer_time, 2 * answer.taken);
+      }
       if (!played->difference) adapter_.agrees_always(each);
     }
     while (out_.actions < options_.most_actions && out_.findings.size() < options_.most_findings) {
@@ -44,7 +64,7 @@ class Search {
       const auto conversation = next_conversation();
       auto played = play(bench_, conversation);
       if (!played) return std::unexpected(played.error());
-      out_.actions += played->actions;
+      out_.actions += std::max<std::size_t>(1, played->actions);  // also an empty one uses the budget up
       ++out_.episodes;
       if (!played->difference) {
         adapter_.agreed(conversation);
@@ -90,6 +110,10 @@ class Search {
     if (!shows(head)) head = conversation;
     auto shrunk = shrink(head, shows, options_.most_tries);
     out_.shrinking += shrunk.tries;
+    // A device may take a while to obey: what shows all the same behind a pause is no matter of time.
+    if (auto patient = with_pauses(shrunk.conversation, words_.node);
+        patient != shrunk.conversation && shows(patient))
+      shrunk.conversation = std::move(patient);
     auto kept = play(bench_, shrunk.conversation, true);
     if (!kept) return std::unexpected(kept.error());
     if (!kept->difference) return false;
@@ -102,13 +126,19 @@ class Search {
     repeat(finding, signature);
     // Another model does not change what a monitor has seen.
     const bool may_be_chosen = finding.played.difference->what != Difference::What::rule;
-    if (const auto choice = may_be_chosen ? adapter_.learn(finding.conversation) : std::nullopt) {
+    const auto learnt =
+        may_be_chosen ? adapter_.learn(finding.conversation, *finding.played.difference) : std::nullopt;
+    if (learnt) {
       known_.erase(signature);
-      const auto& tolerated = bench_.choices[*choice].warns;
-      if (tolerated.empty()) return false;
-      finding.assigned = strains(tolerated);
+      const auto warns =
+          std::ranges::find_if(*learnt, [&](auto choice) { return !bench_.choices[choice].warns.empty(); });
+      if (warns == learnt->end()) return false;
+      finding.assigned = strains(bench_.choices[*warns].warns);
     } else {
       finding.assigned = assign({words_, finding.conversation, finding.played});
+      // Choices of which none explains the next difference may have been the wrong ones.
+      if (may_be_chosen && finding.assigned && adapter_.chosen().size() > most_trusted)
+        finding.assigned->grade = Grade::tolerated;
     }
     step_round(finding);
     // The same rule is broken once more: that is known.

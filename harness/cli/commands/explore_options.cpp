@@ -39,6 +39,11 @@ CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
       sub->add_flag("--prove", command.prove,
                     "What is found of each defect of the reference node (or those of --defect), and "
                     "whether legal variants are blamed; --actions for each (default 20000)");
+  sub->add_option(
+         "--combinations", command.combinations,
+         "With --prove: whether this many random combinations of legal variants are blamed, and nothing else")
+      ->type_name("NUMBER")
+      ->needs(prove);
   sub->add_flag("-v,--verbose", command.verbose, "With --prove: what was named instead")->needs(prove);
   sub->add_option("-j,--jobs", command.jobs, "With --prove: threads (default: the machine's cores)")
       ->check(CLI::Range(1, 256))

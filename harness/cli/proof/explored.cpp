@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/in_parallel.hpp"
+#include "base/text.hpp"
+#include "cli/proof/legal_variants.hpp"
 #include "cli/proof/variant_profile.hpp"
 #include "defects/defect.hpp"
 #include "engine/monitor_cases.hpp"
@@ -30,27 +34,67 @@ explore::MakeDevice maker_of(const NodeSwitches& switches, NodeId node) {
   };
 }
 
-/// Whether a device that has chosen so can be the one that the profile tells of: with its entries, their
-/// access and defaults, and with its features.
-bool fits(const refnode::Variant& variant, const device::Profile& profile, const NodeSwitches& model) {
-  auto chosen = model.variants;
-  if (std::ranges::find(chosen, variant.id) == chosen.end()) chosen.emplace_back(variant.id);
+using Words = std::set<std::string>;
+
+/// In what a node with these variants is not the device that the profile tells of: its entries, their access
+/// and defaults, its features. nullopt: there is no such node.
+std::optional<Words> contradictions(const device::Profile& profile, const NodeSwitches& model) {
   const auto node = refnode::Node::create(
-      {.node_id = profile.node.value(), .variants = chosen, .description = model.description});
-  if (!node) return false;
-  const auto would = profile_of_variants(profile, (*node)->dictionary(), {std::string(variant.id)});
-  const auto same = [](const device::Entry& one, const device::Entry& other) {
-    return one.mux == other.mux && one.access == other.access &&
-           (!other.default_value || one.default_value == other.default_value);
-  };
-  return would.claims == profile.claims && std::ranges::equal(would.objects, profile.objects, same);
+      {.node_id = profile.node.value(), .variants = model.variants, .description = model.description});
+  if (!node) return std::nullopt;
+  const auto& dictionary = (*node)->dictionary();
+  const auto held = profile_of_variants(profile, dictionary, model.variants);
+  Words out;
+  for (const auto& entry : profile.objects) {
+    const auto is = std::ranges::find(held.objects, entry.mux, &device::Entry::mux);
+    if (is == held.objects.end()) {
+      out.insert("without " + to_string(entry.mux));
+    } else if (is->access != entry.access) {
+      out.insert("access of " + to_string(entry.mux));
+    } else if (entry.default_value && is->default_value != entry.default_value) {
+      out.insert("default of " + to_string(entry.mux));
+    }
+  }
+  for (const auto& word : profile.claims) {
+    if (!held.claims.contains(word)) out.insert("lacks " + word);
+  }
+  for (const auto& word : held.claims) {
+    if (!profile.claims.contains(word)) out.insert("gains " + word);
+  }
+  return out;
+}
+
+NodeSwitches with(NodeSwitches model, std::string_view variant) {
+  if (std::ranges::find(model.variants, variant) == model.variants.end())
+    model.variants.emplace_back(variant);
+  return model;
+}
+
+/// The model that comes nearest to what the profile tells, by the variants that show in the dictionary.
+NodeSwitches as_told(const device::Profile& profile, NodeSwitches model) {
+  auto left = contradictions(profile, model);
+  for (bool nearer = true; nearer && left && !left->empty();) {
+    nearer = false;
+    for (const auto& variant : refnode::variants()) {
+      auto candidate = with(model, variant.id);
+      auto then = contradictions(profile, candidate);
+      if (!then || then->size() >= left->size() || !std::ranges::includes(*left, *then)) continue;
+      model = std::move(candidate);
+      left = std::move(then);
+      nearer = true;
+    }
+  }
+  return model;
 }
 
 /// The legal variants as choices of the model, and the models that have chosen.
 void offer_choices(explore::Bench& bench, const device::Profile& profile, const NodeSwitches& model) {
   std::vector<std::string> ids;
+  const auto known = contradictions(profile, model);
   for (const auto& variant : refnode::variants()) {
-    if (!fits(variant, profile, model)) continue;
+    // A choice that contradicts what the profile tells is none.
+    const auto then = contradictions(profile, with(model, variant.id));
+    if (!known || !then || !std::ranges::includes(*known, *then)) continue;
     ids.emplace_back(variant.id);
     bench.choices.push_back({.name = std::string(variant.id),
                              .group = std::string(variant.group),
@@ -114,17 +158,19 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const device::Profil
   return out;
 }
 
-/// The device has the variant and its model has not: what differs is legal, and no rule may blame it.
-Result<VariantFound> found_of(const refnode::Variant& variant, const device::Profile& profile,
+/// The device has the variants and its model has not: what differs is legal, and no rule may blame it.
+Result<VariantFound> found_of(std::vector<std::string> variants, const device::Profile& profile,
                               const scenario::Catalogue& catalogue, const ExploreProofOptions& options) {
-  VariantFound out{.variants = {std::string(variant.id)}};
+  VariantFound out{.variants = std::move(variants)};
   const NodeSwitches switches{.variants = out.variants};
   auto node = refnode::Node::create({.node_id = profile.node.value(), .variants = out.variants});
   if (!node) return std::unexpected(node.error());
   auto device =
       explorable_of(profile_of_variants(profile, (*node)->dictionary(), out.variants), switches, {});
   if (!device) return std::unexpected(device.error());
-  const auto warns = canonical(variant.warns, catalogue);
+  std::vector<std::string> warns;
+  for (const auto& id : out.variants)
+    std::ranges::copy(canonical(refnode::find_variant(id)->warns, catalogue), std::back_inserter(warns));
   explore::SearchOptions search;
   search.seed = options.seed;
   search.most_actions = options.actions;
@@ -143,6 +189,7 @@ Result<VariantFound> found_of(const refnode::Variant& variant, const device::Pro
   auto result = explore::search(device->bench, device->words, search);
   if (!result) return std::unexpected(result.error());
   out.episodes = result->episodes;
+  out.learnt = result->chosen.size();
   return out;
 }
 
@@ -156,7 +203,7 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
   out.bench.facts.alone = true;
   for (const auto& rule : monitor::rules()) out.bench.monitors.push_back(&rule);
   out.bench.device = maker_of(device, profile.node);
-  const NodeSwitches model{.variants = adapted, .description = device.description};
+  const auto model = as_told(profile, {.variants = adapted, .description = device.description});
   out.bench.model = maker_of(model, profile.node);
   offer_choices(out.bench, profile, model);
   // What cannot be made is said now, not in the middle of the search.
@@ -215,35 +262,47 @@ std::string exploration_words(const ExploreProof& proof, bool verbose) {
   }
   for (const auto& each : proof.variants) {
     for (const auto& line : each.blamed)
-      out += fmt::format("blamed      {}: {}\n", each.variants.front(), line);
+      out += fmt::format("blamed      {}: {}\n", fmt::join(each.variants, ","), line);
   }
   const auto share = [&](std::size_t part) {
     return proof.defects.empty()
                ? 0.0
                : 100.0 * static_cast<double>(part) / static_cast<double>(proof.defects.size());
   };
-  out += fmt::format(
-      "exploration: {} of {} defects found ({:.1f} %), {} by a requirement they violate ({:.1f} %), median {} actions\n",
-      proof.found(), proof.defects.size(), share(proof.found()), proof.named(), share(proof.named()),
-      proof.median_length());
-  std::size_t episodes = 0;
-  for (const auto& each : proof.variants) episodes += each.episodes;
+  if (!proof.defects.empty())
+    out += fmt::format(
+        "exploration: {} of {} defects found ({:.1f} %), {} by a requirement they violate ({:.1f} %), median {} actions\n",
+        proof.found(), proof.defects.size(), share(proof.found()), proof.named(), share(proof.named()),
+        proof.median_length());
+  std::size_t episodes = 0, learnt = 0;
+  for (const auto& each : proof.variants) {
+    episodes += each.episodes;
+    learnt += each.learnt;
+  }
   if (!proof.variants.empty())
-    out += fmt::format("exploration: {} conversations with {} legal variants, {} false findings\n", episodes,
-                       proof.variants.size(), proof.falsely_blamed());
+    out += fmt::format(
+        "exploration: {} conversations with {} legal devices, {} choices learnt, {} false findings\n",
+        episodes, proof.variants.size(), learnt, proof.falsely_blamed());
   return out;
 }
 
 Result<ExploreProof> prove_exploration(const device::Profile& profile, const scenario::Catalogue& catalogue,
                                        const ExploreProofOptions& options) {
-  const auto rows = chosen_rows(options.only);
+  // What is asked for: some defects, random legal devices, or all defects and every legal variant.
+  const bool drawn = options.combinations > 0;
+  const auto rows = drawn ? std::vector<const refnode::Defect*>() : chosen_rows(options.only);
   auto found = all_in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
     return found_of(*rows[i], profile, catalogue, options);
   });
   if (!found) return std::unexpected(found.error());
-  const auto variants = options.only.empty() ? refnode::variants() : std::span<const refnode::Variant>();
-  auto legal = all_in_parallel(variants.size(), options.jobs, [&](std::size_t i) {
-    return found_of(variants[i], profile, catalogue, options);
+  std::vector<std::vector<std::string>> devices;
+  for (std::size_t i = 0; i < options.combinations; ++i)
+    devices.push_back(draw_combination(options.seed, i).variants);
+  if (!drawn && options.only.empty()) {
+    for (const auto& variant : refnode::variants()) devices.push_back({std::string(variant.id)});
+  }
+  auto legal = all_in_parallel(devices.size(), options.jobs, [&](std::size_t i) {
+    return found_of(devices[i], profile, catalogue, options);
   });
   if (!legal) return std::unexpected(legal.error());
   return ExploreProof{std::move(*found), std::move(*legal)};

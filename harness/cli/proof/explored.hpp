@@ -45,6 +45,7 @@ struct DefectFound {
 struct VariantFound {
   std::vector<std::string> variants;
   std::size_t episodes = 0;
+  std::size_t learnt = 0;             ///< choices that the model was told of on the way
   std::vector<std::string> blamed{};  ///< false findings, a line each
 };
 
@@ -60,7 +61,8 @@ struct ExploreProof {
 struct ExploreProofOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> only{};  ///< defects; empty: all
-  std::size_t actions = 20'000;     ///< for each defect and each variant
+  std::size_t combinations = 0;     ///< so many random legal devices, and no defects
+  std::size_t actions = 20'000;     ///< for each defect and each legal device
   unsigned jobs = 0;
 };
 [[nodiscard]] Result<ExploreProof> prove_exploration(const device::Profile& profile,

@@ -9,12 +9,14 @@
 #include "device/profile.hpp"
 #include "explore/explorer.hpp"
 #include "node/powered_node.hpp"
+#include "variants/variant.hpp"
 
 namespace conform::explore {
 
-inline MakeDevice reference_node(std::vector<std::string> defects) {
-  return [defects = std::move(defects)]() -> Result<std::unique_ptr<can::Participant>> {
-    auto node = refnode::PoweredNode::create({.node_id = 5, .defects = defects});
+inline MakeDevice reference_node(std::vector<std::string> defects, std::vector<std::string> variants = {}) {
+  return [defects = std::move(defects),
+          variants = std::move(variants)]() -> Result<std::unique_ptr<can::Participant>> {
+    auto node = refnode::PoweredNode::create({.node_id = 5, .defects = defects, .variants = variants});
     if (!node) return std::unexpected(node.error());
     return std::unique_ptr<can::Participant>(std::move(*node));
   };
@@ -28,6 +30,24 @@ inline Bench bench_of(std::vector<std::string> defects) {
   out.facts.power_is_known = true;
   out.facts.alone = true;
   for (const auto& rule : monitor::rules()) out.monitors.push_back(&rule);
+  return out;
+}
+
+/// A device with these legal variants, and a model that may choose among `offered`.
+inline Bench bench_of_choices(std::vector<std::string> variants, const std::vector<std::string>& offered) {
+  auto out = bench_of({});
+  out.device = reference_node({}, std::move(variants));
+  for (const auto& id : offered) {
+    const auto* variant = refnode::find_variant(id);
+    out.choices.push_back({.name = id,
+                           .group = std::string(variant->group),
+                           .warns = std::string(variant->warns.empty() ? "" : variant->warns.front())});
+  }
+  out.model_of = [offered](const Choices& chosen) {
+    std::vector<std::string> ids;
+    for (const auto choice : chosen) ids.push_back(offered[choice]);
+    return reference_node({}, std::move(ids));
+  };
   return out;
 }
 

@@ -77,3 +77,55 @@ TEST_CASE("a budget of actions ends the search") {
   CHECK(result.actions >= 500);
   CHECK(result.actions < 700);
 }
+
+TEST_CASE("a device without PDOs, and one with nothing at all, are talked about to the end") {
+  auto words = words_of_the_standard();
+  for (const bool nothing : {false, true}) {
+    std::erase_if(words.entries,
+                  [&](const device::Entry& entry) { return nothing || entry.mux.index >= Index(0x1400); });
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) CHECK(draw(words, seed, 60).size() < 200);
+    SearchOptions options;
+    options.most_actions = 500;
+    REQUIRE(search(bench_of({}), words, options));
+  }
+}
+
+TEST_CASE("what a legal choice explains is no finding, and the choice is told") {
+  const auto words = words_of_the_standard();
+  SearchOptions options;
+  options.most_actions = 3000;
+  const auto search_with = [&](const std::vector<std::string>& variants) {
+    const auto out = search(
+        bench_of_choices(variants, {"boot-up-200ms", "boot-up-at-once", "sdo-turnaround-90ms", "boot-up-2s"}),
+        words, options);
+    REQUIRE(out);
+    return *out;
+  };
+  const auto plain = search_with({});
+  CHECK(plain.findings.empty());
+  CHECK(plain.chosen.empty());
+  for (const auto* id : {"boot-up-2s", "boot-up-at-once", "sdo-turnaround-90ms"}) {
+    INFO(id);
+    const auto result = search_with({id});
+    for (const auto& each : result.findings)
+      UNSCOPED_INFO(describe(each.conversation.back(), NodeId(5))
+                    << each.played.difference->signature(each.conversation));
+    CHECK(result.findings.empty());
+    CHECK(result.chosen == std::vector<std::string>{id});
+  }
+  const auto both = search_with({"sdo-turnaround-90ms", "boot-up-200ms"});
+  CHECK(both.findings.empty());
+  CHECK(both.chosen.size() == 2);
+}
+
+TEST_CASE("a defect is found behind the legal choices of its device") {
+  auto bench = bench_of_choices({}, {"boot-up-200ms", "boot-up-at-once", "boot-up-2s"});
+  bench.device = reference_node({"sdo-served-in-stopped"}, {"boot-up-200ms"});
+  SearchOptions options;
+  options.most_actions = 20'000;
+  options.most_findings = 2;
+  const auto result = search(bench, words_of_the_standard(), options);
+  REQUIRE(result);
+  CHECK(names(*result, "SDO-GEN-15"));
+  CHECK(result->chosen == std::vector<std::string>{"boot-up-200ms"});
+}
