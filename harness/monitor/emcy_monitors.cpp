@@ -33,6 +33,13 @@ bool is_emcy(const Observation& seen, const Follower& follower) {
   if (found.empty()) return false;
   return is_emcy(found, Held::yes) || is_emcy(found, Held::maybe);
 }
+/// It cannot be told from a frame of another object of the device, whose COB-ID is not known either.
+bool may_be_emcy(const Observation& seen, const Follower& follower) {
+  if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return false;
+  return std::ranges::any_of(holders(follower, seen.key()), [](const Holder& each) {
+    return each.index == emcy_index && each.held != Held::off;
+  });
+}
 unsigned code_of(const Observation& seen) {
   return static_cast<unsigned>(load_le(ByteView(seen.frame().data).first(2)));
 }
@@ -167,7 +174,7 @@ class ErrorObjects final : public Monitor {
       if (seen.subject == Subject::emcy && seen.frame().size() >= 3) {
         last_ = Message{code_of(seen), seen.frame().data[2], seen.time()};
       }
-    } else if (seen.subject == Subject::nmt || seen.boot_up()) {
+    } else if (seen.subject == Subject::nmt || seen.boot_up() || may_be_emcy(seen, follower)) {
       forget();
     } else if (seen.subject == Subject::sdo_request) {
       asked_at_ = seen.time();

@@ -128,6 +128,20 @@ TEST_CASE("What another node sends on a CAN-ID that 1014h held for a while says 
             .verdict("monitor/error-objects") != Verdict::fail);
 }
 
+TEST_CASE("A message that may be a TPDO of the device leaves open what 1001h is to hold") {
+  CHECK(Story()
+            .line("< 081: 00 00 00 00 00 00 00 00")
+            .line("> 23 00 18 01 81 00 00 40")
+            .line("< 80 00 18 01 30 00 09 06")
+            .line("< 081: 30 81 11 7E 01 00 00 00")
+            .line("wait 100 ms")
+            .read(0x1001, 0, 0x11)
+            .line("wait 2 s")
+            .line("< 701: 7F")
+            .told()
+            .empty());
+}
+
 TEST_CASE("1003h begins with the error of the last EMCY") {
   const std::string long_after = "wait 1200 ms", end = "< 701: 7F";
   CHECK(
