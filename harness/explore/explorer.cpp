@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <utility>
 
 #include "base/random.hpp"
@@ -32,14 +33,17 @@ std::vector<Conversation> introductions(NodeId node) {
           {to(0x82), wait(300ms), alive, to(0x81), wait(300ms), alive, to(2), wait(200ms), to(1), alive}};
 }
 
-/// With time behind each NMT command for the device to obey it.
+/// With time behind each NMT command for the device to obey it, and before the action at which the difference
+/// shows, for whatever it does by itself.
 Conversation with_pauses(const Conversation& conversation, NodeId node) {
   using namespace std::chrono_literals;
   Conversation out;
   for (const auto& each : conversation) {
+    const bool is_last = &each == &conversation.back();
+    if (is_last && conversation.size() > 1) out.push_back(wait(200ms));
     out.push_back(each);
     const auto command = each.nmt_command(node);
-    if (command == 1 || command == 2 || command == 0x80) out.push_back(wait(200ms));
+    if (!is_last && (command == 1 || command == 2 || command == 0x80)) out.push_back(wait(200ms));
   }
   return out;
 }
@@ -141,13 +145,21 @@ class Search {
         finding.assigned->grade = Grade::tolerated;
     }
     step_round(finding);
-    // The same rule is broken once more: that is known.
-    if (finding.assigned && !rules_.insert(finding.assigned->requirement).second) {
+    if (finding.assigned && is_known(*finding.assigned)) {
       ++out_.known;
       return false;
     }
     out_.findings.push_back(std::move(finding));
     return options_.on_finding && options_.on_finding(out_.findings.back());
+  }
+
+  /// The same rule is broken once more; that it is violated is new where it was only strained until now.
+  bool is_known(const Assigned& assigned) {
+    const auto [known, is_new] = rules_.emplace(assigned.requirement, assigned.grade);
+    if (is_new) return false;
+    if (known->second == Grade::violated || assigned.grade == Grade::tolerated) return true;
+    known->second = Grade::violated;
+    return false;
   }
 
   /// On buses whose turnarounds are drawn by other seeds: a race shows as what it is.
@@ -177,8 +189,8 @@ class Search {
   const SearchOptions& options_;
   std::uint64_t seeds_;
   SearchResult out_;
-  std::set<std::string> known_;  ///< signatures
-  std::set<std::string> rules_;  ///< requirements that findings have named
+  std::set<std::string> known_;         ///< signatures
+  std::map<std::string, Grade> rules_;  ///< requirements that findings have named
   std::set<std::string, std::less<>> avoided_;
 };
 

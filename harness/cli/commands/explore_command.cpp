@@ -143,6 +143,8 @@ int explore_command(const ExploreCommand& options) {
     if (auto written = write_file_atomically(options.write, text); !written)
       return report_error(written.error(), exit_environment);
   }
+  // What the model was told of: a reader sees at once whether that is the device on the bench.
+  for (const auto& id : result->chosen) print(fmt::format("learnt: the device {}\n", summary_of_choice(id)));
   const auto verdicts = count_words(*result, suites->catalogue);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   print(fmt::format(

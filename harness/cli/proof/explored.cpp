@@ -213,6 +213,11 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
   return out;
 }
 
+std::string summary_of_choice(std::string_view id) {
+  const auto* variant = refnode::find_variant(id);
+  return variant == nullptr ? std::string(id) : fmt::format("{} ({})", variant->summary, id);
+}
+
 std::string word_of(const explore::Finding& finding, const scenario::Catalogue& catalogue) {
   if (!finding.assigned) return "DIFF";
   const bool fails =

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/proof/selftest.hpp"
@@ -22,6 +23,9 @@ struct Explorable {
 /// Fails where the node cannot be made. `adapted`: variants that the model has, too.
 [[nodiscard]] Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitches& device,
                                                const std::vector<std::string>& adapted);
+
+/// "boots in 200 ms (boot-up-200ms)": a choice of SearchResult::chosen in words.
+[[nodiscard]] std::string summary_of_choice(std::string_view id);
 
 /// "FAIL", "WARN" or "DIFF". What only a recommended or optional rule forbids is never a failure.
 [[nodiscard]] std::string word_of(const explore::Finding& finding, const scenario::Catalogue& catalogue);
