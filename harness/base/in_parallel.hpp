@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <thread>
@@ -17,17 +18,27 @@
 namespace conform {
 
 /// Calls work(0) to work(count - 1), each once, on `jobs` threads (0: as many as the machine has cores).
-/// Every call must have all it changes to itself.
+/// Every call must have all it changes to itself. What one throws, memory that is not there above all, is
+/// thrown here when all threads have ended; what has not begun by then is left out.
 inline void in_parallel(std::size_t count, unsigned jobs, const std::function<void(std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
-  std::vector<std::jthread> workers;
+  std::atomic_flag failed;
+  std::exception_ptr failure;
   if (jobs == 0) jobs = std::max(1U, std::thread::hardware_concurrency());
   const auto take = [&] {
-    for (auto i = next++; i < count; i = next++) work(i);
+    try {
+      for (auto i = next++; i < count && !failed.test(); i = next++) work(i);
+    } catch (...) {
+      if (!failed.test_and_set()) failure = std::current_exception();
+    }
   };
-  // The caller is one of them, and the only one where there is little to do.
-  for (std::size_t job = 1; job < std::min<std::size_t>(jobs, count); ++job) workers.emplace_back(take);
-  take();
+  {
+    std::vector<std::jthread> workers;
+    // The caller is one of them, and the only one where there is little to do.
+    for (std::size_t job = 1; job < std::min<std::size_t>(jobs, count); ++job) workers.emplace_back(take);
+    take();
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 /// The same for work that gives a Result: all values in their order, or the first error among them.

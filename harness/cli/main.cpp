@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -526,6 +527,9 @@ int main(int argc, char** argv) {
   // The one seam where exceptions of third-party code end.
   try {
     return dispatch(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("canopen-conform: there is no more memory\n", stderr);
+    return conform::cli::exit_environment;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "canopen-conform: internal error: %s\n", error.what());
     return conform::cli::exit_environment;

@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The n-th system call fails, and the n-th allocation: no crash, no hang, no verdict from it, and no report that is half. Usage:
+failing_calls_test.py PROGRAM; in simulation only. $CONFORM_FAULT_EVERY: each so manieth call of a kind (151)."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+PROGRAM = os.path.abspath(sys.argv.pop(1))
+EVERY = int(os.environ.get("CONFORM_FAULT_EVERY", "151"))
+CASES = ["cia301/dictionary/1000-device-type", "cia301/dictionary/1001-error-register"]
+FILES = ["r.html", "j.xml", "r.json", "c.pcapng", "c.log", "s.md"]
+# What the kernel says of each when a disk is full, a file system broken, too much open.
+FAULTS = {"write": "ENOSPC", "openat": "EMFILE", "read": "EIO", "close": "EIO", "fsync": "EIO", "rename": "EACCES"}
+OLD = "the report of an earlier run"
+# malloc, calloc and realloc of which the n-th and all behind it find no memory; n is in $FAIL_FROM, the number of all goes to $COUNT_TO.
+SHIM = r"""
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+extern void* __libc_malloc(size_t);
+extern void* __libc_calloc(size_t, size_t);
+extern void* __libc_realloc(void*, size_t);
+static long calls, from = -1;
+static int fails(void) {
+  if (from < 0) {
+    const char* text = getenv("FAIL_FROM");
+    from = text ? atol(text) : 0;
+  }
+  /* One alone: what the program allocates to tell of it is there. */
+  if (__atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED) != from) return 0;
+  errno = ENOMEM;
+  return 1;
+}
+void* malloc(size_t size) { return fails() ? NULL : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) { return fails() ? NULL : __libc_calloc(count, size); }
+void* realloc(void* old, size_t size) { return fails() ? NULL : __libc_realloc(old, size); }
+__attribute__((destructor)) static void tell(void) {
+  const char* path = getenv("COUNT_TO");
+  if (!path) return;
+  char text[32];
+  const int length = snprintf(text, sizeof text, "%ld\n", calls);
+  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (file < 0 || write(file, text, (size_t)length) != length) _exit(99);
+  close(file);
+}
+"""
+
+
+class FailingCalls(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="conform-faults-")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def command(self):
+        return [PROGRAM, "run", "--simulate", "-q", *CASES, "--html", self.path("r.html"), "--junit", self.path("j.xml"), "--json", self.path("r.json"),
+                "--capture", self.path("c.pcapng"), "--candump", self.path("c.log"), "--markdown", self.path("s.md")]
+
+    def run_with(self, before=(), **variables):
+        for name in FILES:
+            with open(self.path(name), "w", encoding="ascii") as file:
+                file.write(OLD)
+        environment = dict(os.environ, XDG_STATE_HOME=self.path("state"), LC_ALL="C", **variables)
+        return subprocess.run([*before, *self.command()], capture_output=True, text=True, errors="replace", timeout=120, env=environment)
+
+    def state_of(self, name):
+        """'old', 'new' (and complete), or what is wrong with the file."""
+        try:
+            with open(self.path(name), encoding="utf-8", errors="replace") as file:
+                text = file.read()
+        except FileNotFoundError:
+            return "gone"
+        if text == OLD:
+            return "old"
+        if name == "j.xml":
+            root = ElementTree.fromstring(text)
+            # A run that did not come to its end says so, in one case with an error.
+            if root.find(".//property[@name='run.aborted']") is not None and int(root.get("errors")) > 0:
+                return "aborted"
+            return "new" if len(list(root.iter("testcase"))) == self.cases else "half"
+        if name == "r.json":
+            result = json.loads(text)
+            if result["run"].get("aborted") and result["summary"]["exit_code"] != 0:
+                return "aborted"
+            return "new" if len(result["cases"]) == self.cases else "half"
+        if name == "r.html":
+            return "new" if text.rstrip().endswith("</html>") else "half"
+        if name == "s.md":
+            return "new" if text else "empty"
+        return "stream"
+
+    def measure(self):
+        clean = self.run_with()
+        self.assertEqual(clean.returncode, 0, clean.stderr)
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            self.cases = len(json.load(file)["cases"])
+        self.sizes = {name: os.path.getsize(self.path(name)) for name in ("c.pcapng", "c.log")}
+
+    def judge(self, done, what):
+        self.assertGreaterEqual(done.returncode, 0, f"{what}: died of signal {-done.returncode}: {done.stderr[-300:]}")
+        self.assertLess(done.returncode, 126, f"{what}: exit {done.returncode}: {done.stderr[-300:]}")
+        # 1 is the verdict that the device does not conform.
+        self.assertNotEqual(done.returncode, 1, f"{what}: a fault of the machine became a verdict: {done.stdout[-300:]}")
+        for name in FILES:
+            state = self.state_of(name)
+            self.assertIn(state, ("old", "new", "aborted", "stream"), f"{what}: {name} is {state}, exit {done.returncode}")
+            if done.returncode == 0:
+                self.assertIn(state, ("new", "stream"), f"{what}: exit 0, and {name} is {state}")
+                if name in self.sizes:
+                    self.assertEqual(os.path.getsize(self.path(name)), self.sizes[name], f"{what}: exit 0, and {name} is not whole")
+
+    def test_each_system_call_may_fail(self):
+        strace = shutil.which("strace")
+        if strace is None:
+            self.skipTest("strace is not installed")
+        probe = subprocess.run([strace, "-o", os.devnull, "true"], capture_output=True, text=True)
+        if probe.returncode != 0:
+            self.skipTest("strace may not trace here: " + probe.stderr.strip().splitlines()[-1])
+        self.measure()
+        trace = self.path("trace")
+        done = self.run_with([strace, "-f", "-o", trace, "-e", "trace=" + ",".join(FAULTS)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(trace, encoding="utf-8", errors="replace") as file:
+            calls = re.findall(r"^\d+\s+(\w+)\(", file.read(), re.MULTILINE)
+        played, told = 0, 0
+        for call, error in FAULTS.items():
+            count = calls.count(call)
+            self.assertGreater(count, 0, call)
+            every = EVERY if count >= 4 * EVERY else max(1, min(EVERY, count // 4))
+            for n in range(1, count + 1, every):
+                what = f"{call} {n} of {count}: {error}"
+                with self.subTest(what):
+                    done = self.run_with([strace, "-f", "-o", os.devnull, "-e", f"trace={call}", "-e", f"inject={call}:error={error}:when={n}"])
+                    played += 1
+                    # The dynamic linker's own calls: the program has not begun.
+                    if done.returncode == 127 and "error while loading shared libraries" in done.stderr:
+                        continue
+                    told += done.returncode != 0
+                    self.judge(done, what)
+        print(f"{played} system calls failed, one at a time; {told} of the runs ended with an error of their own")
+
+    def test_each_allocation_may_fail(self):
+        compiler = shutil.which("cc") or shutil.which("gcc")
+        if compiler is None:
+            self.skipTest("no C compiler")
+        with open(self.path("shim.c"), "w", encoding="ascii") as file:
+            file.write(SHIM)
+        subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", self.path("shim.so"), self.path("shim.c")], check=True)
+        self.measure()
+        done = self.run_with(LD_PRELOAD=self.path("shim.so"), COUNT_TO=self.path("count"))
+        if not os.path.exists(self.path("count")):
+            self.skipTest("allocations cannot be counted here (a static program, or one with a sanitizer)")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("count"), encoding="ascii") as file:
+            count = int(file.read())
+        played = told = 0
+        for n in range(1, count + 1, max(1, EVERY * count // 4000)):
+            what = f"allocation {n} of {count}"
+            with self.subTest(what):
+                done = self.run_with(LD_PRELOAD=self.path("shim.so"), FAIL_FROM=str(n))
+                played += 1
+                if "error while loading shared libraries" in done.stderr:
+                    continue
+                told += done.returncode != 0
+                self.judge(done, what)
+        print(f"{played} of {count} allocations failed, one at a time; {told} of the runs ended with an error of their own")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
