@@ -26,7 +26,7 @@ std::optional<Choices> Adapter::learn(const Conversation& conversation, const Di
   const auto signature = difference.signature(conversation);
   // What changes something, though it does not explain all: a device has often chosen twice.
   std::vector<std::size_t> matters;
-  for (std::size_t choice = 0; choice < bench_.choices.size(); ++choice) {
+  for (std::size_t choice = 0; choice < offer_.choices.size(); ++choice) {
     const auto candidate = with(chosen_, choice);
     const auto played = play(bench_with(candidate), conversation);
     if (!played) continue;  // it excludes another
@@ -37,7 +37,7 @@ std::optional<Choices> Adapter::learn(const Conversation& conversation, const Di
     }
   }
   for (const auto first : matters) {
-    for (std::size_t second = 0; second < bench_.choices.size(); ++second) {
+    for (std::size_t second = 0; second < offer_.choices.size(); ++second) {
       if (second == first) continue;
       const auto candidate = with(with(chosen_, first), second);
       const auto played = play(bench_with(candidate), conversation);
@@ -61,16 +61,16 @@ bool Adapter::take(const Choices& candidate, const Conversation& conversation) {
 Choices Adapter::with(const Choices& chosen, std::size_t choice) const {
   auto out = chosen;
   if (out.erase(choice) > 0) return out;
-  const auto& group = bench_.choices[choice].group;
+  const auto& group = offer_.choices[choice].group;
   if (!group.empty())
-    std::erase_if(out, [&](std::size_t other) { return bench_.choices[other].group == group; });
+    std::erase_if(out, [&](std::size_t other) { return offer_.choices[other].group == group; });
   out.insert(choice);
   return out;
 }
 
 Bench Adapter::bench_with(const Choices& chosen) const {
   auto out = bench_;
-  out.model = bench_.model_of(chosen);
+  out.model = offer_.model_of(chosen);
   return out;
 }
 

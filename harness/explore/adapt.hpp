@@ -5,7 +5,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,10 +16,27 @@
 
 namespace conform::explore {
 
+/// A legal way to be another device than the model is by itself.
+struct Choice {
+  std::string name;
+  std::string group;  ///< of all with the same one here a device has one at most; empty: beside any other
+  std::string
+      warns;  ///< the requirement that tolerates it with a warning; empty: nothing is to be said of it
+};
+/// Numbers of choices.
+using Choices = std::set<std::size_t>;
+
+/// What may explain a difference.
+struct Offer {
+  std::vector<Choice> choices{};
+  /// The model that has chosen so; making it fails where the choices exclude each other.
+  std::function<MakeDevice(const Choices&)> model_of{};
+};
+
 class Adapter {
  public:
-  /// `bench` is the search's own; learn() gives it another model.
-  explicit Adapter(Bench& bench) : bench_(bench) {}
+  /// `bench` is the search's own; learn() gives it another model. Both outlive this.
+  Adapter(Bench& bench, const Offer& offer) : bench_(bench), offer_(offer) {}
 
   /// The choice, or the two of them, that explain the difference of this conversation, which the model has
   /// from now on; nullopt: none do. A conversation that was explained once is played with every later model:
@@ -38,6 +58,7 @@ class Adapter {
   bool take(const Choices& candidate, const Conversation& conversation);
 
   Bench& bench_;
+  const Offer& offer_;
   Choices chosen_;
   std::vector<Conversation> explained_;  ///< and those that agree always
   std::vector<Conversation> agreed_;     ///< the latest ones

@@ -6,9 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,23 +44,9 @@ struct Difference {
   [[nodiscard]] std::string signature(std::span<const Action> conversation) const;
 };
 
-/// A legal way to be another device than the model is by itself.
-struct Choice {
-  std::string name;
-  std::string group;  ///< of all with the same one here a device has one at most; empty: beside any other
-  std::string
-      warns;  ///< the requirement that tolerates it with a warning; empty: nothing is to be said of it
-};
-/// Numbers of choices.
-using Choices = std::set<std::size_t>;
-
 /// What two worlds are made of.
 struct Bench {
   MakeDevice device, model;
-  /// What may explain a difference, and the model that has chosen so: making it fails where the choices
-  /// exclude each other.
-  std::vector<Choice> choices{};
-  std::function<MakeDevice(const Choices&)> model_of{};
   monitor::Facts facts{};
   std::vector<const monitor::Rule*> monitors{};
   std::uint64_t bus_seed = 1;

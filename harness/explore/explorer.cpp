@@ -51,7 +51,11 @@ Conversation with_pauses(const Conversation& conversation, NodeId node) {
 class Search {
  public:
   Search(const Bench& bench, const Vocabulary& words, const SearchOptions& options)
-      : bench_(bench), adapter_(bench_), words_(words), options_(options), seeds_(options.seed) {}
+      : bench_(bench),
+        adapter_(bench_, options.offer),
+        words_(words),
+        options_(options),
+        seeds_(options.seed) {}
 
   Result<SearchResult> run() {
     for (const auto& each : introductions(words_.node)) {
@@ -78,7 +82,7 @@ class Search {
       if (!ends) return std::unexpected(ends.error());
       if (*ends) break;
     }
-    for (const auto choice : adapter_.chosen()) out_.chosen.push_back(bench_.choices[choice].name);
+    for (const auto choice : adapter_.chosen()) out_.chosen.push_back(options_.offer.choices[choice].name);
     return std::move(out_);
   }
 
@@ -134,10 +138,10 @@ class Search {
         may_be_chosen ? adapter_.learn(finding.conversation, *finding.played.difference) : std::nullopt;
     if (learnt) {
       known_.erase(signature);
-      const auto warns =
-          std::ranges::find_if(*learnt, [&](auto choice) { return !bench_.choices[choice].warns.empty(); });
+      const auto warns = std::ranges::find_if(
+          *learnt, [&](auto choice) { return !options_.offer.choices[choice].warns.empty(); });
       if (warns == learnt->end()) return false;
-      finding.assigned = strains(bench_.choices[*warns].warns);
+      finding.assigned = strains(options_.offer.choices[*warns].warns);
     } else {
       finding.assigned = assign({words_, finding.conversation, finding.played});
       // Choices of which none explains the next difference may have been the wrong ones.

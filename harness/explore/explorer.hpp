@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "explore/adapt.hpp"
 #include "explore/assign.hpp"
 #include "explore/draw.hpp"
 #include "explore/duel.hpp"
@@ -38,6 +39,7 @@ struct SearchOptions {
   std::size_t episode_length = 80;
   std::size_t most_tries = 600;  ///< conversations played to make one shorter
   unsigned repeats = 3;
+  Offer offer{};  ///< legal choices that the model does not have yet
   /// Asked between episodes; true ends the search. For budgets of time.
   std::function<bool()> is_over{};
   /// Told of each finding as it is made; true ends the search.

@@ -122,6 +122,7 @@ int explore_command(const ExploreCommand& options) {
 
   explore::SearchOptions search;
   search.seed = options.seed;
+  search.offer = device->offer;
   search.most_findings = options.most_findings;
   // A number of actions is a budget of its own, so that it means the same on every machine.
   search.most_actions = options.actions.value_or(SIZE_MAX);

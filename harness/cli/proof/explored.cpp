@@ -88,7 +88,8 @@ NodeSwitches as_told(const device::Profile& profile, NodeSwitches model) {
 }
 
 /// The legal variants as choices of the model, and the models that have chosen.
-void offer_choices(explore::Bench& bench, const device::Profile& profile, const NodeSwitches& model) {
+explore::Offer offer_of(const device::Profile& profile, const NodeSwitches& model) {
+  explore::Offer out;
   std::vector<std::string> ids;
   const auto known = contradictions(profile, model);
   for (const auto& variant : refnode::variants()) {
@@ -96,11 +97,11 @@ void offer_choices(explore::Bench& bench, const device::Profile& profile, const 
     const auto then = contradictions(profile, with(model, variant.id));
     if (!known || !then || !std::ranges::includes(*known, *then)) continue;
     ids.emplace_back(variant.id);
-    bench.choices.push_back({.name = std::string(variant.id),
-                             .group = std::string(variant.group),
-                             .warns = std::string(variant.warns.empty() ? "" : variant.warns.front())});
+    out.choices.push_back({.name = std::string(variant.id),
+                           .group = std::string(variant.group),
+                           .warns = std::string(variant.warns.empty() ? "" : variant.warns.front())});
   }
-  bench.model_of = [ids = std::move(ids), model, node = profile.node](const explore::Choices& chosen) {
+  out.model_of = [ids = std::move(ids), model, node = profile.node](const explore::Choices& chosen) {
     auto switches = model;
     for (const auto choice : chosen) {
       const auto& id = ids[choice];
@@ -109,6 +110,7 @@ void offer_choices(explore::Bench& bench, const device::Profile& profile, const 
     }
     return maker_of(switches, node);
   };
+  return out;
 }
 
 bool is_binding(const std::string& requirement, const scenario::Catalogue& catalogue) {
@@ -135,6 +137,7 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const device::Profil
   search.seed = options.seed;
   search.most_actions = options.actions;
   search.most_findings = 6;
+  search.offer = device->offer;
   search.repeats = 1;
   search.on_finding = [&](const explore::Finding& finding) {
     if (!out.found) {
@@ -175,6 +178,7 @@ Result<VariantFound> found_of(std::vector<std::string> variants, const device::P
   search.seed = options.seed;
   search.most_actions = options.actions;
   search.repeats = 1;
+  search.offer = device->offer;
   search.on_finding = [&](const explore::Finding& finding) {
     if (word_of(finding, catalogue) != "FAIL") return false;
     if (std::ranges::find(warns, finding.assigned->requirement) != warns.end()) return false;
@@ -205,7 +209,7 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
   out.bench.device = maker_of(device, profile.node);
   const auto model = as_told(profile, {.variants = adapted, .description = device.description});
   out.bench.model = maker_of(model, profile.node);
-  offer_choices(out.bench, profile, model);
+  out.offer = offer_of(profile, model);
   // What cannot be made is said now, not in the middle of the search.
   for (const auto* make : {&out.bench.device, &out.bench.model}) {
     if (auto made = (*make)(); !made) return std::unexpected(made.error());

@@ -19,6 +19,7 @@ namespace conform::cli {
 struct Explorable {
   explore::Vocabulary words;
   explore::Bench bench;
+  explore::Offer offer;  ///< of SearchOptions
 };
 /// Fails where the node cannot be made. `adapted`: variants that the model has, too.
 [[nodiscard]] Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitches& device,

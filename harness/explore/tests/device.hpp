@@ -33,20 +33,19 @@ inline Bench bench_of(std::vector<std::string> defects) {
   return out;
 }
 
-/// A device with these legal variants, and a model that may choose among `offered`.
-inline Bench bench_of_choices(std::vector<std::string> variants, const std::vector<std::string>& offered) {
-  auto out = bench_of({});
-  out.device = reference_node({}, std::move(variants));
-  for (const auto& id : offered) {
+/// The choices that a model may have made, by ids of legal variants.
+inline Offer offer_of(const std::vector<std::string>& ids) {
+  Offer out;
+  for (const auto& id : ids) {
     const auto* variant = refnode::find_variant(id);
     out.choices.push_back({.name = id,
                            .group = std::string(variant->group),
                            .warns = std::string(variant->warns.empty() ? "" : variant->warns.front())});
   }
-  out.model_of = [offered](const Choices& chosen) {
-    std::vector<std::string> ids;
-    for (const auto choice : chosen) ids.push_back(offered[choice]);
-    return reference_node({}, std::move(ids));
+  out.model_of = [ids](const Choices& chosen) {
+    std::vector<std::string> variants;
+    for (const auto choice : chosen) variants.push_back(ids[choice]);
+    return reference_node({}, std::move(variants));
   };
   return out;
 }
