@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t most_agreed = 16;
 /// Of the choices that may be the first of two.
-constexpr std::size_t most_first = 8;
+constexpr std::size_t most_first = 4;
 
 }  // namespace
 
