@@ -161,6 +161,8 @@ std::optional<Assigned> assign(const Evidence& evidence) {
   // The model is silent only where nothing is served, whatever it is: in Stopped, into which an error may
   // have taken it, and before the boot-up message.
   if (difference.model.kind == Kind::silence) {
+    // The answer to an earlier request, of a server that takes longer than the client has waited.
+    if (difference.device.kind == Kind::violation) return strains("SDO-GEN-18");
     const bool reset = evidence.some([&](const Action& each) {
       return each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80;
     });
