@@ -82,8 +82,7 @@ std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
   }
   if (!odd.empty() && odd != "NMT-FSA-14") return violates(odd);
   if (!reset.found) {
-    const bool commanded =
-        evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) != 0; });
+    const bool commanded = evidence.commanded();
     if (evidence.conversation.size() <= 1 && !commanded) return violates("NMT-BOOT-01");
     return violates(commanded ? "NMT-BOOT-06" : "NMT-BOOT-10");
   }

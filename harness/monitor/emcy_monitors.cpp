@@ -27,18 +27,18 @@ bool is_emcy(const std::vector<Holder>& found, Held held) {
          std::ranges::any_of(
              found, [held](const Holder& each) { return each.index == emcy_index && each.held == held; });
 }
-bool is_emcy(const Observation& seen, const Follower& follower) {
-  if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return false;
-  const auto found = holders(follower, seen.key());
-  if (found.empty()) return false;
+bool is_emcy(const std::vector<Holder>& found) {
   return is_emcy(found, Held::yes) || is_emcy(found, Held::maybe);
 }
 /// It cannot be told from a frame of another object of the device, whose COB-ID is not known either.
-bool may_be_emcy(const Observation& seen, const Follower& follower) {
-  if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return false;
-  return std::ranges::any_of(holders(follower, seen.key()), [](const Holder& each) {
-    return each.index == emcy_index && each.held != Held::off;
-  });
+bool may_be_emcy(const std::vector<Holder>& found) {
+  return std::ranges::any_of(
+      found, [](const Holder& each) { return each.index == emcy_index && each.held != Held::off; });
+}
+/// The objects of the device that may have sent the frame; empty where it is no message of any.
+std::vector<Holder> senders(const Observation& seen, const Follower& follower) {
+  if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return {};
+  return holders(follower, seen.key());
 }
 unsigned code_of(const Observation& seen) {
   return static_cast<unsigned>(load_le(ByteView(seen.frame().data).first(2)));
@@ -53,11 +53,10 @@ class Emergencies final : public Monitor {
     return subject == Subject::emcy || subject == Subject::data;
   }
   void on_frame(const Observation& seen, const Follower& follower) override {
-    if (!seen.received() || (seen.subject != Subject::emcy && seen.subject != Subject::data)) return;
-    const auto found = holders(follower, seen.key());
+    const auto found = senders(seen, follower);
     if (found.empty()) return;
     if (is_emcy(found, Held::off)) return off(seen, follower, found);
-    if (!is_emcy(found, Held::yes) && !is_emcy(found, Held::maybe)) return;
+    if (!is_emcy(found)) return;
     if (is_emcy(found, Held::yes)) good(valid);
     judge_state(seen, follower);
     judge_form(seen);
@@ -167,14 +166,15 @@ class ErrorObjects final : public Monitor {
         last_.reset();
       }
     }
-    if (is_emcy(seen, follower)) {
+    const auto found = senders(seen, follower);
+    if (is_emcy(found)) {
       forget();
       // On a CAN-ID that the node-ID does not give it may be somebody else's, and says nothing about this
       // device.
       if (seen.subject == Subject::emcy && seen.frame().size() >= 3) {
         last_ = Message{code_of(seen), seen.frame().data[2], seen.time()};
       }
-    } else if (seen.subject == Subject::nmt || seen.boot_up() || may_be_emcy(seen, follower)) {
+    } else if (seen.subject == Subject::nmt || seen.boot_up() || may_be_emcy(found)) {
       forget();
     } else if (seen.subject == Subject::sdo_request) {
       asked_at_ = seen.time();

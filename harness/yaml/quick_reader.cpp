@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "base/check.hpp"
 #include "yaml/tree_builder.hpp"
 
 namespace conform::yaml {
@@ -43,7 +43,7 @@ class ByteOffsets {
 class Parser {
  public:
   explicit Parser(std::string_view text) {
-    CONFORM_CHECK(yaml_parser_initialize(&parser_) == 1);
+    if (yaml_parser_initialize(&parser_) != 1) throw std::bad_alloc();
     yaml_parser_set_encoding(&parser_, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
   }

@@ -40,6 +40,7 @@ void Builder::on_document(std::size_t offset) {
   }
   throw Stop{};
 }
+
 void Builder::on_null(const Event& event) {
   Node node = begin_node(event);
   const auto word = null_word(event.offset);
@@ -76,6 +77,7 @@ void Builder::on_mapping_end() {
   close();
 }
 
+/// Source::position(), but linear over a file of one long line: the events come in order.
 Position Builder::place(std::size_t offset) {
   if (offset < placed_offset_ || offset >= line_end_) {
     placed_ = source_.position(offset);

@@ -103,11 +103,7 @@ explore::Offer offer_of(const device::Profile& profile, const NodeSwitches& mode
   }
   out.model_of = [ids = std::move(ids), model, node = profile.node](const explore::Choices& chosen) {
     auto switches = model;
-    for (const auto choice : chosen) {
-      const auto& id = ids[choice];
-      if (std::ranges::find(switches.variants, id) == switches.variants.end())
-        switches.variants.push_back(id);
-    }
+    for (const auto choice : chosen) switches = with(std::move(switches), ids[choice]);
     return maker_of(switches, node);
   };
   return out;
@@ -127,17 +123,18 @@ std::vector<std::string> canonical(std::span<const std::string_view> ids,
   return out;
 }
 
-Result<DefectFound> found_of(const refnode::Defect& defect, const device::Profile& profile,
+/// `right`: the device without a defect, whose model all of them share.
+Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& right,
                              const scenario::Catalogue& catalogue, const ExploreProofOptions& options) {
   DefectFound out{.id = std::string(defect.id)};
-  auto device = explorable_of(profile, {.defects = {out.id}}, {});
-  if (!device) return std::unexpected(device.error());
+  auto bench = right.bench;
+  bench.device = maker_of({.defects = {out.id}}, right.words.node);
   const auto violates = canonical(defect.violates, catalogue);
   explore::SearchOptions search;
   search.seed = options.seed;
   search.most_actions = options.actions;
   search.most_findings = 6;
-  search.offer = device->offer;
+  search.offer = right.offer;
   search.repeats = 1;
   search.on_finding = [&](const explore::Finding& finding) {
     if (!out.found) {
@@ -147,15 +144,15 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const device::Profil
     out.found = true;
     const auto rule = finding.assigned ? catalogue.canonical(finding.assigned->requirement) : std::nullopt;
     out.said.push_back(rule ? *rule
-                            : "? " + explore::describe(finding.conversation.back(), device->words.node) +
-                                  " : " + explore::came_text(finding, device->words) + " / " +
-                                  explore::due_text(finding, device->words));
+                            : "? " + explore::describe(finding.conversation.back(), right.words.node) +
+                                  " : " + explore::came_text(finding, right.words) + " / " +
+                                  explore::due_text(finding, right.words));
     if (!rule || std::ranges::find(violates, *rule) == violates.end()) return false;
     out.named = true;
     out.shortest = finding.conversation.size();
     return true;
   };
-  auto result = explore::search(device->bench, device->words, search);
+  auto result = explore::search(bench, right.words, search);
   if (!result) return std::unexpected(result.error());
   if (!out.found) out.actions = result->actions;
   return out;
@@ -300,9 +297,10 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
   // What is asked for: some defects, random legal devices, or all defects and every legal variant.
   const bool drawn = options.combinations > 0;
   const auto rows = drawn ? std::vector<const refnode::Defect*>() : chosen_rows(options.only);
-  auto found = all_in_parallel(rows.size(), options.jobs, [&](std::size_t i) {
-    return found_of(*rows[i], profile, catalogue, options);
-  });
+  const auto right = explorable_of(profile, {}, {});
+  if (!right) return std::unexpected(right.error());
+  auto found = all_in_parallel(rows.size(), options.jobs,
+                               [&](std::size_t i) { return found_of(*rows[i], *right, catalogue, options); });
   if (!found) return std::unexpected(found.error());
   std::vector<std::vector<std::string>> devices;
   for (std::size_t i = 0; i < options.combinations; ++i)

@@ -19,7 +19,7 @@ FILES = ["r.html", "j.xml", "r.json", "c.pcapng", "c.log", "s.md"]
 # What the kernel says of each when a disk is full, a file system broken, too much open.
 FAULTS = {"write": "ENOSPC", "openat": "EMFILE", "read": "EIO", "close": "EIO", "fsync": "EIO", "rename": "EACCES"}
 OLD = "the report of an earlier run"
-# malloc, calloc and realloc of which the n-th and all behind it find no memory; n is in $FAIL_FROM, the number of all goes to $COUNT_TO.
+# malloc, calloc and realloc: one call, number $FAIL_AT, finds no memory; how many there were goes to $COUNT_TO.
 SHIM = r"""
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -32,14 +32,14 @@ SHIM = r"""
 extern void* __libc_malloc(size_t);
 extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
-static long calls, from = -1;
+static long calls, at = -1;
 static int fails(void) {
-  if (from < 0) {
-    const char* text = getenv("FAIL_FROM");
-    from = text ? atol(text) : 0;
+  if (at < 0) {
+    const char* text = getenv("FAIL_AT");
+    at = text ? atol(text) : 0;
   }
   /* One alone: what the program allocates to tell of it is there. */
-  if (__atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED) != from) return 0;
+  if (__atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED) != at) return 0;
   errno = ENOMEM;
   return 1;
 }
@@ -181,7 +181,7 @@ class FailingCalls(unittest.TestCase):
         for n in range(1, count + 1, max(1, EVERY * count // 4000)):
             what = f"allocation {n} of {count}"
             with self.subTest(what):
-                done = self.run_with(LD_PRELOAD=self.path("shim.so"), FAIL_FROM=str(n))
+                done = self.run_with(LD_PRELOAD=self.path("shim.so"), FAIL_AT=str(n))
                 played += 1
                 if "error while loading shared libraries" in done.stderr:
                     continue
