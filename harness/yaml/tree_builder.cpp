@@ -17,12 +17,12 @@ namespace {
 constexpr std::string_view no_anchor = "anchors and aliases (& and *) are not allowed";
 constexpr std::string_view why_no_anchor = "write the value out: a reader sees it where it is used";
 
-/// Of a line that ends in no text.
-std::string_view without_comment(std::string_view line) {
+/// Where the comment of a line begins, if what is before it holds no text with such a sign; else its end.
+std::size_t begin_of_comment(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return line.substr(0, i);
+    if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) return i;
   }
-  return line;
+  return line.size();
 }
 
 }  // namespace
@@ -130,22 +130,34 @@ std::string_view Builder::null_word(std::size_t offset) const {
 }
 
 /// The parser notes a missing value where it noticed; people look at its key or its dash.
-void Builder::stand_at_parent(Node& node, std::size_t offset) const {
+void Builder::stand_at_parent(Node& node, std::size_t offset) {
   if (!stack_.empty() && stack_.back().key) {
     node.position_ = stack_.back().key->position_;
     node.length_ = stack_.back().key->length_;
     return;
   }
   // Between the dash and where the parser noticed there are only blanks and comments.
-  for (int number = source_.position(offset).line; number > 0; --number) {
-    auto line = source_.line(number);
+  for (int number = node.position_.line; number > 0; --number) {
     const auto begins = source_.offset({.line = number, .column = 1});
-    line = without_comment(line.substr(0, offset - begins));
-    const auto last = line.find_last_not_of(' ');
+    const auto line = source_.line(number).substr(0, offset - begins);
+    const auto last = line.substr(0, comment_in(number)).find_last_not_of(' ');
     if (last == std::string_view::npos) continue;
-    node.position_ = {.line = number, .column = code_points(line.substr(0, last)) + 1};
+    if (number == node.position_.line) {
+      node.position_.column -= code_points(line.substr(last));
+    } else {
+      node.position_ = source_.position(begins + last);
+    }
     return;
   }
+}
+
+/// A line of a hundred thousand missing values is looked through once.
+std::size_t Builder::comment_in(int number) {
+  if (number != comment_line_) {
+    comment_line_ = number;
+    comment_ = begin_of_comment(source_.line(number));
+  }
+  return comment_;
 }
 
 /// Style and extent come from the source: the parser does not tell them.

@@ -56,7 +56,8 @@ class Builder {
   Node begin_node(const Event& event);
   void report_tab(Position position);
   [[nodiscard]] std::string_view null_word(std::size_t offset) const;
-  void stand_at_parent(Node& node, std::size_t offset) const;
+  void stand_at_parent(Node& node, std::size_t offset);
+  [[nodiscard]] std::size_t comment_in(int number);
   void measure(Node& node, std::size_t offset, bool styled);
   void measure_quoted(Node& node, std::string_view rest, std::string_view first_line);
   void place_lines(Node& node) const;
@@ -77,6 +78,8 @@ class Builder {
   std::size_t line_end_ = 0;
   int documents_ = 0;
   int tab_checked_line_ = 0;
+  int comment_line_ = 0;  // of which comment_ is where its comment begins
+  std::size_t comment_ = 0;
   int long_quote_line_ = 0;
 };
 
