@@ -139,12 +139,12 @@ inline const std::string change_1017 = R"(
 )";
 
 /// Scenarios out of YAML text; mistakes fail the test with their diagnostics.
-inline scenario::Suite suite_of(const std::string& text) {
+inline scenario::Suite suite_of(const std::string& text, const scenario::Catalogue& rules = catalogue()) {
   const auto source = yaml::make_source("test.yaml", "format: 1\ntitle: Test\nscenarios:\n" + text);
   yaml::Diagnostics diagnostics(source);
   const auto root = yaml::load(*source, diagnostics);
   scenario::Suite out;
-  if (root) out.files.push_back(scenario::load_scenarios(*root, diagnostics, "test.yaml", catalogue()));
+  if (root) out.files.push_back(scenario::load_scenarios(*root, diagnostics, "test.yaml", rules));
   INFO(diagnostics.render());
   REQUIRE(!diagnostics.has_errors());
   return out;

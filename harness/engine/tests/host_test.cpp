@@ -297,3 +297,72 @@ TEST_CASE("a machine that is in time, or that the device does not share, excuses
   const auto apart = play_on_busy_machine({false, true}, 15ms, false);
   CHECK(apart.verdict_of("T-MUST") == Verdict::fail);
 }
+
+TEST_CASE("frames that wait in the queue when a loss comes to light belong to the time of the loss") {
+  /// The host stood still once: its queue is full of another node's frames, the others are
+  /// lost.
+  class FullQueue final : public can::Transport {
+   public:
+    explicit FullQueue(can::Transport& inner) : inner_(inner) {}
+    BusTime now() const override { return inner_.now(); }
+    Result<void> send(const can::Frame& frame) override { return inner_.send(frame); }
+    Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+      if (queued_.empty() || queued_.front().time > deadline) return inner_.receive(deadline);
+      const auto out = queued_.front();
+      queued_.erase(queued_.begin());
+      return out;
+    }
+    can::BusHealth health() override {
+      if (lost_) {
+        ++health_.frames_dropped;
+        const auto frame = can::data_frame(CanId(0x586), {0x35, 0x90});
+        queued_.assign(3, {frame, inner_.now(), can::Direction::received});
+        lost_ = false;
+      }
+      return health_;
+    }
+    can::TransportInfo info() const override { return inner_.info(); }
+    void stand_still() { lost_ = health_.frames_dropped == 0; }
+
+   private:
+    can::Transport& inner_;
+    std::vector<can::BusEvent> queued_;
+    can::BusHealth health_;
+    bool lost_ = false;
+  };
+  std::vector<std::string> problems;
+  const auto rules = scenario::Catalogue::load(std::string(CONFORM_SOURCE_DIR) + "/suites", problems);
+  REQUIRE(rules.has_value());
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  FullQueue transport(bus.transport());
+  device.before = [&](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    // In the middle of the first case, behind its last frame.
+    if (frame.data[0] == 0x40 && frame.data[1] == 0x18 && frame.data[3] == 4) transport.stand_still();
+    return false;
+  };
+  const auto suite = suite_of(R"(
+  - id: a
+    title: t
+    steps:
+      - upload: {object: 1018h:04}
+        checks: SDO-UPL-01
+        expect: [ok, abort any]
+  - id: b
+    title: t
+    steps:
+      - upload: {object: 1018h:01}
+        checks: SDO-UPL-01
+)",
+                              *rules);
+  auto profile = device::default_profile(NodeId(1));
+  profile.claims.emplace("only node on the bus");
+  can::Capture capture;
+  const auto out = run(transport, profile, suite, *rules, {}, capture);
+  const auto& frames = capture.frames();
+  CHECK(std::ranges::count(frames, 0x586U, [](const auto& each) { return each.frame.id; }) == 3);
+  const auto strange = std::ranges::find(out.cases, "monitor/can-ids", &result::CaseResult::id);
+  REQUIRE(strange != out.cases.end());
+  CHECK(strange->verdict == Verdict::inconclusive);
+}
