@@ -141,6 +141,10 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
       differing.push_back(std::move(change));
       continue;
     }
+    if (change.refused) {
+      observer.put_back(change.object, change.before);
+      continue;
+    }
     auto now = device.read(change.object);
     if (!now) return std::unexpected(now.error());
     if (!*now || **now != change.before) {

@@ -32,7 +32,10 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
     return known != nullptr ? known->size() : std::nullopt;
   });
   // Also what is put back behind a case tells where emergency messages are to be looked for.
-  channel_.set_on_value([this](Multiplexer object, const Bytes& value) { watch_emcy(object, value); });
+  channel_.set_on_value([this](Multiplexer object, const Bytes& value) {
+    watch_emcy(object, value);
+    long_values_.note(object, value);
+  });
 }
 
 Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
@@ -97,13 +100,16 @@ Result<void> RunSession::will_change(Multiplexer object) {
   // What no description names may still be changed by a device that has it. Program control (CiA 302-3) is
   // all commands.
   const bool program = canopen::is_program_control(object.index);
+  if (program) long_values_.forget();
+  if (object.index == Index(0x1011)) forget_long_values();
   if (found == nullptr && (program || channel_.is_open())) return {};
+  note_open(object);
   // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
   if (channel_.is_open() && before_write_.contains(object)) return {};
   // In Stopped nobody answers (CiA 301, 7.3.2.2.4): a look would be waited for in vain, and forget what is
   // known.
   if (stopped_ && before_write_.contains(object)) return {};
-  auto before = peek(object);
+  auto before = value_before_change(object);
   if (!before) return std::unexpected(before.error());
   if (before->kind != steps::SdoAnswer::Kind::confirmed) {
     before_write_.erase(object);
@@ -117,8 +123,31 @@ Result<void> RunSession::will_change(Multiplexer object) {
   if (std::ranges::find(journal_, object, &Change::object) == journal_.end()) {
     recorder_.observer().changing(object, before->data);
     journal_.push_back({object, before->data});
+    note_open(object);
   }
   return {};
+}
+
+void RunSession::note_open(Multiplexer object) {
+  const auto change = std::ranges::find(journal_, object, &Change::object);
+  if (change == journal_.end()) return;
+  ++change->open;
+  change->refused = false;
+}
+
+Result<steps::SdoAnswer> RunSession::value_before_change(Multiplexer object) {
+  const auto* found = entry(object);
+  const auto* known = found != nullptr && found->may_change ? nullptr : long_values_.find(object);
+  if (known == nullptr) {
+    auto out = peek(object);
+    long_values_.forget(object);
+    return out;
+  }
+  steps::SdoAnswer out;
+  out.kind = steps::SdoAnswer::Kind::confirmed;
+  out.data = *known;
+  long_values_.forget(object);
+  return out;
 }
 
 /// `size`: bytes of what the device has confirmed.
@@ -126,6 +155,14 @@ void RunSession::note_written(Multiplexer object, std::size_t size) {
   constexpr std::size_t long_value = 1024;
   const auto change = std::ranges::find(journal_, object, &Change::object);
   if (change != journal_.end()) change->long_now = size >= long_value && size != change->before.size();
+}
+
+/// A device that says so may still be wrong, but of a long value this is not looked after.
+void RunSession::note_refused(Multiplexer object) {
+  const auto change = std::ranges::find(journal_, object, &Change::object);
+  if (change == journal_.end() || change->before.size() < LongValues::least) return;
+  change->refused = --change->open == 0;
+  if (change->refused) long_values_.note(object, change->before);
 }
 
 Result<steps::SdoAnswer> RunSession::download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode mode,
@@ -161,6 +198,7 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
     if (!request.upload) {
       write_refused_ = refused;
       if (answer.kind == steps::SdoAnswer::Kind::confirmed) note_written(request.object, request.data.size());
+      if (refused) note_refused(request.object);
     }
     if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
     // A refused one shows in the case that tries it, and costs no look at the whole dictionary.
@@ -359,6 +397,14 @@ void RunSession::device_was_reset() {
   emcy_can_id_ = home_emcy_can_id_;
   emcy_inhibit_is_known_ = false;
   before_write_.clear();
+  forget_long_values();
+}
+
+void RunSession::forget_long_values() {
+  long_values_.forget_if([this](Multiplexer object) {
+    const auto* known = entry(object);
+    return known == nullptr || known->writable();
+  });
 }
 
 void RunSession::begin_case(scenario::Risk risk) {

@@ -14,6 +14,7 @@
 
 #include "device/dictionary.hpp"
 #include "device/profile.hpp"
+#include "engine/long_values.hpp"
 #include "engine/others.hpp"
 #include "engine/recorder.hpp"
 #include "engine/sdo_channel.hpp"
@@ -29,6 +30,8 @@ struct Change {
   Multiplexer object;
   Bytes before;
   bool long_now = false;  ///< holds a long value of the case: to look at it costs more than to write `before`
+  std::size_t open = 0;   ///< writes that were not refused, as far as anybody followed what became of them
+  bool refused = false;   ///< a long value, and every write was refused: to look at it costs too much
 };
 
 class RunSession final : public steps::Session {
@@ -175,6 +178,10 @@ class RunSession final : public steps::Session {
   };
   void note_sent(std::size_t index);
   void note_written(Multiplexer object, std::size_t size);
+  void note_refused(Multiplexer object);
+  void note_open(Multiplexer object);
+  /// Those that a start or a restore may have changed.
+  void forget_long_values();
   /// The waits of the profile follow what was learnt about the device.
   void adapt();
   /// Forgets what a reset of the device undoes.
@@ -186,6 +193,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<void> send_unguarded(const can::Frame& frame);
   [[nodiscard]] Result<bool> try_block_download();
   void watch_emcy(Multiplexer object, const Bytes& value);
+  /// What it holds, for the journal.
+  [[nodiscard]] Result<steps::SdoAnswer> value_before_change(Multiplexer object);
 
   Recorder& recorder_;
   device::Profile profile_;  ///< T_SDO and T_QUIET grow with the slowest answer
@@ -205,6 +214,7 @@ class RunSession final : public steps::Session {
   bool restored_ = false;
   bool left_changed_ = false;
   std::map<Multiplexer, Bytes> before_write_;
+  LongValues long_values_;
   steps::Window window_;
   std::optional<bool> offers_block_upload_, offers_block_download_;  ///< once tried
   std::map<Index, bool> variable_mappings_;                          ///< once tried
