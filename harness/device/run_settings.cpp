@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/run_settings.hpp"
 
+#include <string>
+
 namespace conform::device {
 namespace {
 
@@ -22,7 +24,7 @@ constexpr RunKey keys[] = {
     {"journal", Kind::path},      {"baseline", Kind::path},
     {"rerun-failed", Kind::path}, {"dry-run", Kind::flag},
     {"strict", Kind::flag},       {"all-objects", Kind::flag},
-    {"cct", Kind::flag},          {"shuffle", Kind::word},
+    {"cct", Kind::flag},          {"shuffle", Kind::flag_or_number},
     {"repeat", Kind::word},       {"until-fail", Kind::flag},
     {"fail-fast", Kind::flag},    {"shard", Kind::word},
     {"annotate", Kind::flag},     {"slow", Kind::flag},
@@ -36,6 +38,13 @@ std::vector<std::string> words_of(const yaml::Field& field, Kind kind) {
   switch (kind) {
     case Kind::flag:
       if (const auto yes = field.boolean()) out.emplace_back(*yes ? "true" : "false");
+      break;
+    case Kind::flag_or_number:
+      if (const auto* node = field.node(); node->text() == "true" || node->text() == "false") {
+        out.push_back(node->text());
+      } else if (const auto number = field.number()) {
+        out.push_back(std::to_string(*number));
+      }
       break;
     case Kind::word:
     case Kind::path:

@@ -15,7 +15,8 @@ namespace conform::device {
 
 struct RunKey {
   enum class Kind : std::uint8_t {
-    flag,   ///< true or false
+    flag,  ///< true or false
+    flag_or_number,
     word,   ///< one value
     words,  ///< one, or a list
     path,   ///< relative to the folder of the profile

@@ -44,8 +44,8 @@ struct RunCommand {
   std::string eds;                   ///< description of the device
   std::string allow;                 ///< risk tier; empty: by interface
   std::uint64_t seed = 1;
-  std::optional<std::uint64_t> shuffle;  ///< seed of a random order of the cases
-  std::vector<std::string> waivers;      ///< files
+  std::string shuffle;               ///< "true": a random order by `seed`; a number: by this one
+  std::vector<std::string> waivers;  ///< files
   bool strict = false;
   bool all_objects = false;
   bool cct = false;  ///< the cases of CiA's tool, in its order

@@ -36,6 +36,12 @@
 namespace conform::cli {
 namespace {
 
+/// None: the cases in their own order.
+std::optional<std::uint64_t> shuffle_seed(const RunCommand& options) {
+  if (options.shuffle.empty() || options.shuffle == "false") return std::nullopt;
+  return options.shuffle == "true" ? options.seed : parse_number(options.shuffle);
+}
+
 std::atomic<int> stop_signal{0};
 
 /// The first signal ends the run in good order; the second one at once.
@@ -183,7 +189,7 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
     run_options.power_cycle = [profile, power_limit] { return run_shell(profile->power_cycle, power_limit); };
   run_options.plan.selection = {options.select, options.requirements, options.exclude};
   run_options.plan.seed = options.seed;
-  run_options.plan.shuffle = options.shuffle;
+  run_options.plan.shuffle = shuffle_seed(options);
   if (options.cct) run_options.plan.order = cct_order(suites->suite, suites->catalogue);
   run_options.plan.all_objects = options.all_objects;
   run_options.plan.slow = options.slow || options.simulate;
@@ -279,7 +285,7 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
   facts.add(known->properties());
   facts.add("run.command", options.command);
   facts.add("run.seed", std::to_string(options.seed));
-  if (options.shuffle) facts.add("run.shuffle", std::to_string(*options.shuffle));
+  if (const auto& seed = run_options.plan.shuffle) facts.add("run.shuffle", std::to_string(*seed));
   if (!options.choice.shard.empty()) facts.add("run.shard", options.choice.shard);
   if (run_options.budget) facts.add("run.budget", to_string(*run_options.budget));
   if (options.timeout_scale != 1) facts.add("run.timeout_scale", fmt::format("{}", options.timeout_scale));

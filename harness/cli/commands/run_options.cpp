@@ -3,11 +3,18 @@
 
 #include <cstdio>
 
+#include "base/text.hpp"
 #include "cli/commands/common_options.hpp"
 #include "cli/run/terminal.hpp"
 
 namespace conform::cli {
 namespace {
+
+/// The mistake in the value of --shuffle; empty: none.
+std::string is_seed(const std::string& word) {
+  const bool right = word == "true" || word == "false" || parse_number(word).has_value();
+  return right ? std::string() : "'" + word + "' is no number";
+}
 
 /// Which cases of a run are played, and how often.
 void add_choice(CLI::App& app, Choice& into) {
@@ -105,9 +112,10 @@ void RunOptions::add_to(CLI::App& app) {
   auto* cct =
       app.add_flag("--cct", command.cct,
                    "Only what corresponds to the cases of CiA's tool, in its order, and what it would say");
-  app.add_option("--shuffle", command.shuffle,
-                 "The cases in a random order, drawn by this seed: no verdict may depend on it")
-      ->type_name("NUMBER")
+  app.add_flag(
+         "--shuffle", command.shuffle,
+         "The cases in a random order, drawn by --seed (or --shuffle=NUMBER): no verdict may depend on it")
+      ->check(CLI::Validator([](const std::string& word) { return is_seed(word); }, ""))
       ->excludes(cct);
   add_choice(app, command.choice);
   app.add_flag("--annotate", command.annotate, "Print the causes as annotations for GitHub Actions, too");

@@ -99,7 +99,7 @@ TEST_CASE("all cases in a random order give the verdicts of the own order") {
         return text;
       });
   for (std::size_t number = 0; number < endings.size(); ++number) {
-    INFO("canopen-conform run --simulate --shuffle " << number + 1);
+    INFO("canopen-conform run --simulate --shuffle=" << number + 1);
     CHECK(endings[number].kind == cli::Ending::Kind::returned);
     CHECK(endings[number].text == "");
   }

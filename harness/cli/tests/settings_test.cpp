@@ -122,6 +122,18 @@ TEST_CASE("options that need each other may come from different places") {
   CHECK(own.suites == Words{"mine"});
 }
 
+TEST_CASE("a random order is drawn by the seed of the run, or by a number of its own") {
+  const auto plain = parsed(merge({{"run", "--simulate", "--shuffle", "cia301/sdo"}}));
+  CHECK(plain.shuffle == "true");
+  CHECK(plain.select == Words{"cia301/sdo"});
+  CHECK(parsed(merge({{"run", "--simulate", "--shuffle=7"}})).shuffle == "7");
+  CHECK(parsed(merge({{"run", "--simulate"}, {{"CANOPEN_CONFORM_SHUFFLE", "7"}}})).shuffle == "7");
+  CHECK(parsed(merge({{"run", "--simulate"}, {{"CANOPEN_CONFORM_SHUFFLE", "true"}}})).shuffle == "true");
+  const ProfileFile file("run: {simulate: true, shuffle: true}\n");
+  CHECK(parsed(merge({{"run", "-d", file.path()}})).shuffle == "true");
+  CHECK_THROWS_AS(parsed(merge({{"run", "--simulate", "--shuffle=seven"}})), CLI::ParseError);
+}
+
 TEST_CASE("a mistake is told with the place it comes from") {
   const auto line = merge({{"run", "--simulate", "--repeat", "2"}, {{"CANOPEN_CONFORM_STRICT", "maybe"}}});
   CHECK(origins_in("Could not convert: --strict = maybe", line) ==

@@ -46,6 +46,9 @@ TEST_CASE("options of a run stand in a profile as flags, words and lists") {
   CHECK(found.settings[3].words == std::vector<std::string>{"true"});
   CHECK(found.settings[4].words == std::vector<std::string>{"false"});
   CHECK(read("{}").settings.empty());
+  CHECK(read("run:\n  shuffle: true\n").settings.front().words == std::vector<std::string>{"true"});
+  CHECK(read("run:\n  shuffle: 11h\n").settings.front().words == std::vector<std::string>{"17"});
+  CHECK(read("run:\n  shuffle: wild\n").messages.find("shuffle") != std::string::npos);
 }
 
 TEST_CASE("an option that a profile cannot have is told at its place") {
