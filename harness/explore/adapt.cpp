@@ -13,25 +13,32 @@ constexpr std::size_t most_first = 4;
 
 }  // namespace
 
-void Adapter::agreed(const Conversation& conversation) {
+void Adapter::agreed(const Conversation& conversation, const Played& played) {
+  Heard heard{conversation, played.recording};
   if (agreed_.size() < most_agreed) {
-    agreed_.push_back(conversation);
+    agreed_.push_back(std::move(heard));
   } else {
-    agreed_[seen_ % most_agreed] = conversation;
+    agreed_[seen_ % most_agreed] = std::move(heard);
   }
   ++seen_;
 }
 
-std::optional<Choices> Adapter::learn(const Conversation& conversation, const Difference& difference) {
-  const auto signature = difference.signature(conversation);
+Result<Played> Adapter::play_again(const Bench& bench, const Heard& heard) {
+  return heard.recording == nullptr ? play(bench, heard.conversation)
+                                    : play(bench, heard.conversation, *heard.recording);
+}
+
+std::optional<Choices> Adapter::learn(const Conversation& conversation, const Played& told) {
+  const Heard heard{conversation, told.recording};
+  const auto signature = told.difference->signature(conversation);
   // What changes something, though it does not explain all: a device has often chosen twice.
   std::vector<std::size_t> matters;
   for (std::size_t choice = 0; choice < offer_.choices.size(); ++choice) {
     const auto candidate = with(chosen_, choice);
-    const auto played = play(bench_with(candidate), conversation);
+    const auto played = play_again(bench_with(candidate), heard);
     if (!played) continue;  // it excludes another
     if (!played->difference) {
-      if (take(candidate, conversation)) return Choices{choice};
+      if (take(candidate, heard)) return Choices{choice};
     } else if (matters.size() < most_first && played->difference->signature(conversation) != signature) {
       matters.push_back(choice);
     }
@@ -40,20 +47,20 @@ std::optional<Choices> Adapter::learn(const Conversation& conversation, const Di
     for (std::size_t second = 0; second < offer_.choices.size(); ++second) {
       if (second == first) continue;
       const auto candidate = with(with(chosen_, first), second);
-      const auto played = play(bench_with(candidate), conversation);
-      if (played && !played->difference && take(candidate, conversation)) return Choices{first, second};
+      const auto played = play_again(bench_with(candidate), heard);
+      if (played && !played->difference && take(candidate, heard)) return Choices{first, second};
     }
   }
   return std::nullopt;
 }
 
 /// Where it agrees with all that was played before.
-bool Adapter::take(const Choices& candidate, const Conversation& conversation) {
+bool Adapter::take(const Choices& candidate, const Heard& heard) {
   auto bench = bench_with(candidate);
   if (!holds_for_all(bench)) return false;
   chosen_ = candidate;
   bench_.model = std::move(bench.model);
-  explained_.push_back(conversation);
+  explained_.push_back(heard);
   return true;
 }
 
@@ -75,8 +82,8 @@ Bench Adapter::bench_with(const Choices& chosen) const {
 }
 
 bool Adapter::holds_for_all(const Bench& bench) const {
-  const auto agrees = [&](const Conversation& each) {
-    const auto played = play(bench, each);
+  const auto agrees = [&](const Heard& each) {
+    const auto played = play_again(bench, each);
     return played && !played->difference;
   };
   return std::ranges::all_of(explained_, agrees) && std::ranges::all_of(agreed_, agrees);

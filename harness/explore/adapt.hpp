@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -41,28 +42,37 @@ class Adapter {
   /// The choice, or the two of them, that explain the difference of this conversation, which the model has
   /// from now on; nullopt: none do. A conversation that was explained once is played with every later model:
   /// what agrees with it by chance is found out.
-  [[nodiscard]] std::optional<Choices> learn(const Conversation& conversation, const Difference& difference);
+  /// Where the conversation was kept with what the device did in it, that is held against the models; else
+  /// the device plays it again.
+  [[nodiscard]] std::optional<Choices> learn(const Conversation& conversation, const Played& played);
 
   /// In this conversation the device agreed with its model. It must do so with every later model, too: a
   /// wrong choice explains one conversation by chance, but not all.
-  void agreed(const Conversation& conversation);
+  void agreed(const Conversation& conversation, const Played& played);
   /// The same, and it is never forgotten for later ones.
-  void agrees_always(Conversation conversation) { explained_.push_back(std::move(conversation)); }
+  void agrees_always(const Conversation& conversation, const Played& played) {
+    explained_.push_back({conversation, played.recording});
+  }
 
   [[nodiscard]] const Choices& chosen() const { return chosen_; }
 
  private:
   [[nodiscard]] Choices with(const Choices& chosen, std::size_t choice) const;
   [[nodiscard]] Bench bench_with(const Choices& chosen) const;
+  struct Heard {
+    Conversation conversation;
+    std::shared_ptr<const Recording> recording;  ///< nullptr: the device is asked again
+  };
+  [[nodiscard]] static Result<Played> play_again(const Bench& bench, const Heard& heard);
   [[nodiscard]] bool holds_for_all(const Bench& bench) const;
-  bool take(const Choices& candidate, const Conversation& conversation);
+  bool take(const Choices& candidate, const Heard& heard);
 
   Bench& bench_;
   const Offer& offer_;
   Choices chosen_;
-  std::vector<Conversation> explained_;  ///< and those that agree always
-  std::vector<Conversation> agreed_;     ///< the latest ones
-  std::size_t seen_ = 0;                 ///< of those that agreed
+  std::vector<Heard> explained_;  ///< and those that agree always
+  std::vector<Heard> agreed_;     ///< the latest ones
+  std::size_t seen_ = 0;          ///< of those that agreed
 };
 
 }  // namespace conform::explore

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "explore/world.hpp"
 
 namespace conform::explore {
 namespace {
@@ -46,12 +47,14 @@ std::string outcome(const Answer& answer) {
 
 class Duel {
  public:
-  Duel(std::unique_ptr<can::Participant> device, std::unique_ptr<can::Participant> model, const Bench& bench)
-      : device_(std::move(device), bench.facts, bench.bus_seed, bench.monitors),
-        model_(std::move(model), bench.facts, bench.bus_seed, {}),
-        silent_patience_(bench.answer_time) {
-    // How long they take to boot is not compared, only what they say then.
-    meet(std::max(device_.now(), model_.now()));
+  Duel(Side& device, std::unique_ptr<can::Participant> model, const Bench& bench)
+      : device_(device),
+        model_(std::make_unique<SimulatedPlace>(std::move(model), bench.bus_seed), bench.facts, {}),
+        silent_patience_(bench.answer_time),
+        jitter_(bench.jitter) {
+    // How long they take to boot is not compared, only what they say then: both clocks begin behind it.
+    device_zero_ = device_.now();
+    model_zero_ = model_.now();
     auto& came = device_.unasked();
     auto& due = model_.unasked();
     while (!came.empty() && !due.empty() && came.front().frame == due.front().frame) {
@@ -69,13 +72,13 @@ class Duel {
     // Where both say nothing, it is only we who wait longer for the one.
     const bool both_silent = silent && answer_of_device.kind == Answer::Kind::silence;
     if (!both_silent) drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
-    meet(std::max(device_.now(), model_.now()));
+    meet();
     auto out = look();
     if (!out && !answer_of_device.same_as(answer_of_model)) {
       out.emplace();
       out->what = What::answer;
     } else if (!out && !both_silent && answer_of_device.kind == answer_of_model.kind &&
-               answer_of_device.taken > answer_of_model.taken + late_answer) {
+               answer_of_device.taken > answer_of_model.taken + late_answer + jitter_) {
       out.emplace();
       out->what = What::late;
     }
@@ -89,24 +92,31 @@ class Duel {
     return out;
   }
 
-  /// What the device holds now, whatever the model does.
-  Answer held(Multiplexer object) { return device_.perform(upload(object), device_patience); }
-
   /// What is still on its way comes, and what should have come is late.
   std::optional<Difference> finish() {
-    meet(device_.now() + 2 * (tolerance + drift_));
+    meet(2 * allowance());
     return look();
   }
 
-  [[nodiscard]] const World& device() const { return device_; }
+  /// What came behind a difference, for models with which there is none.
+  void listen_on() { device_.run_until(device_.now() + 2 * allowance()); }
+
   /// To the last action, of the device and of the model.
   [[nodiscard]] const Answer& answer() const { return answer_; }
   [[nodiscard]] const Answer& due() const { return due_; }
 
  private:
-  void meet(BusTime time) {
-    device_.run_until(time);
-    model_.run_until(time);
+  /// Both sides to the same time behind their beginning: the later one, and `more`.
+  void meet(Duration more = Duration(0)) {
+    const auto since = std::max(device_.now() - device_zero_, model_.now() - model_zero_) + more;
+    device_.run_until(device_zero_ + since);
+    model_.run_until(model_zero_ + since);
+  }
+
+  /// A frame of the model on the clock of the device.
+  [[nodiscard]] Unasked of_model(Unasked each) const {
+    each.time += device_zero_ - model_zero_;
+    return each;
   }
 
   std::optional<Difference> look() {
@@ -120,12 +130,14 @@ class Duel {
     return match();
   }
 
+  [[nodiscard]] Duration allowance() const { return tolerance + jitter_ + drift_; }
+
   std::optional<Difference> broken_rule() {
-    if (device_.watch().counted() == counted_) return std::nullopt;
-    counted_ = device_.watch().counted();
+    if (device_.watch() == nullptr || device_.watch()->counted() == counted_) return std::nullopt;
+    counted_ = device_.watch()->counted();
     const monitor::Violation* newest = nullptr;
     const monitor::Rule* rule = nullptr;
-    for (const auto& each : device_.watch().monitors()) {
+    for (const auto& each : device_.watch()->monitors()) {
       for (const auto& violation : each->violations()) {
         if (violation.verdict != result::Verdict::fail || violation.if_alone) continue;
         if (newest != nullptr && newest->index >= violation.index) continue;
@@ -149,7 +161,8 @@ class Duel {
     for (auto& each : std::exchange(device_.unasked(), {})) {
       if (auto other = pair(each, of_model_)) return differs(each, *other);
     }
-    for (auto& each : std::exchange(model_.unasked(), {})) {
+    for (const auto& said : std::exchange(model_.unasked(), {})) {
+      const auto each = of_model(said);
       const auto partner = std::ranges::find_if(
           of_device_, [&](const Unasked& other) { return same_kind(each.frame, other.frame); });
       if (partner == of_device_.end()) {
@@ -179,7 +192,7 @@ class Duel {
   }
 
   [[nodiscard]] bool is_apart(const Unasked& one, const Unasked& other) const {
-    return std::chrono::abs(one.time - other.time) > tolerance + drift_;
+    return std::chrono::abs(one.time - other.time) > allowance();
   }
 
   [[nodiscard]] std::optional<Difference> differs(const Unasked& device, const Unasked& model) const {
@@ -203,7 +216,7 @@ class Duel {
   }
 
   std::optional<Difference> overdue() {
-    const auto too_late = [&](const Unasked& each) { return each.time + tolerance + drift_ < device_.now(); };
+    const auto too_late = [&](const Unasked& each) { return each.time + allowance() < device_.now(); };
     if (const auto due = std::ranges::find_if(of_model_, too_late); due != of_model_.end()) {
       Difference out;
       out.what = What::missing;
@@ -221,8 +234,10 @@ class Duel {
     return std::nullopt;
   }
 
-  World device_, model_;
-  Duration silent_patience_;
+  Side& device_;
+  World model_;
+  BusTime device_zero_{}, model_zero_{};
+  Duration silent_patience_, jitter_;
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
   Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all
@@ -248,15 +263,22 @@ std::string Difference::signature(std::span<const Action> conversation) const {
                      outcome(model));
 }
 
-Result<Played> play(const Bench& bench, std::span<const Action> conversation, bool keep) {
+namespace {
+
+Result<std::unique_ptr<Place>> place_of(const Bench& bench) {
+  if (bench.place) return bench.place();
   auto device = bench.device();
   if (!device) return std::unexpected(device.error());
+  return std::make_unique<SimulatedPlace>(std::move(*device), bench.bus_seed);
+}
+
+Result<Played> play(const Bench& bench, std::span<const Action> conversation, Side& device, bool keep) {
   auto model = bench.model();
   if (!model) return std::unexpected(model.error());
-  Duel duel(std::move(*device), std::move(*model), bench);
+  Duel duel(device, std::move(*model), bench);
   Played out;
-  for (std::size_t i = 0; i < conversation.size() && !out.difference; ++i) {
-    if (keep) out.begins.push_back(duel.device().now());
+  for (std::size_t i = 0; i < conversation.size() && !out.difference && !device.fault(); ++i) {
+    if (keep) out.begins.push_back(device.now());
     out.difference = duel.perform(conversation[i], i);
     ++out.actions;
     if (!keep) continue;
@@ -266,15 +288,46 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, bo
   if (!out.difference) {
     out.difference = duel.finish();
     if (out.difference) out.difference->action = conversation.empty() ? 0 : conversation.size() - 1;
+  } else if (keep) {
+    duel.listen_on();
   }
-  if (keep) out.trace = duel.device().trace();
-  if (keep && out.difference && out.difference->what == What::answer) {
-    const auto& last = conversation[out.difference->action];
-    const bool taken = out.difference->device.kind == Answer::Kind::confirmed &&
-                       out.difference->model.kind == Answer::Kind::aborted;
-    if (last.kind == Action::Kind::download && taken) out.holds = duel.held(last.object);
+  if (device.fault()) return std::unexpected(*device.fault());
+  if (device.distrusted()) {
+    out.distrusted = true;
+    out.difference.reset();
   }
   return out;
+}
+
+}  // namespace
+
+Result<Played> play(const Bench& bench, std::span<const Action> conversation, bool keep) {
+  auto place = place_of(bench);
+  if (!place) return std::unexpected(place.error());
+  auto world = std::make_unique<World>(std::move(*place), bench.facts, bench.monitors);
+  if (!keep) return play(bench, conversation, *world, false);
+  Recorder device(std::move(world));
+  if (device.fault()) return std::unexpected(*device.fault());
+  auto out = play(bench, conversation, device, true);
+  if (!out) return out;
+  out->trace = device.trace();
+  out->recording = std::make_shared<const Recording>(device.recording());
+  if (out->difference && out->difference->what == What::answer) {
+    const auto& last = conversation[out->difference->action];
+    const bool taken = out->difference->device.kind == Answer::Kind::confirmed &&
+                       out->difference->model.kind == Answer::Kind::aborted;
+    // What it holds now, whatever the model does.
+    if (last.kind == Action::Kind::download && taken)
+      out->holds = device.perform(upload(last.object), device_patience);
+  }
+  return out;
+}
+
+Result<Played> play(const Bench& bench, std::span<const Action> conversation, const Recording& recording) {
+  Recorded device(recording);
+  // It was played until something differed.
+  return play(bench, conversation.first(std::min(conversation.size(), recording.answers.size())), device,
+              false);
 }
 
 }  // namespace conform::explore

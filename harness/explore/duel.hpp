@@ -6,13 +6,16 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "explore/action.hpp"
-#include "explore/world.hpp"
+#include "explore/place.hpp"
+#include "explore/recording.hpp"
+#include "explore/side.hpp"
 #include "monitor/monitor.hpp"
 
 namespace conform::explore {
@@ -47,12 +50,15 @@ struct Difference {
 /// What two worlds are made of.
 struct Bench {
   MakeDevice device, model;
+  FindPlace place{};  ///< of a device on an interface, instead of `device`
   monitor::Facts facts{};
   std::vector<const monitor::Rule*> monitors{};
   std::uint64_t bus_seed = 1;
   /// How long an answer may be on its way. Where the model says nothing, the device is waited for so long:
   /// what comes later would be taken for the answer to the next request.
   Duration answer_time = std::chrono::milliseconds(20);
+  /// How much later or earlier than on a simulated bus anything may be seen.
+  Duration jitter{};
 };
 
 struct Played {
@@ -62,13 +68,19 @@ struct Played {
   std::vector<BusTime> begins;            ///< of each action, on the bus of the device
   std::vector<Answer> answers;            ///< of the device to each action
   std::vector<Answer> due;                ///< of the model
+  /// What the device did, to be held against other models; nullptr without `keep`.
+  std::shared_ptr<const Recording> recording;
+  bool distrusted = false;  ///< the host lost frames or was late: there is no difference to be told
   /// What the device holds where it confirmed a download that the model refused.
   std::optional<Answer> holds;
 };
 
 /// Plays a conversation from power-on until something differs. `keep`: with trace, times and answers.
-/// Error: the device or its model cannot be made.
+/// Error: the device or its model cannot be made, or the bus failed.
 [[nodiscard]] Result<Played> play(const Bench& bench, std::span<const Action> conversation,
                                   bool keep = false);
+/// The same with a device that was recorded in this conversation: only the model is made.
+[[nodiscard]] Result<Played> play(const Bench& bench, std::span<const Action> conversation,
+                                  const Recording& recording);
 
 }  // namespace conform::explore

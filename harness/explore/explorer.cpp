@@ -58,41 +58,70 @@ class Search {
         seeds_(options.seed) {}
 
   Result<SearchResult> run() {
+    if (auto done = introduce(); !done) return ended_by(done.error());
+    while (out_.actions < options_.most_actions && out_.findings.size() < options_.most_findings) {
+      if (options_.is_over && options_.is_over()) break;
+      const auto conversation = next_conversation();
+      // A device on an interface is asked as seldom as can be.
+      auto played = play(bench_, conversation, is_real());
+      if (!played) return ended_by(played.error());
+      out_.actions += std::max<std::size_t>(1, played->actions);  // also an empty one uses the budget up
+      ++out_.episodes;
+      if (played->distrusted) {
+        ++out_.distrusted;
+        continue;
+      }
+      if (!played->difference) {
+        adapter_.agreed(conversation, *played);
+        continue;
+      }
+      auto ends = look_at(conversation, *played);
+      if (!ends) return ended_by(ends.error());
+      if (*ends) break;
+    }
+    return taken();
+  }
+
+ private:
+  /// What nearly every device answers alike, and how long its answers take.
+  Result<void> introduce() {
     for (const auto& each : introductions(words_.node)) {
+      if (!may(each)) continue;
       auto played = play(bench_, each, true);
       if (!played) return std::unexpected(played.error());
       for (const auto& answer : played->answers) {
         if (answer.kind == Answer::Kind::confirmed)
           bench_.answer_time = std::max(bench_.answer_time, 2 * answer.taken);
       }
-      if (!played->difference) adapter_.agrees_always(each);
+      if (!played->difference && !played->distrusted) adapter_.agrees_always(each, *played);
     }
-    while (out_.actions < options_.most_actions && out_.findings.size() < options_.most_findings) {
-      if (options_.is_over && options_.is_over()) break;
-      const auto conversation = next_conversation();
-      auto played = play(bench_, conversation);
-      if (!played) return std::unexpected(played.error());
-      out_.actions += std::max<std::size_t>(1, played->actions);  // also an empty one uses the budget up
-      ++out_.episodes;
-      if (!played->difference) {
-        adapter_.agreed(conversation);
-        continue;
-      }
-      auto ends = look_at(conversation, *played);
-      if (!ends) return std::unexpected(ends.error());
-      if (*ends) break;
-    }
+    return {};
+  }
+
+  SearchResult taken() {
     for (const auto choice : adapter_.chosen()) out_.chosen.push_back(options_.offer.choices[choice].name);
     return std::move(out_);
   }
 
- private:
+  /// What was found on a real device is not lost with it.
+  Result<SearchResult> ended_by(const Error& error) {
+    if (!is_real()) return std::unexpected(error);
+    out_.ended_by = error;
+    return taken();
+  }
+
   Conversation next_conversation() {
     auto out = draw(words_, next_random(seeds_), options_.episode_length);
     if (out_.episodes % all_the_same != 0) {
       std::erase_if(out, [&](const Action& action) { return avoided_.contains(key_of(action)); });
     }
+    std::erase_if(out, [&](const Action& action) { return options_.may && !options_.may(action); });
     return out;
+  }
+
+  [[nodiscard]] bool is_real() const { return static_cast<bool>(bench_.place); }
+  [[nodiscard]] bool may(const Conversation& conversation) const {
+    return !options_.may || std::ranges::all_of(conversation, options_.may);
   }
 
   /// What an action is, without its values.
@@ -123,6 +152,18 @@ class Search {
         patient != shrunk.conversation && shows(patient))
       shrunk.conversation = std::move(patient);
     auto kept = play(bench_, shrunk.conversation, true);
+    if (!kept && is_real()) {
+      // The device is gone, and perhaps by this: it is told as it was found.
+      Finding finding;
+      finding.conversation = conversation;
+      finding.played = played;
+      finding.episode = out_.episodes;
+      finding.actions_until = out_.actions;
+      finding.drawn = conversation.size();
+      finding.assigned = assign({words_, finding.conversation, finding.played});
+      out_.findings.push_back(std::move(finding));
+      if (options_.on_finding) (void)options_.on_finding(out_.findings.back());
+    }
     if (!kept) return std::unexpected(kept.error());
     if (!kept->difference) return false;
     Finding finding;
@@ -135,7 +176,7 @@ class Search {
     // Another model does not change what a monitor has seen.
     const bool may_be_chosen = finding.played.difference->what != Difference::What::rule;
     const auto learnt =
-        may_be_chosen ? adapter_.learn(finding.conversation, *finding.played.difference) : std::nullopt;
+        may_be_chosen ? adapter_.learn(finding.conversation, finding.played) : std::nullopt;
     if (learnt) {
       known_.erase(signature);
       const auto warns = std::ranges::find_if(

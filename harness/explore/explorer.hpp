@@ -40,6 +40,8 @@ struct SearchOptions {
   std::size_t most_tries = 600;  ///< conversations played to make one shorter
   unsigned repeats = 3;
   Offer offer{};  ///< legal choices that the model does not have yet
+  /// What may be done to the device; empty: everything.
+  std::function<bool(const Action&)> may{};
   /// Asked between episodes; true ends the search. For budgets of time.
   std::function<bool()> is_over{};
   /// Told of each finding as it is made; true ends the search.
@@ -50,7 +52,9 @@ struct SearchResult {
   std::vector<Finding> findings;
   std::size_t actions = 0, episodes = 0;
   std::size_t shrinking = 0;          ///< conversations played to make others shorter
+  std::size_t distrusted = 0;         ///< episodes in which the host lost frames or was late
   std::size_t known = 0;              ///< episodes that ended with what was known already
+  std::optional<Error> ended_by{};    ///< the bus or the device was gone: what was found until then is here
   std::vector<std::string> chosen{};  ///< legal choices of the device that its model was told of on the way
 };
 

@@ -17,8 +17,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The device is up by then, or counts as one that does not start.
-constexpr Duration longest_boot = 5500ms;
 constexpr Duration behind_boot_up = 50ms;
 /// Behind a fault that ends a transfer, and behind a frame that asks for nothing.
 constexpr Duration after_fault = 5ms;
@@ -26,12 +24,6 @@ constexpr Duration after_frame = 1ms;
 /// A server that never ends a transfer must not end the search.
 constexpr std::size_t most_frames_of_a_transfer = 4000;
 constexpr std::size_t most_in_flight = 8;
-
-can::SimulatedBus::Options options_of(std::uint64_t seed) {
-  can::SimulatedBus::Options out;
-  out.seed = seed;
-  return out;
-}
 
 canopen::SdoDownload::Mode mode_of(Transfer transfer) {
   using Mode = canopen::SdoDownload::Mode;
@@ -83,37 +75,65 @@ std::unique_ptr<canopen::SdoClient> client_of(const Action& action) {
   return client ? std::move(*client) : nullptr;
 }
 
-World::World(std::unique_ptr<can::Participant> device, const monitor::Facts& facts, std::uint64_t seed,
+World::World(std::unique_ptr<Place> place, const monitor::Facts& facts,
              std::span<const monitor::Rule* const> chosen)
-    : device_(std::move(device)),
-      bus_(options_of(seed)),
+    : place_(std::move(place)),
+      zero_(place_->bus().now()),
+      health_(place_->bus().health()),
       node_(facts.node),
       request_(canopen::connection_set(node_).sdo_request),
       response_(canopen::connection_set(node_).sdo_response),
       watch_(facts, chosen),
       watched_(!chosen.empty()) {
-  bus_.attach(*device_, "device");
-  boot();
+  if (auto started = place_->start(); !started) {
+    fault_ = started.error();
+  } else {
+    boot();
+  }
 }
 
 /// The boot-up message may take its time; what follows it closely belongs to the boot.
 void World::boot() {
   const auto boot_up = canopen::connection_set(node_).error_control;
-  while (const auto event = next(BusTime(longest_boot))) {
+  bool is_up = false;
+  while (const auto event = next(BusTime(place_->longest_boot()))) {
     keep(*event);
-    if (event->direction == can::Direction::received && event->frame.is_data(boot_up)) break;
+    is_up = event->direction == can::Direction::received && event->frame.is_data(boot_up);
+    if (is_up) break;
   }
+  if (!is_up && place_->is_real() && !fault_)
+    fault_ = Error{fmt::format("node {} sends no boot-up message when it is reset", node_.value()),
+                   place_->bus().info().name,
+                   "does it hang? Switch its power off and on"};
   run_until(now() + behind_boot_up);
 }
 
+void World::fail_by(const Error& error) {
+  if (place_->is_real()) {
+    fault_ = error;
+  } else {
+    broken_ = error.text();
+  }
+}
+
+bool World::distrusted() {
+  if (!place_->is_real()) return false;
+  const auto now = place_->bus().health();
+  return now.frames_dropped != health_.frames_dropped || now.bus_offs != health_.bus_offs ||
+         now.outages != health_.outages || now.clock_steps != health_.clock_steps ||
+         now.late_frames != health_.late_frames;
+}
+
 std::optional<can::BusEvent> World::next(BusTime deadline) {
-  if (!broken_.empty()) return std::nullopt;
-  auto event = bus_.transport().receive(deadline);
+  if (!broken_.empty() || fault_) return std::nullopt;
+  auto event = place_->bus().receive(deadline + zero_.time_since_epoch());
   if (!event) {
-    broken_ = event.error().text();
+    fail_by(event.error());
     return std::nullopt;
   }
-  if (*event && watched_) {
+  if (!*event) return std::nullopt;
+  (*event)->time -= zero_.time_since_epoch();
+  if (watched_) {
     trace_.push_back({(*event)->frame, (*event)->time, (*event)->direction, {}});
     watch_.on_frame(trace_.back(), trace_.size() - 1);
   }
@@ -121,7 +141,8 @@ std::optional<can::BusEvent> World::next(BusTime deadline) {
 }
 
 void World::keep(const can::BusEvent& event) {
-  if (event.direction == can::Direction::received) unasked_.push_back({event.frame, event.time});
+  if (event.direction == can::Direction::received && !event.frame.error)
+    unasked_.push_back({event.frame, event.time});
 }
 
 void World::run_until(BusTime time) {
@@ -129,7 +150,8 @@ void World::run_until(BusTime time) {
 }
 
 void World::send(const can::Frame& frame) {
-  if (auto sent = bus_.transport().send(frame); !sent) broken_ = sent.error().text();
+  if (fault_) return;
+  if (auto sent = place_->bus().send(frame); !sent) fail_by(sent.error());
 }
 
 Answer World::perform(const Action& action, Duration patience) {
@@ -145,8 +167,7 @@ Answer World::perform(const Action& action, Duration patience) {
       run_until(now() + after_frame);
       break;
     case Action::Kind::power:
-      bus_.unplug(*device_);
-      bus_.attach(*device_, "device");
+      if (auto done = place_->switch_power(); !done) fault_ = done.error();
       last_command_ = 0x80;
       if (watched_) watch_.on_loss();
       break;
@@ -183,7 +204,7 @@ Answer World::transfer(const Action& action, Duration patience) {
   std::size_t unsent = 0, frames = 0;
   bool replied = false;
   auto since = now();
-  while (broken_.empty() && ++frames < most_frames_of_a_transfer) {
+  while (broken_.empty() && !fault_ && ++frames < most_frames_of_a_transfer) {
     while (!client->ended() && unsent < most_in_flight) {
       const auto frame = client->next(unsent);
       if (!frame) break;

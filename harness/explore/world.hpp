@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device alone with a tester on a simulated bus: actions in, answers and everything else it says out. Two
-// worlds given the same actions are how a device is held against its model.
+// A device and a tester on a bus. Two worlds given the same actions are how a device is held against its model.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,78 +12,48 @@
 
 #include "base/error.hpp"
 #include "can/capture.hpp"
-#include "can/participant.hpp"
-#include "can/simulated_bus.hpp"
 #include "canopen/sdo_client.hpp"
 #include "explore/action.hpp"
+#include "explore/place.hpp"
+#include "explore/side.hpp"
 #include "monitor/watch.hpp"
 
 namespace conform::explore {
 
-/// Makes the device anew, as it comes out of its box: nothing stored, power off.
-using MakeDevice = std::function<Result<std::unique_ptr<can::Participant>>()>;
-
-/// What came of one action.
-struct Answer {
-  enum class Kind : std::uint8_t {
-    none,       ///< nothing was asked
-    confirmed,  ///< the transfer is complete
-    aborted,    ///< by the device
-    violation,  ///< the device broke the protocol of the transfer
-    silence,
-    replied,  ///< to a single request: the first frame
-  };
-  Kind kind = Kind::none;
-  AbortCode code{};
-  Bytes data{};          ///< of an upload; of a single request the eight bytes of the reply
-  std::string detail{};  ///< of a violation
-  Duration taken{};      ///< from the action's begin to its end
-
-  /// "confirmed, 91 01", "abort 0602 0000h (object does not exist)", "no answer"
-  [[nodiscard]] std::string text() const;
-  /// Whether a reader would call both the same; how long they took does not count.
-  [[nodiscard]] bool same_as(const Answer& other) const;
-};
-
-/// A frame of the device that answers no transfer: boot-up, heartbeat, EMCY, PDO, SYNC, ...
-struct Unasked {
-  can::Frame frame;
-  BusTime time;
-};
-
-class World {
+class World final : public Side {
  public:
-  /// `chosen`: the monitors that watch, none for a model. Switches the power on and lets the device boot.
-  World(std::unique_ptr<can::Participant> device, const monitor::Facts& facts, std::uint64_t seed,
+  /// `chosen`: the monitors that watch, none for a model. Lets the device boot.
+  World(std::unique_ptr<Place> place, const monitor::Facts& facts,
         std::span<const monitor::Rule* const> chosen);
 
-  /// Does it and waits for the answer, for at most `patience` of each frame.
-  Answer perform(const Action& action, Duration patience);
-  /// Lets time pass; at once when that is over already.
-  void run_until(BusTime time);
-  /// The frames that came unasked since the last call.
-  [[nodiscard]] std::vector<Unasked>& unasked() { return unasked_; }
-  [[nodiscard]] BusTime now() const { return bus_.now(); }
-  [[nodiscard]] const std::vector<can::CapturedFrame>& trace() const { return trace_; }
-  [[nodiscard]] const monitor::Watch& watch() const { return watch_; }
+  Answer perform(const Action& action, Duration patience) override;
+  void run_until(BusTime time) override;
+  [[nodiscard]] std::vector<Unasked>& unasked() override { return unasked_; }
+  /// Since the place was entered.
+  [[nodiscard]] BusTime now() const override { return BusTime(place_->bus().now() - zero_); }
+  [[nodiscard]] const std::vector<can::CapturedFrame>& trace() const override { return trace_; }
+  [[nodiscard]] const monitor::Watch* watch() const override { return watched_ ? &watch_ : nullptr; }
   /// The last NMT command was to stop: nothing but NMT and error control is served.
   [[nodiscard]] bool stopped() const { return last_command_ == 2; }
-  /// What the simulation gave up on: a device that never rests. Empty: all is well.
-  [[nodiscard]] const std::string& broken() const { return broken_; }
+  [[nodiscard]] const std::string& broken() const override { return broken_; }
+  [[nodiscard]] const std::optional<Error>& fault() const override { return fault_; }
+  [[nodiscard]] bool distrusted() override;
 
  private:
   void boot();
   Answer transfer(const Action& action, Duration patience);
   Answer ask(const Action& action, Duration patience);
   void send(const can::Frame& frame);
+  void fail_by(const Error& error);
   [[nodiscard]] std::optional<can::BusEvent> next(BusTime deadline);
   void keep(const can::BusEvent& event);
   [[nodiscard]] bool is_reply(const can::BusEvent& event) const {
     return event.direction == can::Direction::received && event.frame.is_data(response_);
   }
 
-  std::unique_ptr<can::Participant> device_;
-  can::SimulatedBus bus_;
+  std::unique_ptr<Place> place_;
+  BusTime zero_;
+  can::BusHealth health_;  ///< when the place was entered
   NodeId node_;
   CanId request_, response_;
   monitor::Watch watch_;
@@ -94,6 +62,7 @@ class World {
   std::vector<Unasked> unasked_;
   std::uint8_t last_command_ = 0x80;
   std::string broken_;
+  std::optional<Error> fault_;
 };
 
 /// Of a transfer, as the client is asked for it. Nullptr where the transfer has no place for its fault.
