@@ -175,8 +175,7 @@ class Search {
     repeat(finding, signature);
     // Another model does not change what a monitor has seen.
     const bool may_be_chosen = finding.played.difference->what != Difference::What::rule;
-    const auto learnt =
-        may_be_chosen ? adapter_.learn(finding.conversation, finding.played) : std::nullopt;
+    const auto learnt = may_be_chosen ? adapter_.learn(finding.conversation, finding.played) : std::nullopt;
     if (learnt) {
       known_.erase(signature);
       const auto warns = std::ranges::find_if(

@@ -103,8 +103,7 @@ void World::boot() {
   }
   if (!is_up && place_->is_real() && !fault_)
     fault_ = Error{fmt::format("node {} sends no boot-up message when it is reset", node_.value()),
-                   place_->bus().info().name,
-                   "does it hang? Switch its power off and on"};
+                   place_->bus().info().name, "does it hang? Switch its power off and on"};
   run_until(now() + behind_boot_up);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device and a tester on a bus. Two worlds given the same actions are how a device is held against its model.
+// A device and a tester on a bus. Two worlds given the same actions are how a device is held against its
+// model.
 #pragma once
 
 #include <cstddef>

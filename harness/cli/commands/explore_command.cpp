@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `explore`: looks for what no scenario asks for, in simulation.
+// `explore`: looks for what no scenario asks for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "canopen/decode.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/explore_command.hpp"
+#include "cli/exploring/live_search.hpp"
 #include "cli/proof/explored.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/stop_signal.hpp"
@@ -25,10 +26,13 @@ namespace {
 
 /// The command that finds it again, whatever the machine is worth.
 std::string again(const ExploreCommand& options, std::size_t actions) {
-  std::string out = "canopen-conform explore --simulate";
+  std::string out = "canopen-conform explore";
+  if (options.simulate) out += " --simulate";
   const auto add = [&](std::string_view option, const std::string& value) {
     out += fmt::format(" {} {}", option, shell_word(value));
   };
+  if (!options.interface.empty()) add("--interface", options.interface);
+  if (!options.allow.empty()) add("--allow", options.allow);
   for (const auto& id : options.defects) add("--defect", id);
   for (const auto& id : options.variants) add("--variant", id);
   if (!options.eds.empty()) add("--eds", options.eds);
@@ -54,11 +58,11 @@ void print_frames(const explore::Finding& finding, NodeId node) {
   }
 }
 
-void print_finding(const explore::Finding& finding, const Explorable& device, const ExploreCommand& options,
-                   const scenario::Catalogue& catalogue) {
+void print_finding(const explore::Finding& finding, const explore::Vocabulary& words,
+                   const ExploreCommand& options, const scenario::Catalogue& catalogue) {
   const auto verdict = word_of(finding, catalogue);
   const auto& assigned = finding.assigned;
-  const auto came = explore::came_text(finding, device.words), due = explore::due_text(finding, device.words);
+  const auto came = explore::came_text(finding, words), due = explore::due_text(finding, words);
   print(fmt::format("{}: {}: {}{}\n", verdict,
                     assigned ? assigned->requirement : "differs from the model, no rule known", came,
                     due.empty() ? "" : fmt::format(", with the model: {}", due)));
@@ -68,8 +72,8 @@ void print_finding(const explore::Finding& finding, const Explorable& device, co
   }
   std::size_t number = 0;
   for (const auto& action : finding.conversation)
-    print(fmt::format("  | {:>2}.     {}\n", ++number, explore::describe(action, device.words.node)));
-  print_frames(finding, device.words.node);
+    print(fmt::format("  | {:>2}.     {}\n", ++number, explore::describe(action, words.node)));
+  print_frames(finding, words.node);
   if (finding.is_flaky())
     print(fmt::format("  | flaky   showed again {} of {} times\n", finding.repeated, finding.repeats));
   print(fmt::format("  | again   {}\n\n", again(options, finding.actions_until)));
@@ -100,15 +104,45 @@ Result<Explorable> explorable(const ExploreCommand& options, const std::string& 
                        options.variants);
 }
 
+/// What became of the device on the interface: the exit code of that, 0 where it is as it was.
+int tell_of_device(const LiveResult& live) {
+  int code = 0;
+  for (const auto& each : live.left) code = report_error({"not put back: " + each, {}, {}}, exit_environment);
+  if (live.lost)
+    code = report_error({"nobody could look whether the device holds what it held: " + live.lost->text(),
+                         {},
+                         "'canopen-conform recover' puts it back"},
+                        exit_environment);
+  return code;
+}
+
+void print_summary(const explore::SearchResult& result, const FoundCounts& verdicts,
+                   std::chrono::duration<double> took) {
+  // What the model was told of: a reader sees at once whether that is the device on the bench.
+  for (const auto& id : result.chosen) print(fmt::format("learnt: the device {}\n", summary_of_choice(id)));
+  if (result.distrusted > 0)
+    print(fmt::format("{} conversations say nothing, because the host lost frames or was late\n",
+                      result.distrusted));
+  print(fmt::format(
+      "{} actions in {} conversations, {} more to make findings short; {:.1f} s, {:.0f} actions a second\n"
+      "{} violated, {} tolerated, {} without a known rule\n",
+      result.actions, result.episodes, result.shrinking, took.count(),
+      static_cast<double>(result.actions) / std::max(took.count(), 0.001), verdicts.fail, verdicts.warn,
+      verdicts.open));
+}
+
 }  // namespace
 
 int explore_command(const ExploreCommand& options) {
   const auto begin = std::chrono::steady_clock::now();
-  if (!options.simulate && !options.prove)
-    return report_error(
-        {"say what to explore", {}, "--simulate; a device on an interface is not explored yet"}, exit_usage);
-  const auto budget =
-      options.time.empty() ? std::optional(Duration(std::chrono::seconds(10))) : parse_duration(options.time);
+  const bool live = !options.interface.empty();
+  if (!options.simulate && !options.prove && !live)
+    return report_error({"say what to explore", {}, "--interface can0 --node 5, or --simulate"}, exit_usage);
+  if (live && !options.defects.empty())
+    return report_error({"--defect is for the simulated node", {}, "canopen-refnode --defect ID"},
+                        exit_usage);
+  const auto budget = options.time.empty() ? std::optional(Duration(std::chrono::seconds(live ? 60 : 10)))
+                                           : parse_duration(options.time);
   if (!budget)
     return report_error({"'" + options.time + "' is no time", "--for", "10s, 500 ms, 2 min"}, exit_usage);
   auto folders = find_suites(options.suites);
@@ -116,13 +150,10 @@ int explore_command(const ExploreCommand& options) {
   auto suites = load_suites(*folders, use_colour("auto", 2));
   if (!suites) return report_error(suites.error(), exit_usage);
   if (options.prove) return prove(options, folders->root, suites->catalogue);
-  auto device = explorable(options, folders->root);
-  if (!device) return report_error(device.error(), exit_usage);
   note_stop_signals();
 
   explore::SearchOptions search;
   search.seed = options.seed;
-  search.offer = device->offer;
   search.most_findings = options.most_findings;
   // A number of actions is a budget of its own, so that it means the same on every machine.
   search.most_actions = options.actions.value_or(SIZE_MAX);
@@ -131,31 +162,43 @@ int explore_command(const ExploreCommand& options) {
   } else {
     search.is_over = [] { return stop_signal != 0; };
   }
+  explore::Vocabulary words;
   search.on_finding = [&](const explore::Finding& finding) {
-    if (!options.quiet) print_finding(finding, *device, options, suites->catalogue);
+    if (!options.quiet) print_finding(finding, words, options, suites->catalogue);
     std::fflush(stdout);
     return false;
   };
-  const auto result = explore::search(device->bench, device->words, search);
-  if (!result) return report_error(result.error(), exit_environment);
-  if (!options.write.empty() && !result->findings.empty()) {
-    const auto text =
-        explore::scenario_file(result->findings, device->words, again(options, result->actions));
+
+  explore::SearchResult result;
+  int code = 0;
+  if (live) {
+    bool usage = false;
+    auto found = explore_live(
+        options, folders->root, std::move(search),
+        [&words](const Explorable& device) { words = device.words; }, usage);
+    if (!found) return report_end(found.error(), usage ? exit_usage : exit_environment);
+    result = std::move(found->search);
+    code = tell_of_device(*found);
+    if (result.ended_by && stop_signal == 0) code = report_error(*result.ended_by, exit_environment);
+  } else {
+    auto device = explorable(options, folders->root);
+    if (!device) return report_error(device.error(), exit_usage);
+    words = device->words;
+    search.offer = device->offer;
+    auto found = explore::search(device->bench, device->words, search);
+    if (!found) return report_error(found.error(), exit_environment);
+    result = std::move(*found);
+  }
+  if (!options.write.empty() && !result.findings.empty()) {
+    const auto text = explore::scenario_file(result.findings, words, again(options, result.actions));
     if (auto written = write_file_atomically(options.write, text); !written)
       return report_error(written.error(), exit_environment);
   }
-  // What the model was told of: a reader sees at once whether that is the device on the bench.
-  for (const auto& id : result->chosen) print(fmt::format("learnt: the device {}\n", summary_of_choice(id)));
-  const auto verdicts = count_words(*result, suites->catalogue);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  print(fmt::format(
-      "{} actions in {} conversations, {} more to make findings short; {:.1f} s, {:.0f} actions a second\n"
-      "{} violated, {} tolerated, {} without a known rule\n",
-      result->actions, result->episodes, result->shrinking, took.count(),
-      static_cast<double>(result->actions) / std::max(took.count(), 0.001), verdicts.fail, verdicts.warn,
-      verdicts.open));
+  const auto verdicts = count_words(result, suites->catalogue);
+  print_summary(result, verdicts, std::chrono::steady_clock::now() - begin);
   if (stop_signal != 0) return 128 + stop_signal;
   if (verdicts.fail > 0) return 1;
+  if (code != 0) return code;
   return options.strict && verdicts.open + verdicts.warn > 0 ? exit_environment : 0;
 }
 

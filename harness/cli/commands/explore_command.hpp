@@ -12,6 +12,9 @@ namespace conform::cli {
 
 struct ExploreCommand {
   bool simulate = false;
+  std::string interface;              ///< of a device on a bus
+  std::string allow;                  ///< risk tier; empty: by interface
+  std::string journal;                ///< file; empty: at its usual place
   std::vector<std::string> defects;   ///< of the simulated reference node
   std::vector<std::string> variants;  ///< legal ones, of the same node; the model has them, too
   std::vector<std::string> suites;

@@ -5,9 +5,22 @@ namespace conform::cli {
 
 CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
   auto* sub = app.add_subcommand(
-      "explore",
-      "Look for what no scenario asks for: random conversations, held against a conformant model; in simulation only");
-  sub->add_flag("--simulate", command.simulate, "Explore the reference node on a simulated bus");
+      "explore", "Look for what no scenario asks for: random conversations, held against a conformant model");
+  auto* interface =
+      sub->add_option("-i,--interface", command.interface,
+                      "CAN interface the device is alone on with this program, for example can0")
+          ->type_name("NAME");
+  sub->add_flag("--simulate", command.simulate, "Explore the reference node on a simulated bus")
+      ->excludes(interface);
+  sub->add_option(
+         "--allow", command.allow,
+         "Highest risk to take: config, nvm or motion (default: config on real interfaces, motion on virtual ones)")
+      ->check(CLI::IsMember({"config", "nvm", "motion"}).description(""))
+      ->type_name("RISK");
+  sub->add_option(
+         "--journal", command.journal,
+         "Keep the journal here (default: ~/.local/state/canopen-conform, for each interface and node)")
+      ->type_name("FILE");
   sub->add_option("--defect", command.defects,
                   "Defect to switch on in the simulated node; repeatable (canopen-refnode --list-defects)")
       ->allow_extra_args(false)

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/exploring/live_device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "base/text.hpp"
+#include "canopen/nmt.hpp"
+#include "canopen/program_control.hpp"
+#include "cli/run/shell.hpp"
+#include "engine/liveness.hpp"
+#include "engine/recorder.hpp"
+#include "engine/restore.hpp"
+
+namespace conform::cli {
+
+using namespace std::chrono_literals;
+
+/// The bus, with an eye on what our frames change.
+class LiveDevice::Watched final : public can::Transport {
+ public:
+  Watched(can::Transport& inner, LiveDevice& device) : inner_(inner), device_(device) {}
+  [[nodiscard]] BusTime now() const override { return inner_.now(); }
+  [[nodiscard]] Result<void> send(const can::Frame& frame) override {
+    if (const auto object = steps::download_begun(frame, device_.profile_.node)) device_.changing(*object);
+    return inner_.send(frame);
+  }
+  [[nodiscard]] Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+    // A wait of the search may be longer than a user waits.
+    for (;;) {
+      if (device_.stop_ != 0) return fail("stopped by the user");
+      const auto until = std::min(deadline, inner_.now() + slice);
+      auto event = inner_.receive(until);
+      if (!event || *event || until == deadline) return event;
+    }
+  }
+  [[nodiscard]] Result<bool> come_back(BusTime deadline) override { return inner_.come_back(deadline); }
+  [[nodiscard]] can::BusHealth health() override { return inner_.health(); }
+  [[nodiscard]] can::TransportInfo info() const override { return inner_.info(); }
+  [[nodiscard]] can::Transport& inner() { return inner_; }
+
+ private:
+  static constexpr Duration slice = 200ms;
+  can::Transport& inner_;
+  LiveDevice& device_;
+};
+
+class LiveDevice::Here final : public explore::Place {
+ public:
+  explicit Here(LiveDevice& device) : device_(device) {}
+  [[nodiscard]] can::Transport& bus() override { return *device_.bus_; }
+  [[nodiscard]] Result<void> start() override {
+    // What was still on its way belongs to nobody.
+    for (;;) {
+      const auto old = bus().receive(bus().now());
+      if (!old) return std::unexpected(old.error());
+      if (!*old) break;
+    }
+    return bus().send(canopen::encode(canopen::NmtCommand::reset_node, device_.profile_.node));
+  }
+  [[nodiscard]] Result<void> switch_power() override {
+    return run_shell(device_.profile_.power_cycle, std::chrono::seconds(60));
+  }
+  [[nodiscard]] Duration longest_boot() const override {
+    return std::max<Duration>(device_.profile_.boot_time, 2s);
+  }
+  [[nodiscard]] bool is_real() const override { return true; }
+
+ private:
+  LiveDevice& device_;
+};
+
+/// The engine's way to talk to it, for what is no part of a conversation.
+struct LiveDevice::Talk {
+  Talk(LiveDevice& device, const std::atomic<int>* stop)
+      : recorder(device.bus_->inner(), stop), session(recorder, device.profile_, device.dictionary_) {
+    recorder.set_observer(device.observer_);
+    session.allow(device.allowed_);
+  }
+  engine::Recorder recorder;
+  engine::RunSession session;
+};
+
+LiveDevice::LiveDevice(can::Transport& transport, const device::Profile& profile, steps::Tier allowed,
+                       engine::Observer& observer, const std::atomic<int>& stop)
+    : profile_(profile),
+      dictionary_(device::dictionary_of(profile_)),
+      guard_(profile_, dictionary_),
+      allowed_(allowed),
+      observer_(observer),
+      stop_(stop),
+      bus_(std::make_unique<Watched>(transport, *this)) {
+  guard_.allow(allowed);
+  guard_.begin_case(allowed);
+}
+
+LiveDevice::~LiveDevice() = default;
+
+Result<void> LiveDevice::reset(engine::RunSession& session) const {
+  const auto from = session.capture().size();
+  if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent) return sent;
+  auto booted = session.recorder().find(from, engine::is_boot_up_of(session.node()),
+                                        session.now() + std::max<Duration>(profile_.boot_time, 2s));
+  if (!booted) return std::unexpected(booted.error());
+  if (!*booted)
+    return fail(fmt::format("node {} sends no boot-up message when it is reset", profile_.node.value()),
+                session.recorder().transport().info().name, "does it hang? Switch its power off and on");
+  session.device_restarted();
+  return session.recorder().wait_until(session.recorder().now() + 50ms);
+}
+
+/// What others send would be taken for the device's.
+Result<void> LiveDevice::is_alone(engine::RunSession& session) const {
+  const auto from = session.capture().size();
+  if (auto waited = session.recorder().wait_until(session.recorder().now() + 1s); !waited) return waited;
+  const auto& frames = session.capture().frames();
+  for (auto i = from; i < frames.size(); ++i) {
+    const auto& frame = frames[i].frame;
+    if (frames[i].direction != can::Direction::received || frame.error) continue;
+    const bool own = !frame.extended && (frame.id & 0x7FU) == profile_.node.value();
+    const bool shared = frame.id == 0x080 || frame.id == 0x100;
+    if (own || shared || frame.extended) continue;
+    return fail(fmt::format("somebody else sends on this bus: CAN-ID {}", hex(frame.id, 3)),
+                session.recorder().transport().info().name,
+                "exploration needs a device that is alone with it");
+  }
+  return {};
+}
+
+Result<void> LiveDevice::look() {
+  Talk talk(*this, &stop_);
+  const auto liveness = engine::probe(talk.session, {.may_command = true, .power_cycle = {}});
+  if (!liveness) return std::unexpected(liveness.error());
+  if (!liveness->answers)
+    return fail(fmt::format("node {} does not answer", profile_.node.value()), bus_->info().name,
+                "node-ID, bit rate, power?");
+  if (auto alone = is_alone(talk.session); !alone) return alone;
+  // A reset gives what the device begins each conversation with.
+  if (auto done = reset(talk.session); !done) return done;
+  engine::ScanOptions what;
+  what.ranges = {{0x1000, 0x1FFF}};
+  for (const auto& entry : dictionary_.entries()) {
+    if (entry.not_to_be_read) what.skip.insert(entry.mux);
+    if (entry.claimed) what.also.push_back(entry.mux);
+  }
+  auto objects = engine::scan(talk.session, what);
+  if (!objects) return std::unexpected(objects.error());
+  seen_ = std::move(*objects);
+  for (const auto& object : seen_) {
+    for (const auto& entry : object.entries) {
+      if (entry.value) values_[entry.mux] = *entry.value;
+    }
+  }
+  return {};
+}
+
+const Bytes* LiveDevice::value_of(Multiplexer object) const {
+  const auto found = values_.find(object);
+  return found == values_.end() ? nullptr : &found->second;
+}
+
+bool LiveDevice::may_write(Multiplexer object) const {
+  // What is stored would be what the device begins the next conversation with.
+  const bool keeps = object.index == Index(0x1010) || object.index == Index(0x1011);
+  if (keeps || canopen::is_program_control(object.index)) return false;
+  const auto* entry = dictionary_.find(object);
+  if (entry != nullptr && entry->command) return false;
+  const bool takes = entry == nullptr || entry->writable();
+  if (takes && entry != nullptr && !values_.contains(object)) return false;
+  return guard_.judge_download(object).has_value();
+}
+
+bool LiveDevice::may(const explore::Action& action) const {
+  using Kind = explore::Action::Kind;
+  switch (action.kind) {
+    case Kind::wait: return true;
+    case Kind::power: return !profile_.power_cycle.empty();
+    case Kind::upload: return true;
+    case Kind::download: return may_write(action.object);
+    case Kind::request:
+    case Kind::frame: break;
+  }
+  if (const auto object = steps::download_begun(action.frame, profile_.node); object && !may_write(*object))
+    return false;
+  return guard_.judge(action.frame).has_value();
+}
+
+void LiveDevice::changing(Multiplexer object) {
+  if (!changed_.insert(object).second) return;
+  if (const auto* before = value_of(object)) observer_.changing(object, *before);
+}
+
+/// A reset brings back what was not stored; what it did not bring back is written.
+Result<void> LiveDevice::settle(bool at_end) {
+  if (changed_.empty() && !at_end) return {};
+  Talk talk(*this, at_end ? nullptr : &stop_);
+  if (auto done = reset(talk.session); !done) return done;
+  std::vector<engine::Change> changes;
+  for (const auto object : changed_) {
+    const auto* entry = dictionary_.find(object);
+    const bool lives = entry != nullptr && (entry->may_change || !entry->writable());
+    if (const auto* before = value_of(object); before != nullptr && !lives)
+      changes.push_back({object, *before});
+  }
+  auto report = engine::restore(talk.session, changes);
+  if (!report) return std::unexpected(report.error());
+  for (auto& each : report->left) {
+    if (std::ranges::find(left_, each) == left_.end()) left_.push_back(std::move(each));
+  }
+  for (const auto object : changed_) {
+    const auto* before = value_of(object);
+    const bool told = std::ranges::any_of(changes, [&](const auto& each) { return each.object == object; });
+    if (before != nullptr && !told) observer_.put_back(object, *before);
+  }
+  changed_.clear();
+  return {};
+}
+
+Result<std::unique_ptr<explore::Place>> LiveDevice::enter() {
+  if (auto settled = settle(false); !settled) return std::unexpected(settled.error());
+  return std::make_unique<Here>(*this);
+}
+
+Result<std::vector<std::string>> LiveDevice::leave() {
+  if (auto settled = settle(true); !settled) return std::unexpected(settled.error());
+  return std::move(left_);
+}
+
+}  // namespace conform::cli

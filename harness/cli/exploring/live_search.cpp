@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/exploring/live_search.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "can/interface_lock.hpp"
+#include "can/socketcan_transport.hpp"
+#include "cli/exploring/live_device.hpp"
+#include "cli/exploring/model_description.hpp"
+#include "cli/run/device_under_test.hpp"
+#include "cli/run/run_journal.hpp"
+#include "cli/run/stop_signal.hpp"
+#include "device/description.hpp"
+#include "journal/writer.hpp"
+
+namespace conform::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A machine that runs other programs, too, wakes up late and sees frames late.
+constexpr Duration jitter = 40ms;
+/// Each conversation costs a reset or two.
+constexpr std::size_t most_tries = 60;
+
+class Journalled final : public engine::Observer {
+ public:
+  explicit Journalled(journal::Writer& journal) : journal_(journal) {}
+  void changing(Multiplexer object, const Bytes& before) override {
+    journal_.changing({object, before, "exploration"});
+  }
+  void put_back(Multiplexer object, const Bytes& value) override { journal_.put_back(object, value); }
+
+ private:
+  journal::Writer& journal_;
+};
+
+std::string absolute(const std::string& path) {
+  return path.empty() ? path : std::filesystem::absolute(path).string();
+}
+
+/// What the device has that nobody has described: the draft says it.
+void describe_by(device::Profile& profile, const eds::EdsFile& drafted) {
+  if (auto description = device::describe(drafted)) device::add_description(profile, std::move(*description));
+}
+
+bool claims_objects(const device::Profile& profile) {
+  return std::ranges::any_of(profile.objects, &device::Entry::claimed);
+}
+
+}  // namespace
+
+Result<LiveResult> explore_live(const ExploreCommand& options, const std::string& root,
+                                explore::SearchOptions search, const OnDevice& on_device, bool& usage) {
+  usage = true;
+  auto known = device_under_test({.profile = options.device, .eds = options.eds, .node = options.node},
+                                 {.simulate = false, .variants = {}, .suites = root});
+  if (!known) return std::unexpected(known.error());
+  auto& profile = known->profile;
+  usage = false;
+  auto transport = can::SocketCanTransport::open(options.interface);
+  if (!transport) return std::unexpected(transport.error());
+  auto lock = can::InterfaceLock::take(options.interface);
+  if (!lock) return std::unexpected(lock.error());
+  auto allowed = (*transport)->info().is_virtual ? steps::Tier::motion : steps::Tier::config;
+  if (const auto wished = steps::parse_tier(options.allow)) allowed = *wished;
+  profile.writes_described = allowed == steps::Tier::motion && profile.safe_objects.empty();
+
+  auto kept = RunJournal::open(options.journal, options.interface, profile.node.value(), false, {});
+  if (!kept) return std::unexpected(kept.error());
+  journal::Writer journal(kept->descriptor());
+  result::RunResult run;
+  run.device = profile.name;
+  journal.begin({.interface = options.interface,
+                 .node = profile.node.value(),
+                 .simulated = false,
+                 .profile = absolute(options.device),
+                 .eds = absolute(options.eds),
+                 .suites = absolute(root),
+                 .epoch_ns = (*transport)->info().epoch_ns,
+                 .reports = {}},
+                run);
+  for (auto value : kept->left()) {
+    value.during.clear();
+    journal.changing(value);
+  }
+  Journalled observer(journal);
+
+  LiveDevice device(**transport, profile, allowed, observer, stop_signal);
+  if (auto looked = device.look(); !looked) return std::unexpected(looked.error());
+  auto description = model_description(device, profile, known->description.get());
+  if (!description) return std::unexpected(description.error());
+  if (!claims_objects(profile)) describe_by(profile, **description);
+  auto explorable = explorable_of(profile, {.description = *description}, options.variants);
+  if (!explorable) return std::unexpected(explorable.error());
+  explorable->bench.place = [&device] { return device.enter(); };
+  explorable->bench.jitter = jitter;
+  explorable->bench.answer_time = std::max<Duration>(100ms, explorable->bench.answer_time);
+  on_device(*explorable);
+
+  search.offer = explorable->offer;
+  search.may = [&device](const explore::Action& action) { return device.may(action); };
+  search.most_tries = most_tries;
+  auto found = explore::search(explorable->bench, explorable->words, search);
+  LiveResult out;
+  if (found) {
+    out.search = std::move(*found);
+  } else {
+    out.search.ended_by = found.error();
+  }
+  if (auto left = device.leave()) {
+    out.left = std::move(*left);
+  } else {
+    out.lost = left.error();
+  }
+  journal.finished(run);
+  journal.reported();
+  return out;
+}
+
+}  // namespace conform::cli
