@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "canopen/cob_id.hpp"
 #include "explore/world.hpp"
 
 namespace conform::explore {
@@ -33,6 +34,13 @@ bool same_data(const can::Frame& one, const can::Frame& other) {
   return one.dlc == other.dlc && (one.remote || std::ranges::equal(one.bytes(), other.bytes()));
 }
 
+/// Of abort codes: not this value, or not now.
+bool refuses_value(AbortCode code) {
+  const auto value = code.value();
+  return (value >= 0x0609'0030 && value <= 0x0609'0036) || value == 0x0606'0000 ||
+         (value >= 0x0604'0042 && value <= 0x0604'0047) || (value >= 0x0800'0000 && value <= 0x0800'0024);
+}
+
 std::string outcome(const Answer& answer) {
   switch (answer.kind) {
     case Answer::Kind::none: return "none";
@@ -51,7 +59,8 @@ class Duel {
       : device_(device),
         model_(std::make_unique<SimulatedPlace>(std::move(model), bench.bus_seed), bench.facts, {}),
         silent_patience_(bench.answer_time),
-        jitter_(bench.jitter) {
+        jitter_(bench.jitter),
+        is_own_affair_(bench.is_own_affair) {
     // How long they take to boot is not compared, only what they say then: both clocks begin behind it.
     device_zero_ = device_.now();
     model_zero_ = model_.now();
@@ -74,7 +83,7 @@ class Duel {
     if (!both_silent) drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
     meet();
     auto out = look();
-    if (!out && !answer_of_device.same_as(answer_of_model)) {
+    if (!out && !same(action, answer_of_device, answer_of_model)) {
       out.emplace();
       out->what = What::answer;
     } else if (!out && !both_silent && answer_of_device.kind == answer_of_model.kind &&
@@ -130,6 +139,36 @@ class Duel {
     return match();
   }
 
+  [[nodiscard]] bool same(const Action& action, const Answer& device, const Answer& model) const {
+    if (device.same_as(model)) return true;
+    if (!is_own_affair_ || model.kind != Answer::Kind::confirmed || !is_own_affair_(action.object))
+      return false;
+    if (action.kind == Action::Kind::upload)
+      return device.kind == Answer::Kind::confirmed && device.data.size() == model.data.size();
+    // What values an entry takes, and when, nobody has said.
+    return action.kind == Action::Kind::download && device.kind == Answer::Kind::aborted &&
+           refuses_value(device.code);
+  }
+
+  /// Whether an entry from `first` to `last` is known to hold the CAN-ID of the frame.
+  [[nodiscard]] bool is_held(const can::Frame& frame, std::uint16_t first, std::uint16_t last) const {
+    bool out = false;
+    const auto key = frame.id | (frame.extended ? canopen::cob_id::extended_frame : 0U);
+    device_.watch()->follower().entries().for_holders(
+        key, [&](std::uint16_t index) { out = out || (index >= first && index <= last); });
+    return out;
+  }
+
+  /// A TPDO or TIME of a device whose inputs and clock nobody knows: by the CAN-ID that it has from the
+  /// start, or was given.
+  [[nodiscard]] bool is_unknowable(const can::Frame& frame) const {
+    if (!is_own_affair_ || device_.watch() == nullptr) return false;
+    const auto own = canopen::connection_set(device_.watch()->follower().facts().node);
+    const auto is = [&](CanId id) { return !frame.extended && frame.id == id.value(); };
+    return std::ranges::any_of(own.tpdo, is) || is(canopen::time_can_id) || is_held(frame, 0x1800, 0x19FF) ||
+           is_held(frame, 0x1012, 0x1012);
+  }
+
   [[nodiscard]] Duration allowance() const { return tolerance + jitter_ + drift_; }
 
   std::optional<Difference> broken_rule() {
@@ -159,10 +198,12 @@ class Duel {
   /// Pairs the frames of both sides in their order, and tells the first that has no partner in time.
   std::optional<Difference> match() {
     for (auto& each : std::exchange(device_.unasked(), {})) {
+      if (is_unknowable(each.frame)) continue;
       if (auto other = pair(each, of_model_)) return differs(each, *other);
     }
     for (const auto& said : std::exchange(model_.unasked(), {})) {
       const auto each = of_model(said);
+      if (is_unknowable(each.frame)) continue;
       const auto partner = std::ranges::find_if(
           of_device_, [&](const Unasked& other) { return same_kind(each.frame, other.frame); });
       if (partner == of_device_.end()) {
@@ -238,6 +279,7 @@ class Duel {
   World model_;
   BusTime device_zero_{}, model_zero_{};
   Duration silent_patience_, jitter_;
+  const std::function<bool(Multiplexer)>& is_own_affair_;
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
   Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all

@@ -59,6 +59,9 @@ struct Bench {
   Duration answer_time = std::chrono::milliseconds(20);
   /// How much later or earlier than on a simulated bus anything may be seen.
   Duration jitter{};
+  /// Entries whose value is the device's own affair: process data, counters. Empty: none. Where there are
+  /// some, nobody knows either what its PDOs hold, when an event sends one, or what time it has.
+  std::function<bool(Multiplexer)> is_own_affair{};
 };
 
 struct Played {

@@ -38,7 +38,8 @@ CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
   sub->add_option("--eds", command.eds, "Description of the device: node and model are its twins")
       ->type_name("FILE");
   sub->add_option("--seed", command.seed, "Seed of the conversations (default 1)")->type_name("NUMBER");
-  sub->add_option("--for", command.time, "End after this time, 10s or 2 min (default 10s)")
+  sub->add_option("--for", command.time,
+                  "End after this time, 10s or 2 min (default 10s, on an interface 60s)")
       ->type_name("TIME");
   sub->add_option("--actions", command.actions,
                   "End after so many actions: the same on every machine, also with what --for would cut off")

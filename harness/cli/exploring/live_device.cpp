@@ -229,4 +229,20 @@ Result<std::vector<std::string>> LiveDevice::leave() {
   return std::move(left_);
 }
 
+void meet(Explorable& explorable, LiveDevice& device) {
+  // A machine that runs other programs, too, wakes up late and sees frames late.
+  constexpr Duration jitter = 40ms;
+  auto& bench = explorable.bench;
+  bench.place = [&device] { return device.enter(); };
+  bench.jitter = jitter;
+  bench.answer_time = std::max<Duration>(100ms, bench.answer_time);
+  bench.is_own_affair = [&device](Multiplexer object) {
+    const auto* entry = device.dictionary().find(object);
+    return steps::is_of_application(object.index) || (entry != nullptr && entry->may_change);
+  };
+  std::erase_if(explorable.words.entries, [&device](const device::Entry& entry) {
+    return entry.readable() && device.value_of(entry.mux) == nullptr;
+  });
+}
+
 }  // namespace conform::cli

@@ -13,6 +13,7 @@
 
 #include "base/bytes.hpp"
 #include "can/transport.hpp"
+#include "cli/proof/explored.hpp"
 #include "device/dictionary.hpp"
 #include "device/profile.hpp"
 #include "engine/observer.hpp"
@@ -39,6 +40,7 @@ class LiveDevice {
   [[nodiscard]] Result<void> look();
   /// What look() has read, as a scan shows it.
   [[nodiscard]] const std::vector<engine::ScannedObject>& seen() const { return seen_; }
+  [[nodiscard]] const device::Dictionary& dictionary() const { return dictionary_; }
   /// nullptr: it could not be read.
   [[nodiscard]] const Bytes* value_of(Multiplexer object) const;
 
@@ -74,5 +76,9 @@ class LiveDevice {
   std::set<Multiplexer> changed_;  ///< since the last reset that was looked after
   std::vector<std::string> left_;
 };
+
+/// Makes the device that which the search meets, instead of a simulated one: what could not be read is not
+/// talked about, and process data are its own affair. Both outlive the search.
+void meet(Explorable& explorable, LiveDevice& device);
 
 }  // namespace conform::cli

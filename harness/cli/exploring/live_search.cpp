@@ -21,8 +21,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A machine that runs other programs, too, wakes up late and sees frames late.
-constexpr Duration jitter = 40ms;
 /// Each conversation costs a reset or two.
 constexpr std::size_t most_tries = 60;
 
@@ -96,9 +94,7 @@ Result<LiveResult> explore_live(const ExploreCommand& options, const std::string
   if (!claims_objects(profile)) describe_by(profile, **description);
   auto explorable = explorable_of(profile, {.description = *description}, options.variants);
   if (!explorable) return std::unexpected(explorable.error());
-  explorable->bench.place = [&device] { return device.enter(); };
-  explorable->bench.jitter = jitter;
-  explorable->bench.answer_time = std::max<Duration>(100ms, explorable->bench.answer_time);
+  meet(*explorable, device);
   on_device(*explorable);
 
   search.offer = explorable->offer;

@@ -45,6 +45,11 @@ class Fitter {
     if (drafted_ && claimed) {
       put(entry.access_type, std::string(device::to_string(known->access)));
       put(entry.data_type, fmt::format("0x{:04X}", static_cast<unsigned>(known->type)));
+      for (const auto& [limit, field] :
+           {std::pair(&known->low, &entry.low_limit), std::pair(&known->high, &entry.high_limit)}) {
+        const auto text = *limit ? written(**limit, known->type) : std::nullopt;
+        if (text) put(*field, *text);
+      }
     }
     const auto* value = device_.value_of(mux);
     if (value == nullptr || known == nullptr || known->may_change || !is_plain(entry)) return;

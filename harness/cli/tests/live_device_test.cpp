@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exploration of a device that cannot be made anew: on a simulated bus, but met as one on an interface is.
+#include "cli/exploring/live_device.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+
+#include "can/simulated_bus.hpp"
+#include "catch.hpp"
+#include "cli/exploring/model_description.hpp"
+#include "cli/proof/explored.hpp"
+#include "explore/scenario_text.hpp"
+#include "node/powered_node.hpp"
+#include "shipped.hpp"
+
+using namespace conform;
+namespace shipped = cli::shipped;
+
+namespace {
+
+/// What a journal would hold.
+class Watcher final : public engine::Observer {
+ public:
+  void changing(Multiplexer object, const Bytes& before) override { open.emplace(object, before); }
+  void put_back(Multiplexer object, const Bytes& value) override {
+    const auto found = open.find(object);
+    if (found != open.end() && found->second == value) open.erase(found);
+  }
+  std::map<Multiplexer, Bytes> open;
+};
+
+struct Bench {
+  explicit Bench(const std::vector<std::string>& defects, const std::vector<std::string>& variants = {}) {
+    auto made = refnode::PoweredNode::create(
+        {.node_id = shipped::reference().node.value(), .defects = defects, .variants = variants});
+    REQUIRE(made.has_value());
+    node = std::move(*made);
+    bus.attach(*node, "device");
+    device.emplace(bus.transport(), shipped::reference(), tier, watcher, stop);
+  }
+
+  explore::SearchResult explore(std::size_t actions) {
+    REQUIRE(device->look());
+    const auto description = cli::model_description(*device, shipped::reference(), nullptr);
+    REQUIRE(description);
+    auto explorable = cli::explorable_of(shipped::reference(), {.description = *description}, {});
+    REQUIRE(explorable);
+    cli::meet(*explorable, *device);
+    explore::SearchOptions options;
+    options.most_actions = actions;
+    options.most_tries = 60;
+    options.offer = explorable->offer;
+    options.may = [this](const explore::Action& action) { return device->may(action); };
+    words = explorable->words;
+    auto out = explore::search(explorable->bench, explorable->words, options);
+    REQUIRE(out);
+    return std::move(*out);
+  }
+
+  steps::Tier tier = steps::Tier::motion;
+  can::SimulatedBus bus;
+  std::unique_ptr<refnode::PoweredNode> node;
+  Watcher watcher;
+  std::atomic<int> stop{0};
+  std::optional<cli::LiveDevice> device;
+  explore::Vocabulary words;
+};
+
+std::string told(const explore::Finding& finding, const explore::Vocabulary& words) {
+  std::string out = finding.assigned ? finding.assigned->requirement : "?";
+  for (const auto& action : finding.conversation) out += "; " + explore::describe(action, words.node);
+  return out + " -> " + explore::came_text(finding, words) + ", due " + explore::due_text(finding, words);
+}
+
+}  // namespace
+
+TEST_CASE("a conformant device that is only reset is not blamed, and left as it was") {
+  Bench bench({});
+  const auto result = bench.explore(20000);
+  for (const auto& finding : result.findings) {
+    INFO(told(finding, bench.words));
+    CHECK(cli::word_of(finding, shipped::suites().catalogue) != "FAIL");
+  }
+  CHECK_FALSE(result.ended_by.has_value());
+  CHECK(result.episodes > 10);
+  const auto left = bench.device->leave();
+  REQUIRE(left);
+  CHECK(left->empty());
+  CHECK(bench.watcher.open.empty());
+}
+
+TEST_CASE("a defect of a device that is only reset is found and named") {
+  Bench bench({"sdo-served-in-stopped"});
+  const auto result = bench.explore(3000);
+  CHECK(std::ranges::any_of(result.findings, [](const explore::Finding& each) {
+    return each.assigned && each.assigned->requirement == "SDO-GEN-15";
+  }));
+}
