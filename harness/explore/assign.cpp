@@ -151,6 +151,7 @@ std::optional<Assigned> assign(const Evidence& evidence) {
   switch (difference.what) {
     case Difference::What::rule: return violates(difference.requirement);
     case Difference::What::broken: return std::nullopt;
+    case Difference::What::gone: return violates("NMT-BOOT-02");
     case Difference::What::late: return strains("SDO-GEN-18");
     case Difference::What::answer: break;
     default: return assign_frame(evidence);

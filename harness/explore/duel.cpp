@@ -34,6 +34,8 @@ bool same_data(const can::Frame& one, const can::Frame& other) {
   return one.dlc == other.dlc && (one.remote || std::ranges::equal(one.bytes(), other.bytes()));
 }
 
+constexpr std::size_t longest_number = 8;
+
 /// Of abort codes: not this value, or not now.
 bool refuses_value(AbortCode code) {
   const auto value = code.value();
@@ -143,8 +145,11 @@ class Duel {
     if (device.same_as(model)) return true;
     if (!is_own_affair_ || model.kind != Answer::Kind::confirmed || !is_own_affair_(action.object))
       return false;
+    // Of a text or a DOMAIN the length, too.
+    const auto open = [](const Answer& answer) { return answer.data.size() > longest_number; };
     if (action.kind == Action::Kind::upload)
-      return device.kind == Answer::Kind::confirmed && device.data.size() == model.data.size();
+      return device.kind == Answer::Kind::confirmed &&
+             (device.data.size() == model.data.size() || open(device) || open(model));
     // What values an entry takes, and when, nobody has said.
     return action.kind == Action::Kind::download && device.kind == Answer::Kind::aborted &&
            refuses_value(device.code);
@@ -292,6 +297,7 @@ std::string Difference::signature(std::span<const Action> conversation) const {
   switch (what) {
     case What::rule: return "rule " + requirement;
     case What::broken: return "broken";
+    case What::gone: return "gone";
     case What::missing: return fmt::format("missing {}", hex(due.id, 3));
     case What::surplus: return fmt::format("surplus {}", hex(came.id, 3));
     case What::other_data: return fmt::format("data {}", hex(came.id, 3));
@@ -312,6 +318,16 @@ Result<std::unique_ptr<Place>> place_of(const Bench& bench) {
   auto device = bench.device();
   if (!device) return std::unexpected(device.error());
   return std::make_unique<SimulatedPlace>(std::move(*device), bench.bus_seed);
+}
+
+/// Where it confirmed a download that the model refused: what it holds now, whatever the model does.
+void ask_what_it_holds(std::span<const Action> conversation, Side& device, Played& out) {
+  if (!out.difference || out.difference->what != What::answer) return;
+  const auto& last = conversation[out.difference->action];
+  const bool taken = out.difference->device.kind == Answer::Kind::confirmed &&
+                     out.difference->model.kind == Answer::Kind::aborted;
+  if (last.kind == Action::Kind::download && taken)
+    out.holds = device.perform(upload(last.object), device_patience);
 }
 
 Result<Played> play(const Bench& bench, std::span<const Action> conversation, Side& device, bool keep) {
@@ -338,6 +354,15 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, Si
     out.distrusted = true;
     out.difference.reset();
   }
+  if (keep) ask_what_it_holds(conversation, device, out);
+  const auto back = device.comes_back();
+  if (!back) return std::unexpected(back.error());
+  if (!*back) {
+    out.distrusted = false;
+    out.difference.emplace();
+    out.difference->what = What::gone;
+    out.difference->action = std::max<std::size_t>(out.actions, 1) - 1;
+  }
   return out;
 }
 
@@ -354,14 +379,6 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, bo
   if (!out) return out;
   out->trace = device.trace();
   out->recording = std::make_shared<const Recording>(device.recording());
-  if (out->difference && out->difference->what == What::answer) {
-    const auto& last = conversation[out->difference->action];
-    const bool taken = out->difference->device.kind == Answer::Kind::confirmed &&
-                       out->difference->model.kind == Answer::Kind::aborted;
-    // What it holds now, whatever the model does.
-    if (last.kind == Action::Kind::download && taken)
-      out->holds = device.perform(upload(last.object), device_patience);
-  }
   return out;
 }
 

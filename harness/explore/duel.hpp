@@ -30,6 +30,7 @@ struct Difference {
     other_data,  ///< the same frame with other content
     rule,        ///< a monitor found a rule broken, whatever the model does
     broken,      ///< the device never rests: the simulation gave up
+    gone,        ///< behind the conversation it does not start any more, whatever it is told
   };
   What what = What::answer;
   std::size_t action = 0;  ///< number of the action at which it showed

@@ -144,7 +144,9 @@ class Search {
     };
     Conversation head(conversation.begin(),
                       conversation.begin() + static_cast<std::ptrdiff_t>(played.difference->action + 1));
-    if (!shows(head)) head = conversation;
+    // A device that is gone cannot be asked again, unless somebody switches its power.
+    const bool is_gone = played.difference->what == Difference::What::gone;
+    if (!is_gone && !shows(head)) head = conversation;
     auto shrunk = shrink(head, shows, options_.most_tries);
     out_.shrinking += shrunk.tries;
     // A device may take a while to obey: what shows all the same behind a pause is no matter of time.
@@ -155,7 +157,7 @@ class Search {
     if (!kept && is_real()) {
       // The device is gone, and perhaps by this: it is told as it was found.
       Finding finding;
-      finding.conversation = conversation;
+      finding.conversation = head;
       finding.played = played;
       finding.episode = out_.episodes;
       finding.actions_until = out_.actions;
@@ -174,7 +176,8 @@ class Search {
     finding.drawn = head.size();
     repeat(finding, signature);
     // Another model does not change what a monitor has seen.
-    const bool may_be_chosen = finding.played.difference->what != Difference::What::rule;
+    const auto what = finding.played.difference->what;
+    const bool may_be_chosen = what != Difference::What::rule && what != Difference::What::gone;
     const auto learnt = may_be_chosen ? adapter_.learn(finding.conversation, finding.played) : std::nullopt;
     if (learnt) {
       known_.erase(signature);

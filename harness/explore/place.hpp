@@ -28,6 +28,9 @@ class Place {
   [[nodiscard]] virtual Result<void> switch_power() = 0;
   /// It is up by then, or counts as one that does not start.
   [[nodiscard]] virtual Duration longest_boot() const = 0;
+  /// Behind a conversation: whether the device starts again when it is told to. In simulation it is made
+  /// anew.
+  [[nodiscard]] virtual Result<bool> comes_back() { return true; }
   /// A real one may not come back, and its host may lose frames or be late: then nothing is concluded.
   [[nodiscard]] virtual bool is_real() const = 0;
 };

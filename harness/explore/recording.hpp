@@ -54,6 +54,7 @@ class Recorder final : public Side {
   [[nodiscard]] const std::vector<can::CapturedFrame>& trace() const override { return inner_->trace(); }
   [[nodiscard]] const std::string& broken() const override { return inner_->broken(); }
   [[nodiscard]] const std::optional<Error>& fault() const override { return inner_->fault(); }
+  [[nodiscard]] Result<bool> comes_back() override { return inner_->comes_back(); }
   [[nodiscard]] bool distrusted() override { return inner_->distrusted(); }
   [[nodiscard]] const Recording& recording() const { return recording_; }
 

@@ -186,6 +186,7 @@ std::string came_text(const Finding& finding, const Vocabulary& words) {
     case What::other_data: return describe(difference.came, words.node);
     case What::rule:
     case What::broken: return difference.text;
+    case What::gone: return "no boot-up message when it is reset behind this";
   }
   return "";
 }
@@ -199,6 +200,7 @@ std::string due_text(const Finding& finding, const Vocabulary& words) {
     case What::other_data: return describe(difference.due, words.node);
     case What::surplus: return "nothing";
     case What::rule:
+    case What::gone:
     case What::broken: return "";
   }
   return "";

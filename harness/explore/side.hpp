@@ -63,6 +63,8 @@ class Side {
   [[nodiscard]] virtual const std::string& broken() const = 0;
   /// The bus or the host failed: nobody is to be blamed.
   [[nodiscard]] virtual const std::optional<Error>& fault() const = 0;
+  /// Behind a conversation: whether the device starts again. False: it is gone. Error: nobody can say.
+  [[nodiscard]] virtual Result<bool> comes_back() { return true; }
   /// Whether the host lost frames or was late, so that nothing may be concluded.
   [[nodiscard]] virtual bool distrusted() { return false; }
 };

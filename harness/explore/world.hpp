@@ -38,6 +38,7 @@ class World final : public Side {
   [[nodiscard]] bool stopped() const { return last_command_ == 2; }
   [[nodiscard]] const std::string& broken() const override { return broken_; }
   [[nodiscard]] const std::optional<Error>& fault() const override { return fault_; }
+  [[nodiscard]] Result<bool> comes_back() override { return place_->comes_back(); }
   [[nodiscard]] bool distrusted() override;
 
  private:

@@ -68,6 +68,7 @@ class LiveDevice::Here final : public explore::Place {
     return std::max<Duration>(device_.profile_.boot_time, 2s);
   }
   [[nodiscard]] bool is_real() const override { return true; }
+  [[nodiscard]] Result<bool> comes_back() override { return device_.settle(false); }
 
  private:
   LiveDevice& device_;
@@ -99,17 +100,23 @@ LiveDevice::LiveDevice(can::Transport& transport, const device::Profile& profile
 
 LiveDevice::~LiveDevice() = default;
 
-Result<void> LiveDevice::reset(engine::RunSession& session) const {
+Error LiveDevice::did_not_start() const {
+  return {fmt::format("node {} sends no boot-up message when it is reset", profile_.node.value()),
+          bus_->info().name, "does it hang? Switch its power off and on, or name power_cycle in the profile"};
+}
+
+Result<bool> LiveDevice::reset(engine::RunSession& session) const {
   const auto from = session.capture().size();
-  if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent) return sent;
+  if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent)
+    return std::unexpected(sent.error());
   auto booted = session.recorder().find(from, engine::is_boot_up_of(session.node()),
                                         session.now() + std::max<Duration>(profile_.boot_time, 2s));
   if (!booted) return std::unexpected(booted.error());
-  if (!*booted)
-    return fail(fmt::format("node {} sends no boot-up message when it is reset", profile_.node.value()),
-                session.recorder().transport().info().name, "does it hang? Switch its power off and on");
+  if (!*booted) return false;
   session.device_restarted();
-  return session.recorder().wait_until(session.recorder().now() + 50ms);
+  if (auto waited = session.recorder().wait_until(session.recorder().now() + 50ms); !waited)
+    return std::unexpected(waited.error());
+  return true;
 }
 
 /// What others send would be taken for the device's.
@@ -139,7 +146,9 @@ Result<void> LiveDevice::look() {
                 "node-ID, bit rate, power?");
   if (auto alone = is_alone(talk.session); !alone) return alone;
   // A reset gives what the device begins each conversation with.
-  if (auto done = reset(talk.session); !done) return done;
+  const auto started = reset(talk.session);
+  if (!started) return std::unexpected(started.error());
+  if (!*started) return std::unexpected(did_not_start());
   engine::ScanOptions what;
   what.ranges = {{0x1000, 0x1FFF}};
   for (const auto& entry : dictionary_.entries()) {
@@ -173,12 +182,18 @@ bool LiveDevice::may_write(Multiplexer object) const {
   return guard_.judge_download(object).has_value();
 }
 
+/// Of the application, and of a length that nobody knows: at which segment a fault meets it is open, too.
+bool LiveDevice::is_open(Multiplexer object) const {
+  const auto* entry = dictionary_.find(object);
+  return steps::is_of_application(object.index) && (entry == nullptr || !entry->size());
+}
+
 bool LiveDevice::may(const explore::Action& action) const {
   using Kind = explore::Action::Kind;
   switch (action.kind) {
     case Kind::wait: return true;
     case Kind::power: return !profile_.power_cycle.empty();
-    case Kind::upload: return true;
+    case Kind::upload: return action.fault.empty() || !is_open(action.object);
     case Kind::download: return may_write(action.object);
     case Kind::request:
     case Kind::frame: break;
@@ -194,38 +209,64 @@ void LiveDevice::changing(Multiplexer object) {
 }
 
 /// A reset brings back what was not stored; what it did not bring back is written.
-Result<void> LiveDevice::settle(bool at_end) {
-  if (changed_.empty() && !at_end) return {};
+Result<bool> LiveDevice::settle(bool at_end) {
+  if (gone_) return false;
+  if (changed_.empty() && !at_end) return true;
   Talk talk(*this, at_end ? nullptr : &stop_);
-  if (auto done = reset(talk.session); !done) return done;
+  const auto started = reset(talk.session);
+  if (!started) return std::unexpected(started.error());
+  gone_ = !*started;
+  if (gone_) return false;
   std::vector<engine::Change> changes;
   for (const auto object : changed_) {
     const auto* entry = dictionary_.find(object);
-    const bool lives = entry != nullptr && (entry->may_change || !entry->writable());
-    if (const auto* before = value_of(object); before != nullptr && !lives)
+    const auto* before = value_of(object);
+    if (before == nullptr) continue;
+    // What the device sets itself cannot be put back, and what nobody can write did not change.
+    if (entry != nullptr && (entry->may_change || !entry->writable())) {
+      observer_.put_back(object, *before);
+    } else {
       changes.push_back({object, *before});
+    }
   }
   auto report = engine::restore(talk.session, changes);
   if (!report) return std::unexpected(report.error());
   for (auto& each : report->left) {
     if (std::ranges::find(left_, each) == left_.end()) left_.push_back(std::move(each));
   }
-  for (const auto object : changed_) {
-    const auto* before = value_of(object);
-    const bool told = std::ranges::any_of(changes, [&](const auto& each) { return each.object == object; });
-    if (before != nullptr && !told) observer_.put_back(object, *before);
-  }
   changed_.clear();
-  return {};
+  return true;
+}
+
+Result<void> LiveDevice::revive() {
+  if (profile_.power_cycle.empty()) return std::unexpected(did_not_start());
+  if (auto done = run_shell(profile_.power_cycle, std::chrono::seconds(60)); !done) return done;
+  // Its boot-up message may have come already; it answers a reset, or it does not.
+  gone_ = false;
+  Talk talk(*this, &stop_);
+  if (auto waited = talk.recorder.wait_until(talk.recorder.now() + profile_.boot_time); !waited)
+    return waited;
+  const auto started = settle(true);
+  if (!started) return std::unexpected(started.error());
+  return *started ? Result<void>() : std::unexpected(did_not_start());
 }
 
 Result<std::unique_ptr<explore::Place>> LiveDevice::enter() {
-  if (auto settled = settle(false); !settled) return std::unexpected(settled.error());
+  const auto is_back = settle(false);
+  if (!is_back) return std::unexpected(is_back.error());
+  if (!*is_back) {
+    if (auto revived = revive(); !revived) return std::unexpected(revived.error());
+  }
   return std::make_unique<Here>(*this);
 }
 
 Result<std::vector<std::string>> LiveDevice::leave() {
-  if (auto settled = settle(true); !settled) return std::unexpected(settled.error());
+  if (gone_) {
+    if (auto revived = revive(); !revived) return std::unexpected(revived.error());
+  }
+  const auto is_back = settle(true);
+  if (!is_back) return std::unexpected(is_back.error());
+  if (!*is_back) return std::unexpected(did_not_start());
   return std::move(left_);
 }
 

@@ -58,10 +58,16 @@ class LiveDevice {
   class Here;
   struct Talk;
 
-  [[nodiscard]] Result<void> reset(engine::RunSession& session) const;
-  [[nodiscard]] Result<void> settle(bool at_end);
+  /// False: no boot-up message came.
+  [[nodiscard]] Result<bool> reset(engine::RunSession& session) const;
+  [[nodiscard]] Error did_not_start() const;
+  /// Resets the device. False: it does not start any more.
+  [[nodiscard]] Result<bool> settle(bool at_end);
+  /// By its power, where that can be switched.
+  [[nodiscard]] Result<void> revive();
   [[nodiscard]] Result<void> is_alone(engine::RunSession& session) const;
   [[nodiscard]] bool may_write(Multiplexer object) const;
+  [[nodiscard]] bool is_open(Multiplexer object) const;
   void changing(Multiplexer object);
 
   device::Profile profile_;
@@ -75,6 +81,7 @@ class LiveDevice {
   std::map<Multiplexer, Bytes> values_;
   std::set<Multiplexer> changed_;  ///< since the last reset that was looked after
   std::vector<std::string> left_;
+  bool gone_ = false;  ///< it did not start when it was reset last
 };
 
 /// Makes the device that which the search meets, instead of a simulated one: what could not be read is not

@@ -45,6 +45,7 @@ class Fitter {
     if (drafted_ && claimed) {
       put(entry.access_type, std::string(device::to_string(known->access)));
       put(entry.data_type, fmt::format("0x{:04X}", static_cast<unsigned>(known->type)));
+      put(entry.pdo_mapping, known->pdo_mappable ? "1" : "0");
       for (const auto& [limit, field] :
            {std::pair(&known->low, &entry.low_limit), std::pair(&known->high, &entry.high_limit)}) {
         const auto text = *limit ? written(**limit, known->type) : std::nullopt;

@@ -97,3 +97,52 @@ TEST_CASE("a defect of a device that is only reset is found and named") {
     return each.assigned && each.assigned->requirement == "SDO-GEN-15";
   }));
 }
+
+namespace {
+
+/// A device that dies of one request, until its power is switched.
+class Mortal final : public can::Participant {
+ public:
+  explicit Mortal(std::unique_ptr<can::Participant> inner) : inner_(std::move(inner)) {}
+  void attach(Sender sender, BusTime now) override { inner_->attach(std::move(sender), now); }
+  void on_frame(const can::Frame& frame, BusTime now) override {
+    const bool deadly = frame.id == 0x600U + shipped::reference().node.value() && frame.data[0] == 0x2B &&
+                        frame.data[1] == 0x17 && frame.data[2] == 0x10;
+    dead = dead || deadly;
+    if (!dead) inner_->on_frame(frame, now);
+  }
+  void on_transmitted(BusTime now) override {
+    if (!dead) inner_->on_transmitted(now);
+  }
+  void on_time(BusTime now) override {
+    if (!dead) inner_->on_time(now);
+  }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const override {
+    return dead ? std::nullopt : inner_->next_wakeup();
+  }
+  bool dead = false;
+
+ private:
+  std::unique_ptr<can::Participant> inner_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a device that dies is told with the conversation that it died of, and the search ends in good order") {
+  Bench bench({});
+  bench.bus.unplug(*bench.node);
+  Mortal mortal(std::move(bench.node));
+  bench.bus.attach(mortal, "mortal");
+  const auto result = bench.explore(20000);
+  REQUIRE(!result.findings.empty());
+  const auto& last = result.findings.back();
+  CHECK(last.played.difference->what == explore::Difference::What::gone);
+  CHECK(last.conversation.size() == last.played.actions);
+  REQUIRE(last.assigned);
+  CHECK(last.assigned->requirement == "NMT-BOOT-02");
+  REQUIRE(result.ended_by);
+  CHECK(result.ended_by->what.find("no boot-up message") != std::string::npos);
+  // What the journal says is left for somebody to put back.
+  CHECK_FALSE(bench.device->leave().has_value());
+}
