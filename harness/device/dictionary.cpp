@@ -87,7 +87,7 @@ Entry* Dictionary::find(Multiplexer mux) {
   return place != entries_.end() && place->mux == mux ? &*place : nullptr;
 }
 
-std::span<const Entry> Dictionary::object(Index index) const {
+std::span<const Entry> Dictionary::object(Index index) const& {
   const auto range =
       std::ranges::equal_range(entries_, index, {}, [](const Entry& entry) { return entry.mux.index; });
   return {range.begin(), range.end()};

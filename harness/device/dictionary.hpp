@@ -85,9 +85,13 @@ class Dictionary {
   void remove(Multiplexer mux);
   [[nodiscard]] const Entry* find(Multiplexer mux) const;
   [[nodiscard]] Entry* find(Multiplexer mux);
-  [[nodiscard]] std::span<const Entry> entries() const { return entries_; }
+  // Of a dictionary that is there as long as the entries are looked at: a loop over those of a temporary
+  // would run over what is gone.
+  [[nodiscard]] std::span<const Entry> entries() const& { return entries_; }
+  [[nodiscard]] std::span<const Entry> entries() const&& = delete;
   /// The entries of one object in ascending order; empty when there is none.
-  [[nodiscard]] std::span<const Entry> object(Index index) const;
+  [[nodiscard]] std::span<const Entry> object(Index index) const&;
+  [[nodiscard]] std::span<const Entry> object(Index index) const&& = delete;
   [[nodiscard]] bool has(Index index) const { return !object(index).empty(); }
   [[nodiscard]] bool has(Multiplexer mux) const { return find(mux) != nullptr; }
   /// Indices of all objects, ascending.

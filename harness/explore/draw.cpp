@@ -295,7 +295,8 @@ Vocabulary vocabulary_of(const device::Profile& profile) {
   for (const auto& trigger : profile.errors) {
     if (trigger.heartbeat_node) out.other = *trigger.heartbeat_node;
   }
-  for (const auto& entry : device::dictionary_of(profile).entries()) {
+  const auto dictionary = device::dictionary_of(profile);
+  for (const auto& entry : dictionary.entries()) {
     const bool is_there = entry.claimed || entry.category == device::Category::mandatory;
     // The device's own description is long, and says only once more what the entries say.
     const bool is_description = entry.mux.index == Index(0x1021);

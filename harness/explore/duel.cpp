@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/text.hpp"
@@ -63,6 +64,10 @@ class Duel {
         silent_patience_(bench.answer_time),
         jitter_(bench.jitter),
         is_own_affair_(bench.is_own_affair) {
+    const auto own = canopen::connection_set(bench.facts.node);
+    for (const auto id : own.tpdo) may_use(id.value());
+    may_use(canopen::time_can_id.value());
+    for (const auto cob_id : bench.own_cob_ids) may_use(cob_id);
     // How long they take to boot is not compared, only what they say then: both clocks begin behind it.
     device_zero_ = device_.now();
     model_zero_ = model_.now();
@@ -75,6 +80,7 @@ class Duel {
   }
 
   std::optional<Difference> perform(const Action& action, std::size_t number) {
+    note_can_ids(action);
     const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
     const bool silent = answer_of_model.kind == Answer::Kind::silence;
     const auto answer_of_device = device_.perform(action, !silent                ? device_patience
@@ -155,23 +161,30 @@ class Duel {
            refuses_value(device.code);
   }
 
-  /// Whether an entry from `first` to `last` is known to hold the CAN-ID of the frame.
-  [[nodiscard]] bool is_held(const can::Frame& frame, std::uint16_t first, std::uint16_t last) const {
-    bool out = false;
-    const auto key = frame.id | (frame.extended ? canopen::cob_id::extended_frame : 0U);
-    device_.watch()->follower().entries().for_holders(
-        key, [&](std::uint16_t index) { out = out || (index >= first && index <= last); });
-    return out;
-  }
-
   /// A TPDO or TIME of a device whose inputs and clock nobody knows: by the CAN-ID that it has from the
   /// start, or was given.
   [[nodiscard]] bool is_unknowable(const can::Frame& frame) const {
-    if (!is_own_affair_ || device_.watch() == nullptr) return false;
-    const auto own = canopen::connection_set(device_.watch()->follower().facts().node);
-    const auto is = [&](CanId id) { return !frame.extended && frame.id == id.value(); };
-    return std::ranges::any_of(own.tpdo, is) || is(canopen::time_can_id) || is_held(frame, 0x1800, 0x19FF) ||
-           is_held(frame, 0x1012, 0x1012);
+    return is_own_affair_ && unknowable_.contains(key_of(frame.id, frame.extended));
+  }
+  void may_use(std::uint32_t cob_id) {
+    unknowable_.insert(key_of(cob_id & 0x1FFF'FFFFU, (cob_id & canopen::cob_id::extended_frame) != 0));
+  }
+  static std::uint32_t key_of(std::uint32_t id, bool extended) {
+    return extended ? id | canopen::cob_id::extended_frame : id & 0x7FFU;
+  }
+  /// An action that gives a TPDO or TIME another CAN-ID.
+  void note_can_ids(const Action& action) {
+    if (!is_own_affair_) return;
+    const auto given = [&](std::uint16_t index, std::uint8_t sub, ByteView value) {
+      const bool tpdo = index >= 0x1800 && index <= 0x19FF && sub == 1;
+      if ((tpdo || (index == 0x1012 && sub == 0)) && value.size() == 4)
+        may_use(static_cast<std::uint32_t>(load_le(value)));
+    };
+    if (action.kind == Action::Kind::download)
+      given(action.object.index.value(), action.object.sub.value(), action.data);
+    const auto& bytes = action.frame.data;
+    if (action.kind == Action::Kind::request && action.frame.size() == 8 && (bytes[0] & 0xE0U) == 0x20)
+      given(static_cast<std::uint16_t>(bytes[1] | (bytes[2] << 8U)), bytes[3], ByteView(bytes).subspan(4));
   }
 
   [[nodiscard]] Duration allowance() const { return tolerance + jitter_ + drift_; }
@@ -285,6 +298,7 @@ class Duel {
   BusTime device_zero_{}, model_zero_{};
   Duration silent_patience_, jitter_;
   const std::function<bool(Multiplexer)>& is_own_affair_;
+  std::set<std::uint32_t> unknowable_;  ///< CAN-IDs, with the format in bit 29
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
   Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all

@@ -63,6 +63,7 @@ struct Bench {
   /// Entries whose value is the device's own affair: process data, counters. Empty: none. Where there are
   /// some, nobody knows either what its PDOs hold, when an event sends one, or what time it has.
   std::function<bool(Multiplexer)> is_own_affair{};
+  std::vector<std::uint32_t> own_cob_ids{};  ///< of these PDOs and of TIME, beside the pre-defined ones
 };
 
 struct Played {

@@ -95,6 +95,7 @@ DefectTable objects_description_defects() {
        "There is a TPDO more than the description says",
        {"EDS-VSD-10", "OD-1800-03"},
        [](ObjectDictionary& od, std::uint8_t) {
+         od.remove(0x1804);  // a twin may have one
          od.add_complex(0x1804, "TPDO communication parameter", ObjectKind::record);
          od.add_sub(0x1804, 1, integer_entry("COB-ID", DataType::unsigned32, Access::rw, 0x80000000));
          od.add_sub(0x1804, 2, integer_entry("Transmission type", u8, Access::rw, 0xFF));

@@ -13,6 +13,7 @@ namespace {
 
 /// 1F80h, NMT start-up: bit 2 is 0, so the device starts without an NMT master.
 void start_by_itself(Parts& parts) {
+  parts.device.dictionary.remove(0x1F80);  // a twin may have one
   parts.device.dictionary.add_variable(0x1F80,
                                        integer_entry("NMT start-up", DataType::unsigned32, Access::ro, 0));
   parts.nmt.choices.self_starting = true;

@@ -20,6 +20,7 @@ How logical_devices(std::initializer_list<std::uint16_t> described) {
   return [all = std::vector<std::uint16_t>(described)](Parts& parts) {
     preset(0x1000, 0, 0xFFFF0191)(parts);
     for (const std::uint16_t index : all) {
+      parts.device.dictionary.remove(index);  // a twin may have one
       parts.device.dictionary.add_variable(
           index, integer_entry("Device type", DataType::unsigned32, Access::ro, 0x00030191));
     }

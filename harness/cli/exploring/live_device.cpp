@@ -281,6 +281,13 @@ void meet(Explorable& explorable, LiveDevice& device) {
     const auto* entry = device.dictionary().find(object);
     return steps::is_of_application(object.index) || (entry != nullptr && entry->may_change);
   };
+  for (const auto& entry : device.dictionary().entries()) {
+    const auto index = entry.mux.index.value();
+    const bool tpdo = index >= 0x1800 && index <= 0x19FF && entry.mux.sub == SubIndex(1);
+    const auto* value = device.value_of(entry.mux);
+    if ((tpdo || index == 0x1012) && value != nullptr && value->size() == 4)
+      bench.own_cob_ids.push_back(static_cast<std::uint32_t>(load_le(*value)));
+  }
   std::erase_if(explorable.words.entries, [&device](const device::Entry& entry) {
     return entry.readable() && device.value_of(entry.mux) == nullptr;
   });

@@ -13,6 +13,7 @@
 #include "cli/descriptions/draft_eds.hpp"
 #include "device/dictionary.hpp"
 #include "eds/read.hpp"
+#include "steps/tier.hpp"
 
 namespace conform::cli {
 namespace {
@@ -45,7 +46,8 @@ class Fitter {
     if (drafted_ && claimed) {
       put(entry.access_type, std::string(device::to_string(known->access)));
       put(entry.data_type, fmt::format("0x{:04X}", static_cast<unsigned>(known->type)));
-      put(entry.pdo_mapping, known->pdo_mappable ? "1" : "0");
+      // What of the standard's own entries is mapped is the device's choice.
+      if (steps::is_of_application(mux.index)) put(entry.pdo_mapping, known->pdo_mappable ? "1" : "0");
       for (const auto& [limit, field] :
            {std::pair(&known->low, &entry.low_limit), std::pair(&known->high, &entry.high_limit)}) {
         const auto text = *limit ? written(**limit, known->type) : std::nullopt;

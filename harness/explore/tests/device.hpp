@@ -53,7 +53,8 @@ inline Offer offer_of(const std::vector<std::string>& ids) {
 /// What the standard says is there, and the heartbeat trigger.
 inline Vocabulary words_of_the_standard() {
   auto profile = device::default_profile(NodeId(5));
-  for (auto entry : device::dictionary_of(profile).entries()) {
+  const auto dictionary = device::dictionary_of(profile);
+  for (auto entry : dictionary.entries()) {
     const bool is_there = entry.mux.index < Index(0x1020) || entry.mux.index == Index(0x1400);
     if (is_there) profile.objects.push_back(std::move(entry));
   }
