@@ -25,9 +25,10 @@ struct Answer {
   };
   Kind kind = Kind::none;
   AbortCode code{};
-  Bytes data{};          ///< of an upload; of a single request the eight bytes of the reply
-  std::string detail{};  ///< of a violation
-  Duration taken{};      ///< from the action's begin to its end
+  Bytes data{};           ///< of an upload; of a single request the eight bytes of the reply
+  bool size_told = true;  ///< of an upload; else the last of the four bytes may be no data
+  std::string detail{};   ///< of a violation
+  Duration taken{};       ///< from the action's begin to its end
 
   /// "confirmed, 91 01", "abort 0602 0000h (object does not exist)", "no answer"
   [[nodiscard]] std::string text() const;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/text.hpp"
@@ -52,7 +53,13 @@ std::string Answer::text() const {
 }
 
 bool Answer::same_as(const Answer& other) const {
-  return kind == other.kind && code == other.code && data == other.data;
+  if (kind != other.kind || code != other.code) return false;
+  // Who does not tell how many of the four bytes are data has not said that it is all of them.
+  const bool open = size_told != other.size_told && data.size() != other.data.size();
+  return open ? std::ranges::equal(
+                    size_told ? data : other.data,
+                    ByteView(size_told ? other.data : data).first(std::min(data.size(), other.data.size())))
+              : data == other.data;
 }
 
 std::unique_ptr<canopen::SdoClient> client_of(const Action& action) {
@@ -243,6 +250,7 @@ Answer World::transfer(const Action& action, Duration patience) {
   out.code = result.code;
   if (action.kind == Action::Kind::upload && result.kind == From::confirmed)
     out.data = std::move(result.data);
+  out.size_told = result.size_indicated || !result.expedited;
   out.detail = std::move(result.detail);
   if (replied || result.kind == From::gave_up) run_until(now() + after_fault);
   return out;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "base/files.hpp"
@@ -145,6 +146,11 @@ int explore_command(const ExploreCommand& options) {
                                            : parse_duration(options.time);
   if (!budget)
     return report_error({"'" + options.time + "' is no time", "--for", "10s, 500 ms, 2 min"}, exit_usage);
+  // Not when all is found.
+  if (const auto folder = std::filesystem::absolute(options.write).parent_path();
+      !options.write.empty() && !std::filesystem::is_directory(folder))
+    return report_error({"no such folder", folder.string(), "--write FILE is in a folder that there is"},
+                        exit_usage);
   auto folders = find_suites(options.suites);
   if (!folders) return report_error(folders.error(), exit_usage);
   auto suites = load_suites(*folders, use_colour("auto", 2));
@@ -189,13 +195,13 @@ int explore_command(const ExploreCommand& options) {
     if (!found) return report_error(found.error(), exit_environment);
     result = std::move(*found);
   }
+  const auto verdicts = count_words(result, suites->catalogue);
+  print_summary(result, verdicts, std::chrono::steady_clock::now() - begin);
   if (!options.write.empty() && !result.findings.empty()) {
     const auto text = explore::scenario_file(result.findings, words, again(options, result.actions));
     if (auto written = write_file_atomically(options.write, text); !written)
       return report_error(written.error(), exit_environment);
   }
-  const auto verdicts = count_words(result, suites->catalogue);
-  print_summary(result, verdicts, std::chrono::steady_clock::now() - begin);
   if (stop_signal != 0) return 128 + stop_signal;
   if (verdicts.fail > 0) return 1;
   if (code != 0) return code;

@@ -30,8 +30,10 @@ std::optional<std::string> written(const Bytes& value, canopen::DataType type) {
     const bool plain = std::ranges::all_of(value, [](auto byte) { return byte >= 0x20 && byte < 0x7F; });
     return plain ? std::optional(std::string(value.begin(), value.end())) : std::nullopt;
   }
-  if (!canopen::size_bytes(type) || value.empty() || value.size() > 8) return std::nullopt;
-  return fmt::format("0x{:0{}X}", load_le(value), value.size() * 2);
+  const auto size = canopen::size_bytes(type);
+  if (!size || value.size() < *size || *size > 8) return std::nullopt;
+  // A device that does not tell the size has given four bytes.
+  return fmt::format("0x{:0{}X}", load_le(ByteView(value).first(*size)), *size * 2);
 }
 
 class Fitter {
