@@ -156,7 +156,15 @@ class Search {
                       conversation.begin() + static_cast<std::ptrdiff_t>(played.difference->action + 1));
     // A device that is gone cannot be asked again, unless somebody switches its power.
     const bool is_gone = played.difference->what == Difference::What::gone;
-    if (!is_gone && !shows(head)) head = conversation;
+    if (!is_gone && !shows(head)) {
+      // To make short what shows now and then only takes long where each try does.
+      if (is_real() && !shows(head)) {
+        ++out_.passed_by;
+        known_.erase(signature);
+        return false;
+      }
+      if (!is_real()) head = conversation;
+    }
     auto shrunk = shrink(head, shows, options_.most_tries);
     out_.shrinking += shrunk.tries;
     // A device may take a while to obey: what shows all the same behind a pause is no matter of time.

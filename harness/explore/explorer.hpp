@@ -53,6 +53,7 @@ struct SearchResult {
   std::size_t actions = 0, episodes = 0;
   std::size_t shrinking = 0;          ///< conversations played to make others shorter
   std::size_t distrusted = 0;         ///< episodes in which the host lost frames or was late
+  std::size_t passed_by = 0;          ///< differences of a real device that did not show again
   std::size_t known = 0;              ///< episodes that ended with what was known already
   std::optional<Error> ended_by{};    ///< the bus or the device was gone: what was found until then is here
   std::vector<std::string> chosen{};  ///< legal choices of the device that its model was told of on the way

@@ -105,6 +105,15 @@ Result<Explorable> explorable(const ExploreCommand& options, const std::string& 
                        options.variants);
 }
 
+/// Said before the search and not behind it.
+Result<void> has_folder(const std::string& file) {
+  if (file.empty()) return {};
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) return {};
+  return fail("no such folder", folder.string(), "--write FILE is in a folder that there is");
+}
+
 /// What became of the device on the interface: the exit code of that, 0 where it is as it was.
 int tell_of_device(const LiveResult& live) {
   int code = 0;
@@ -121,6 +130,7 @@ void print_summary(const explore::SearchResult& result, const FoundCounts& verdi
                    std::chrono::duration<double> took) {
   // What the model was told of: a reader sees at once whether that is the device on the bench.
   for (const auto& id : result.chosen) print(fmt::format("learnt: the device {}\n", summary_of_choice(id)));
+  if (result.passed_by > 0) print(fmt::format("{} differences did not show again\n", result.passed_by));
   if (result.distrusted > 0)
     print(fmt::format("{} conversations say nothing, because the host lost frames or was late\n",
                       result.distrusted));
@@ -146,11 +156,7 @@ int explore_command(const ExploreCommand& options) {
                                            : parse_duration(options.time);
   if (!budget)
     return report_error({"'" + options.time + "' is no time", "--for", "10s, 500 ms, 2 min"}, exit_usage);
-  // Not when all is found.
-  if (const auto folder = std::filesystem::absolute(options.write).parent_path();
-      !options.write.empty() && !std::filesystem::is_directory(folder))
-    return report_error({"no such folder", folder.string(), "--write FILE is in a folder that there is"},
-                        exit_usage);
+  if (auto there = has_folder(options.write); !there) return report_error(there.error(), exit_usage);
   auto folders = find_suites(options.suites);
   if (!folders) return report_error(folders.error(), exit_usage);
   auto suites = load_suites(*folders, use_colour("auto", 2));
