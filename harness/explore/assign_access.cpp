@@ -348,6 +348,9 @@ std::optional<Assigned> wrong_value(const Evidence& evidence) {
   const auto area = area_of(last.object.index.value());
   if (area == "OD-1600" || area == "OD-1A00") return wrong_mapping(evidence);
   if (auto rule = find_rule(refusals, last.object); !rule.empty()) {
+    // 1 and 241 to 255 are reserved, whatever the period is.
+    const auto value = load_le(last.data);
+    if (last.is_at(0x1019, 0) && (value == 1 || value > 240)) rule = "OD-1019-04";
     if (device.kind == Kind::confirmed) {
       // Confirmed and thrown away is another matter.
       const bool kept = evidence.played.holds && evidence.played.holds->data == last.data;
@@ -416,6 +419,10 @@ std::optional<Assigned> no_answer(const Evidence& evidence) {
   const bool reset =
       evidence.some([&](const Action& each) { return each.nmt_command(evidence.words.node) > 0x80; });
   if (reset) return violates("SDO-GEN-17");
+  const auto code = evidence.difference().model.code;
+  if (!up &&
+      (code == abort::length_mismatch || code == abort::length_too_high || code == abort::length_too_low))
+    return wrong_length(evidence);
   const auto* entry = evidence.words.find(last.object);
   const bool is_long = entry != nullptr && entry->size().value_or(8) > 4;
   if (last.transfer != Transfer::automatic) return violates(by_transfer(last, ""));

@@ -58,12 +58,12 @@ class Explore(unittest.TestCase):
 
     def test_a_defect_is_found_named_and_written_as_a_scenario(self):
         scenario = os.path.join(self.folder, "found.yaml")
-        with Node("--defect", "unknown-ccs-silent"):
+        with Node("--defect", "nmt-start-ignored"):
             done = run(*explore("--for", "60s", "--findings", "1", "--write", scenario))
             self.assertEqual(done.returncode, 1, done.stdout[-3000:] + done.stderr)
-            self.assertIn("FAIL: SDO-ERR-02", done.stdout)
+            self.assertIn("FAIL: NMT-FSA-01", done.stdout)
             again = run(*program("run", "--interface", INTERFACE, "--node", "5", "--device", PROFILE, "--suites", self.folder,
-                                 "--requirement", "SDO-ERR-02", "found*"))
+                                 "found*"))
             self.assertEqual(again.returncode, 1, again.stdout[-3000:] + again.stderr)
 
     def test_a_stop_in_the_middle_puts_everything_back(self):
