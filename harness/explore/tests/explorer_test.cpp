@@ -128,3 +128,48 @@ TEST_CASE("a defect is found behind the legal choices of its device") {
   CHECK(names(*result, "SDO-GEN-15"));
   CHECK(result->chosen == std::vector<std::string>{"boot-up-200ms"});
 }
+
+TEST_CASE("what a device did is held against another model without asking it again") {
+  using namespace std::chrono_literals;
+  const NodeId node(5);
+  const Conversation conversations[] = {
+      {download({Index(0x1017), SubIndex(0)}, {0x32, 0}), wait(200ms), nmt(node, 1), wait(100ms)},
+      {nmt(node, 0x82), wait(100ms), upload({Index(0x1000), SubIndex(0)}),
+       upload({Index(0x1018), SubIndex(1)})},
+  };
+  for (const auto* id : {"heartbeat-at-state-change", "boot-up-200ms"}) {
+    for (const auto& conversation : conversations) {
+      INFO(id << ", " << conversation.size() << " actions");
+      auto bench = bench_of({});
+      unsigned made = 0;
+      bench.device = [&made, make = reference_node({}, {id})] {
+        ++made;
+        return make();
+      };
+      const auto kept = play(bench, conversation, true);
+      REQUIRE(kept);
+      REQUIRE(kept->recording);
+      CHECK(made == 1);
+      const auto same = play(bench, conversation, *kept->recording);
+      REQUIRE(same);
+      CHECK(same->difference.has_value() == kept->difference.has_value());
+      bench.model = reference_node({}, {id});
+      const auto right = play(bench, conversation, *kept->recording);
+      REQUIRE(right);
+      CHECK_FALSE(right->difference.has_value());
+      CHECK(made == 1);
+    }
+  }
+}
+
+TEST_CASE("four bytes of a server that tells no length may be fewer") {
+  const Answer told{.kind = Answer::Kind::confirmed, .data = {7, 0}},
+      open{.kind = Answer::Kind::confirmed, .data = {7, 0, 0, 0}, .size_told = false},
+      other{.kind = Answer::Kind::confirmed, .data = {8, 0, 0, 0}, .size_told = false};
+  CHECK(told.same_as(open));
+  CHECK(open.same_as(told));
+  CHECK_FALSE(told.same_as(other));
+  auto long_one = open;
+  long_one.size_told = true;
+  CHECK_FALSE(told.same_as(long_one));
+}
