@@ -149,6 +149,8 @@ class Search {
       return false;
     }
     const auto shows = [&](const Conversation& candidate) {
+      // A try of a real device takes seconds: when the time is over, what is as short as it is stays so.
+      if (is_real() && options_.is_over && options_.is_over()) return false;
       const auto again = play(bench_, candidate);
       return again && again->difference && again->difference->signature(candidate) == signature;
     };
