@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "base/text.hpp"
-#include "canopen/cob_id.hpp"
+#include "explore/own_affairs.hpp"
 #include "explore/world.hpp"
 
 namespace conform::explore {
@@ -35,15 +34,6 @@ bool same_data(const can::Frame& one, const can::Frame& other) {
   return one.dlc == other.dlc && (one.remote || std::ranges::equal(one.bytes(), other.bytes()));
 }
 
-constexpr std::size_t longest_number = 8;
-
-/// Of abort codes: not this value, or not now.
-bool refuses_value(AbortCode code) {
-  const auto value = code.value();
-  return (value >= 0x0609'0030 && value <= 0x0609'0036) || value == 0x0606'0000 ||
-         (value >= 0x0604'0042 && value <= 0x0604'0047) || (value >= 0x0800'0000 && value <= 0x0800'0024);
-}
-
 std::string outcome(const Answer& answer) {
   switch (answer.kind) {
     case Answer::Kind::none: return "none";
@@ -63,11 +53,7 @@ class Duel {
         model_(std::make_unique<SimulatedPlace>(std::move(model), bench.bus_seed), bench.facts, {}),
         silent_patience_(bench.answer_time),
         jitter_(bench.jitter),
-        is_own_affair_(bench.is_own_affair) {
-    const auto own = canopen::connection_set(bench.facts.node);
-    for (const auto id : own.tpdo) may_use(id.value());
-    may_use(canopen::time_can_id.value());
-    for (const auto cob_id : bench.own_cob_ids) may_use(cob_id);
+        affairs_(bench.is_own_affair, bench.facts.node, bench.own_cob_ids) {
     // How long they take to boot is not compared, only what they say then: both clocks begin behind it.
     device_zero_ = device_.now();
     model_zero_ = model_.now();
@@ -80,7 +66,7 @@ class Duel {
   }
 
   std::optional<Difference> perform(const Action& action, std::size_t number) {
-    note_can_ids(action);
+    affairs_.note(action);
     const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
     const bool silent = answer_of_model.kind == Answer::Kind::silence;
     const auto answer_of_device = device_.perform(action, !silent                ? device_patience
@@ -91,7 +77,8 @@ class Duel {
     if (!both_silent) drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
     meet();
     auto out = look();
-    if (!out && !same(action, answer_of_device, answer_of_model)) {
+    if (!out && !answer_of_device.same_as(answer_of_model) &&
+        !affairs_.excuse(action, answer_of_device, answer_of_model)) {
       out.emplace();
       out->what = What::answer;
     } else if (!out && !both_silent && answer_of_device.kind == answer_of_model.kind &&
@@ -147,46 +134,6 @@ class Duel {
     return match();
   }
 
-  [[nodiscard]] bool same(const Action& action, const Answer& device, const Answer& model) const {
-    if (device.same_as(model)) return true;
-    if (!is_own_affair_ || model.kind != Answer::Kind::confirmed || !is_own_affair_(action.object))
-      return false;
-    // Of a text or a DOMAIN the length, too.
-    const auto open = [](const Answer& answer) { return answer.data.size() > longest_number; };
-    if (action.kind == Action::Kind::upload)
-      return device.kind == Answer::Kind::confirmed &&
-             (device.data.size() == model.data.size() || open(device) || open(model));
-    // What values an entry takes, and when, nobody has said.
-    return action.kind == Action::Kind::download && device.kind == Answer::Kind::aborted &&
-           refuses_value(device.code);
-  }
-
-  /// A TPDO or TIME of a device whose inputs and clock nobody knows: by the CAN-ID that it has from the
-  /// start, or was given.
-  [[nodiscard]] bool is_unknowable(const can::Frame& frame) const {
-    return is_own_affair_ && unknowable_.contains(key_of(frame.id, frame.extended));
-  }
-  void may_use(std::uint32_t cob_id) {
-    unknowable_.insert(key_of(cob_id & 0x1FFF'FFFFU, (cob_id & canopen::cob_id::extended_frame) != 0));
-  }
-  static std::uint32_t key_of(std::uint32_t id, bool extended) {
-    return extended ? id | canopen::cob_id::extended_frame : id & 0x7FFU;
-  }
-  /// An action that gives a TPDO or TIME another CAN-ID.
-  void note_can_ids(const Action& action) {
-    if (!is_own_affair_) return;
-    const auto given = [&](std::uint16_t index, std::uint8_t sub, ByteView value) {
-      const bool tpdo = index >= 0x1800 && index <= 0x19FF && sub == 1;
-      if ((tpdo || (index == 0x1012 && sub == 0)) && value.size() == 4)
-        may_use(static_cast<std::uint32_t>(load_le(value)));
-    };
-    if (action.kind == Action::Kind::download)
-      given(action.object.index.value(), action.object.sub.value(), action.data);
-    const auto& bytes = action.frame.data;
-    if (action.kind == Action::Kind::request && action.frame.size() == 8 && (bytes[0] & 0xE0U) == 0x20)
-      given(static_cast<std::uint16_t>(bytes[1] | (bytes[2] << 8U)), bytes[3], ByteView(bytes).subspan(4));
-  }
-
   [[nodiscard]] Duration allowance() const { return tolerance + jitter_ + drift_; }
 
   std::optional<Difference> broken_rule() {
@@ -216,12 +163,12 @@ class Duel {
   /// Pairs the frames of both sides in their order, and tells the first that has no partner in time.
   std::optional<Difference> match() {
     for (auto& each : std::exchange(device_.unasked(), {})) {
-      if (is_unknowable(each.frame)) continue;
+      if (affairs_.hold(each.frame)) continue;
       if (auto other = pair(each, of_model_)) return differs(each, *other);
     }
     for (const auto& said : std::exchange(model_.unasked(), {})) {
       const auto each = of_model(said);
-      if (is_unknowable(each.frame)) continue;
+      if (affairs_.hold(each.frame)) continue;
       const auto partner = std::ranges::find_if(
           of_device_, [&](const Unasked& other) { return same_kind(each.frame, other.frame); });
       if (partner == of_device_.end()) {
@@ -297,8 +244,7 @@ class Duel {
   World model_;
   BusTime device_zero_{}, model_zero_{};
   Duration silent_patience_, jitter_;
-  const std::function<bool(Multiplexer)>& is_own_affair_;
-  std::set<std::uint32_t> unknowable_;  ///< CAN-IDs, with the format in bit 29
+  OwnAffairs affairs_;
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
   Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all
@@ -392,7 +338,11 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, bo
   auto out = play(bench, conversation, device, true);
   if (!out) return out;
   out->trace = device.trace();
-  out->recording = std::make_shared<const Recording>(device.recording());
+  auto recording = device.recording();
+  // Not what was asked behind it.
+  recording.answers.resize(out->actions);
+  recording.ends.resize(out->actions);
+  out->recording = std::make_shared<const Recording>(std::move(recording));
   return out;
 }
 

@@ -187,7 +187,14 @@ int explore_command(const ExploreCommand& options) {
     bool usage = false;
     auto found = explore_live(
         options, folders->root, std::move(search),
-        [&words](const Explorable& device) { words = device.words; }, usage);
+        [&](const Explorable& device, NodeId node, steps::Tier allowed) {
+          words = device.words;
+          if (options.quiet) return;
+          print(fmt::format("node {} on {}, {}: {} entries to talk about\n\n", node.value(),
+                            options.interface, steps::word_of(allowed), words.entries.size()));
+          std::fflush(stdout);
+        },
+        usage);
     if (!found) return report_end(found.error(), usage ? exit_usage : exit_environment);
     result = std::move(found->search);
     code = tell_of_device(*found);

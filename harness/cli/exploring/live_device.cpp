@@ -200,6 +200,12 @@ bool LiveDevice::may(const explore::Action& action) const {
   }
   if (const auto object = steps::download_begun(action.frame, profile_.node); object && !may_write(*object))
     return false;
+  // ObjFlags of the description keep everybody's reading off some entries.
+  const auto& bytes = action.frame.data;
+  const Multiplexer asked{Index(static_cast<std::uint16_t>(bytes[1] | (bytes[2] << 8U))), SubIndex(bytes[3])};
+  if (const auto* entry = dictionary_.find(asked);
+      action.kind == Kind::request && entry != nullptr && entry->not_to_be_read)
+    return false;
   return guard_.judge(action.frame).has_value();
 }
 

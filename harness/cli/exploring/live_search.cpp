@@ -36,6 +36,22 @@ class Journalled final : public engine::Observer {
   journal::Writer& journal_;
 };
 
+/// However it ends: what it has changed and not put back stands there all the same.
+class Ended {
+ public:
+  Ended(journal::Writer& journal, const result::RunResult& run) : journal_(journal), run_(run) {}
+  Ended(const Ended&) = delete;
+  Ended& operator=(const Ended&) = delete;
+  ~Ended() {
+    journal_.finished(run_);
+    journal_.reported();
+  }
+
+ private:
+  journal::Writer& journal_;
+  const result::RunResult& run_;
+};
+
 std::string absolute(const std::string& path) {
   return path.empty() ? path : std::filesystem::absolute(path).string();
 }
@@ -85,6 +101,7 @@ Result<LiveResult> explore_live(const ExploreCommand& options, const std::string
     value.during.clear();
     journal.changing(value);
   }
+  const Ended ended(journal, run);
   Journalled observer(journal);
 
   LiveDevice device(**transport, profile, allowed, observer, stop_signal);
@@ -95,7 +112,7 @@ Result<LiveResult> explore_live(const ExploreCommand& options, const std::string
   auto explorable = explorable_of(profile, {.description = *description}, options.variants);
   if (!explorable) return std::unexpected(explorable.error());
   meet(*explorable, device);
-  on_device(*explorable);
+  on_device(*explorable, profile.node, allowed);
 
   search.offer = explorable->offer;
   search.may = [&device](const explore::Action& action) { return device.may(action); };
@@ -112,8 +129,6 @@ Result<LiveResult> explore_live(const ExploreCommand& options, const std::string
   } else {
     out.lost = left.error();
   }
-  journal.finished(run);
-  journal.reported();
   return out;
 }
 

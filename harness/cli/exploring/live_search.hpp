@@ -10,6 +10,7 @@
 #include "cli/commands/explore_command.hpp"
 #include "cli/proof/explored.hpp"
 #include "explore/explorer.hpp"
+#include "steps/tier.hpp"
 
 namespace conform::cli {
 
@@ -20,7 +21,7 @@ struct LiveResult {
 };
 
 /// Done with what is explored before the search begins, for findings to be told.
-using OnDevice = std::function<void(const Explorable& device)>;
+using OnDevice = std::function<void(const Explorable& device, NodeId node, steps::Tier allowed)>;
 
 /// `root`: folder of the program's suites. Error: the search did not begin; its exit code is `exit_usage`
 /// where `usage` is set.
