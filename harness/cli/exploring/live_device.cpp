@@ -188,18 +188,36 @@ bool LiveDevice::is_open(Multiplexer object) const {
   return steps::is_of_application(object.index) && (entry == nullptr || !entry->size());
 }
 
+/// What raises an error does that with the values of the profile only.
+bool LiveDevice::is_as_told(const explore::Action& action) const {
+  if (!steps::is_of_application(action.object.index) || profile_.is_safe(action.object)) return true;
+  // Nothing is stored, so that there is nothing to fail.
+  const auto& fault = profile_.store_fault;
+  if (fault && (fault->arm.object == action.object || fault->disarm.object == action.object)) return false;
+  bool triggers = false, told = false;
+  for (const auto& error : profile_.errors) {
+    for (const auto* write : {&error.raise, &error.clear}) {
+      if (!*write || (*write)->object != action.object) continue;
+      triggers = true;
+      told = told || (*write)->bytes == action.data;
+    }
+  }
+  return !triggers || (told && action.fault.empty());
+}
+
 bool LiveDevice::may(const explore::Action& action) const {
   using Kind = explore::Action::Kind;
   switch (action.kind) {
     case Kind::wait: return true;
     case Kind::power: return !profile_.power_cycle.empty();
     case Kind::upload: return action.fault.empty() || !is_open(action.object);
-    case Kind::download: return may_write(action.object);
+    case Kind::download: return may_write(action.object) && is_as_told(action);
     case Kind::request:
     case Kind::frame: break;
   }
-  if (const auto object = steps::download_begun(action.frame, profile_.node); object && !may_write(*object))
-    return false;
+  if (const auto object = steps::download_begun(action.frame, profile_.node); object) {
+    if (!may_write(*object) || !is_as_told(explore::download(*object, {}))) return false;
+  }
   // ObjFlags of the description keep everybody's reading off some entries.
   const auto& bytes = action.frame.data;
   const Multiplexer asked{Index(static_cast<std::uint16_t>(bytes[1] | (bytes[2] << 8U))), SubIndex(bytes[3])};

@@ -68,6 +68,7 @@ class LiveDevice {
   [[nodiscard]] Result<void> is_alone(engine::RunSession& session) const;
   [[nodiscard]] bool may_write(Multiplexer object) const;
   [[nodiscard]] bool is_open(Multiplexer object) const;
+  [[nodiscard]] bool is_as_told(const explore::Action& action) const;
   void changing(Multiplexer object);
 
   device::Profile profile_;

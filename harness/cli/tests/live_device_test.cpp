@@ -32,7 +32,9 @@ class Watcher final : public engine::Observer {
 };
 
 struct Bench {
-  explicit Bench(const std::vector<std::string>& defects, const std::vector<std::string>& variants = {}) {
+  explicit Bench(const std::vector<std::string>& defects, const std::vector<std::string>& variants = {},
+                 steps::Tier allowed = steps::Tier::motion)
+      : tier(allowed) {
     auto made = refnode::PoweredNode::create(
         {.node_id = shipped::reference().node.value(), .defects = defects, .variants = variants});
     REQUIRE(made.has_value());
@@ -64,7 +66,7 @@ struct Bench {
   }
 
   device::Profile profile;
-  steps::Tier tier = steps::Tier::motion;
+  steps::Tier tier;
   can::SimulatedBus bus;
   std::unique_ptr<refnode::PoweredNode> node;
   Watcher watcher;
@@ -125,12 +127,16 @@ TEST_CASE("a defect of a device that is only reset is found and named") {
 
 namespace {
 
-/// A device that dies of one request, until its power is switched.
+/// A device that dies of one request, until its power is switched. Keeps what it hears: all of it is sent by
+/// the search.
 class Mortal final : public can::Participant {
  public:
-  explicit Mortal(std::unique_ptr<can::Participant> inner) : inner_(std::move(inner)) {}
+  explicit Mortal(std::unique_ptr<can::Participant> inner, bool immortal = false)
+      : inner_(std::move(inner)), immortal_(immortal) {}
   void attach(Sender sender, BusTime now) override { inner_->attach(std::move(sender), now); }
   void on_frame(const can::Frame& frame, BusTime now) override {
+    heard.push_back(frame);
+    if (immortal_) return inner_->on_frame(frame, now);
     const bool deadly = frame.id == 0x600U + shipped::reference().node.value() && frame.data[0] == 0x2B &&
                         frame.data[1] == 0x17 && frame.data[2] == 0x10;
     dead = dead || deadly;
@@ -146,9 +152,11 @@ class Mortal final : public can::Participant {
     return dead ? std::nullopt : inner_->next_wakeup();
   }
   bool dead = false;
+  std::vector<can::Frame> heard;
 
  private:
   std::unique_ptr<can::Participant> inner_;
+  bool immortal_;
 };
 
 }  // namespace
@@ -170,4 +178,40 @@ TEST_CASE(
   CHECK(result.ended_by->what.find("no boot-up message") != std::string::npos);
   // What the journal says is left for somebody to put back.
   CHECK_FALSE(bench.device->leave().has_value());
+}
+
+TEST_CASE("nothing is sent that the tier does not cover, and nothing is ever stored") {
+  for (const auto tier : {steps::Tier::config, steps::Tier::nvm, steps::Tier::motion}) {
+    INFO(steps::word_of(tier));
+    Bench bench({}, {}, tier);
+    bench.bus.unplug(*bench.node);
+    Mortal device(std::move(bench.node), true);
+    bench.bus.attach(device, "device");
+    const auto result = bench.explore(6000);
+    CHECK(result.episodes > 10);
+    std::size_t beyond = 0, stored = 0, of_application = 0, downloads = 0;
+    for (const auto& frame : device.heard) {
+      beyond += steps::need_of(frame, bench.words.node).tier > tier;
+      const auto object = steps::download_begun(frame, bench.words.node);
+      if (!object) continue;
+      ++downloads;
+      stored += object->index == Index(0x1010) || object->index == Index(0x1011);
+      // An error is raised as the profile says.
+      const auto tells = [&](const auto& write) {
+        return write && write->object == *object && (frame.data[0] & 0xE2U) == 0x22 &&
+               std::ranges::equal(write->bytes, ByteView(frame.data).subspan(4, write->bytes.size()));
+      };
+      const bool told = std::ranges::any_of(
+          bench.profile.errors, [&](const auto& error) { return tells(error.raise) || tells(error.clear); });
+      // A segment of a block may look like a request to some object; what is read-only refuses.
+      const auto entry = std::ranges::find(bench.profile.objects, *object, &device::Entry::mux);
+      const bool takes = entry != bench.profile.objects.end() && entry->writable();
+      of_application +=
+          takes && steps::is_of_application(object->index) && !bench.profile.is_safe(*object) && !told;
+    }
+    CHECK(beyond == 0);
+    CHECK(stored == 0);
+    CHECK(of_application == 0);
+    CHECK(downloads > 100);
+  }
 }
