@@ -84,7 +84,7 @@ void Life::note_losses() {
   if (now.frames_dropped > health_.frames_dropped || now.bus_offs > health_.bus_offs ||
       now.outages > health_.outages || now.clock_steps > health_.clock_steps) {
     // What is still queued came before what found no room behind it. A fault of the bus stays noted.
-    (void)run_.recorder.wait_until(run_.recorder.now());
+    [[maybe_unused]] const auto heard = run_.recorder.wait_until(run_.recorder.now());
     losses_.push_back({trusted_frames_, frames.size()});
     run_.live.follow(frames);
     run_.live.lose_track();

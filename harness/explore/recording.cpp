@@ -30,9 +30,9 @@ Recorder::Recorder(std::unique_ptr<Side> inner) : inner_(std::move(inner)) {
 }
 
 void Recorder::take_down() {
-  for (auto& each : std::exchange(inner_->unasked(), {})) {
+  for (const auto& each : std::exchange(inner_->unasked(), {})) {
     recording_.unasked.push_back(each);
-    came_.push_back(std::move(each));
+    came_.push_back(each);
   }
   recording_.end = inner_->now();
 }
