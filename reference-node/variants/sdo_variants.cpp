@@ -81,14 +81,25 @@ Variant out_of_place_refused(std::string_view id, std::string_view summary, Abor
                     "SDO-ERR-06"}};
 }
 
-/// Reserved bits of a block initiate: refused before anybody looked at the multiplexer.
-void refuse_reserved_bits(const FilterContext& context, std::vector<Outgoing>& frames) {
-  if (context.sdo == nullptr || context.sdo->aborted) return;
-  const unsigned command = context.sdo->request[0];
-  const bool upload = context.sdo->step == SdoStep::block_upload_initiate && (command & 0x1BU) != 0;
-  const bool download = context.sdo->step == SdoStep::block_download_initiate && (command & 0x18U) != 0;
-  if (!upload && !download) return;
-  for (Outgoing& outgoing : frames) outgoing.frame.data = {0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05};
+/// Reserved bits of a block initiate: refused before anybody looked at the multiplexer. The server behind the
+/// filter has begun the transfer all the same: that it times out is nobody's business.
+void refuse_reserved_bits(Parts& parts) {
+  parts.device.outbox.add_filter(
+      [refused = false](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+        if (context.sdo == nullptr) return;
+        const auto times_out = [](const Outgoing& outgoing) {
+          return outgoing.frame.data[0] == 0x80 && conform::load_le(outgoing.frame.bytes().subspan(4)) == 0x05040000;
+        };
+        if (refused) std::erase_if(frames, times_out);
+        if (context.sdo->aborted || frames.empty()) return;
+        const unsigned command = context.sdo->request[0];
+        const bool upload = context.sdo->step == SdoStep::block_upload_initiate && (command & 0x1BU) != 0;
+        const bool download =
+            context.sdo->step == SdoStep::block_download_initiate && (command & 0x18U) != 0;
+        refused = upload || download;
+        if (!refused) return;
+        for (Outgoing& outgoing : frames) outgoing.frame.data = {0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05};
+      });
 }
 
 /// 42h: expedited, the size is not told.
@@ -297,7 +308,7 @@ VariantTable sdo_variants() {
       out_of_place_refused("abort-command-0800-0021", "frames out of place: local control",
                            AbortCode(0x08000021)),
       {"sdo-reserved-bits-refused", "reserved bits of a block initiate are refused, without a multiplexer",
-       "SDO-BUP-28, SDO-BDN-27: 0504 0001h; SDO-ERR-04 is about an object", filter(refuse_reserved_bits)},
+       "SDO-BUP-28, SDO-BDN-27: 0504 0001h; SDO-ERR-04 is about an object", refuse_reserved_bits},
       {.id = "abort-block-0504-0001",
        .summary = "block sizes and sequence numbers that cannot be are unknown commands",
        .legal = "SDO-BUP-09 to -12, SDO-BDN-10, -11, tolerated",

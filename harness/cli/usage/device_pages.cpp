@@ -85,11 +85,14 @@ std::vector<usage::CommandPage> device_pages() {
          "a few random conversations with the reference node, the same on every machine"},
         {"canopen-conform explore --simulate --eds device.eds --for 2s", "with the twin of a description"},
         {"canopen-conform explore --simulate --defect sdo-served-in-stopped --actions 5000 --write found.yaml",
-         "what a defect is found by, written as a scenario; exits with 1", 1}},
+         "what a defect is found by, written as a scenario; exits with 1", 1},
+        {"canopen-conform explore --interface can0 --device device.yaml --for 10min",
+         "a device that is alone on its bus: it is reset before each conversation, and what was written is put back"}},
        {{"0", "no violated requirement was found"},
         {"1", "one was found; with --prove, a legal variant was blamed"},
         usage_mistake(),
-        {"3", "with --strict, something else differs from the model"},
+        {"3",
+         "the bus or the device was lost, or values could not be put back; with --strict, something else differs from the model"},
         {"130, 143", "ended by SIGINT, SIGTERM"}}},
   };
 }
