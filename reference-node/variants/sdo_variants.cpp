@@ -88,14 +88,14 @@ void refuse_reserved_bits(Parts& parts) {
       [refused = false](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
         if (context.sdo == nullptr) return;
         const auto times_out = [](const Outgoing& outgoing) {
-          return outgoing.frame.data[0] == 0x80 && conform::load_le(outgoing.frame.bytes().subspan(4)) == 0x05040000;
+          return outgoing.frame.size() == 8 && outgoing.frame.data[0] == 0x80 &&
+                 conform::load_le(outgoing.frame.bytes().subspan(4)) == 0x05040000;
         };
         if (refused) std::erase_if(frames, times_out);
         if (context.sdo->aborted || frames.empty()) return;
         const unsigned command = context.sdo->request[0];
         const bool upload = context.sdo->step == SdoStep::block_upload_initiate && (command & 0x1BU) != 0;
-        const bool download =
-            context.sdo->step == SdoStep::block_download_initiate && (command & 0x18U) != 0;
+        const bool download = context.sdo->step == SdoStep::block_download_initiate && (command & 0x18U) != 0;
         refused = upload || download;
         if (!refused) return;
         for (Outgoing& outgoing : frames) outgoing.frame.data = {0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05};
