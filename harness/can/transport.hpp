@@ -46,6 +46,12 @@ struct BusHealth {
   std::uint64_t outages = 0;   ///< times the bus was away and came back: nobody heard what passed meanwhile
   std::uint64_t clock_steps = 0;  ///< times the stamps' clock was set
   std::uint64_t late_frames = 0;  ///< received frames that waited for us longer than host_is_late
+
+  /// Whether frames may be missing, or have wrong stamps, since the snapshot `before`.
+  [[nodiscard]] bool has_gap_since(const BusHealth& before) const {
+    return frames_dropped > before.frames_dropped || bus_offs > before.bus_offs || outages > before.outages ||
+           clock_steps > before.clock_steps;
+  }
 };
 
 /// A host that looks at a frame, or wakes up, later than this may have done to the device what it then blames

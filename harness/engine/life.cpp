@@ -81,8 +81,7 @@ Result<void> Life::note_restarts() {
 void Life::note_losses() {
   const auto& frames = run_.recorder.capture().frames();
   const auto now = run_.recorder.transport().health();
-  if (now.frames_dropped > health_.frames_dropped || now.bus_offs > health_.bus_offs ||
-      now.outages > health_.outages || now.clock_steps > health_.clock_steps) {
+  if (now.has_gap_since(health_)) {
     // What is still queued came before what found no room behind it. A fault of the bus stays noted.
     [[maybe_unused]] const auto heard = run_.recorder.wait_until(run_.recorder.now());
     losses_.push_back({trusted_frames_, frames.size()});

@@ -102,8 +102,8 @@ Result<void> RunSession::will_change(Multiplexer object) {
   const bool program = canopen::is_program_control(object.index);
   if (program) long_values_.forget();
   if (object.index == Index(0x1011)) forget_long_values();
-  if (found == nullptr && (program || channel_.is_open())) return {};
   note_open(object);
+  if (found == nullptr && (program || channel_.is_open())) return {};
   // In the middle of a conversation a look at the entry would end the transfer that the scenario is about.
   if (channel_.is_open() && before_write_.contains(object)) return {};
   // In Stopped nobody answers (CiA 301, 7.3.2.2.4): a look would be waited for in vain, and forget what is
@@ -152,9 +152,8 @@ Result<steps::SdoAnswer> RunSession::value_before_change(Multiplexer object) {
 
 /// `size`: bytes of what the device has confirmed.
 void RunSession::note_written(Multiplexer object, std::size_t size) {
-  constexpr std::size_t long_value = 1024;
   const auto change = std::ranges::find(journal_, object, &Change::object);
-  if (change != journal_.end()) change->long_now = size >= long_value && size != change->before.size();
+  if (change != journal_.end()) change->long_now = size >= LongValues::least && size != change->before.size();
 }
 
 /// A device that says so may still be wrong, but of a long value this is not looked after.

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/time.hpp"
@@ -28,6 +29,8 @@ class Place {
   [[nodiscard]] virtual Result<void> switch_power() = 0;
   /// It is up by then, or counts as one that does not start.
   [[nodiscard]] virtual Duration longest_boot() const = 0;
+  /// What it is when no boot-up message comes by then; nullopt: a device like any other.
+  [[nodiscard]] virtual std::optional<Error> without_boot_up() const { return std::nullopt; }
   /// Behind a conversation: whether the device starts again when it is told to. In simulation it is made
   /// anew.
   [[nodiscard]] virtual Result<bool> comes_back() { return true; }

@@ -108,9 +108,7 @@ void World::boot() {
     is_up = event->direction == can::Direction::received && event->frame.is_data(boot_up);
     if (is_up) break;
   }
-  if (!is_up && place_->is_real() && !fault_)
-    fault_ = Error{fmt::format("node {} sends no boot-up message when it is reset", node_.value()),
-                   place_->bus().info().name, "does it hang? Switch its power off and on"};
+  if (!is_up && !fault_) fault_ = place_->without_boot_up();
   run_until(now() + behind_boot_up);
 }
 
@@ -125,9 +123,7 @@ void World::fail_by(const Error& error) {
 bool World::distrusted() {
   if (!place_->is_real()) return false;
   const auto now = place_->bus().health();
-  return now.frames_dropped != health_.frames_dropped || now.bus_offs != health_.bus_offs ||
-         now.outages != health_.outages || now.clock_steps != health_.clock_steps ||
-         now.late_frames != health_.late_frames;
+  return now.has_gap_since(health_) || now.late_frames > health_.late_frames;
 }
 
 std::optional<can::BusEvent> World::next(BusTime deadline) {

@@ -97,14 +97,6 @@ int prove(const ExploreCommand& options, const std::string& root, const scenario
   return proof->falsely_blamed() == 0 ? 0 : 1;
 }
 
-Result<Explorable> explorable(const ExploreCommand& options, const std::string& root) {
-  auto known = device_under_test({.profile = options.device, .eds = options.eds, .node = options.node},
-                                 {.simulate = true, .variants = options.variants, .suites = root});
-  if (!known) return std::unexpected(known.error());
-  return explorable_of(known->profile, {options.defects, options.variants, known->description},
-                       options.variants);
-}
-
 /// Said before the search and not behind it.
 Result<void> has_folder(const std::string& file) {
   if (file.empty()) return {};
@@ -162,6 +154,9 @@ int explore_command(const ExploreCommand& options) {
   auto suites = load_suites(*folders, use_colour("auto", 2));
   if (!suites) return report_error(suites.error(), exit_usage);
   if (options.prove) return prove(options, folders->root, suites->catalogue);
+  auto known = device_under_test({.profile = options.device, .eds = options.eds, .node = options.node},
+                                 {.simulate = !live, .variants = options.variants, .suites = folders->root});
+  if (!known) return report_error(known.error(), exit_usage);
   note_stop_signals();
 
   explore::SearchOptions search;
@@ -184,23 +179,22 @@ int explore_command(const ExploreCommand& options) {
   explore::SearchResult result;
   int code = 0;
   if (live) {
-    bool usage = false;
-    auto found = explore_live(
-        options, folders->root, std::move(search),
-        [&](const Explorable& device, NodeId node, steps::Tier allowed) {
-          words = device.words;
-          if (options.quiet) return;
-          print(fmt::format("node {} on {}, {}: {} entries to talk about\n\n", node.value(),
-                            options.interface, steps::word_of(allowed), words.entries.size()));
-          std::fflush(stdout);
-        },
-        usage);
-    if (!found) return report_end(found.error(), usage ? exit_usage : exit_environment);
+    auto found =
+        explore_live(options, folders->root, std::move(*known), std::move(search),
+                     [&](const Explorable& device, NodeId node, steps::Tier allowed) {
+                       words = device.words;
+                       if (options.quiet) return;
+                       print(fmt::format("node {} on {}, {}: {} entries to talk about\n\n", node.value(),
+                                         options.interface, steps::word_of(allowed), words.entries.size()));
+                       std::fflush(stdout);
+                     });
+    if (!found) return report_end(found.error(), exit_environment);
     result = std::move(found->search);
     code = tell_of_device(*found);
     if (result.ended_by && stop_signal == 0) code = report_error(*result.ended_by, exit_environment);
   } else {
-    auto device = explorable(options, folders->root);
+    auto device = explorable_of(known->profile, {options.defects, options.variants, known->description},
+                                options.variants);
     if (!device) return report_error(device.error(), exit_usage);
     words = device->words;
     search.offer = device->offer;

@@ -323,23 +323,17 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
     result::RunResult begun;
     facts.complete(begun);
     begun.device = profile->name;
-    journal->begin({.interface = info.interface_name,
-                    .node = profile->node.value(),
-                    .simulated = options.simulate,
-                    .profile = absolute(options.device),
-                    .eds = absolute(options.eds),
-                    .suites = absolute(root->root),
-                    .epoch_ns = info.epoch_ns,
-                    .reports = reports.paths()},
-                   begun);
-    for (auto value : kept->left()) {
-      value.during.clear();
-      journal->changing(value);
-    }
-    if (journal->error() != 0)
-      return refuse({"cannot write the journal: " + std::generic_category().message(journal->error()),
-                     kept->path(), "--journal FILE puts it elsewhere"},
-                    exit_environment);
+    auto begins = kept->begin(*journal,
+                              {.interface = info.interface_name,
+                               .node = profile->node.value(),
+                               .simulated = options.simulate,
+                               .profile = absolute(options.device),
+                               .eds = absolute(options.eds),
+                               .suites = absolute(root->root),
+                               .epoch_ns = info.epoch_ns,
+                               .reports = reports.paths()},
+                              begun);
+    if (!begins) return refuse(begins.error(), exit_environment);
     guardian.emplace(*kept);
     record_faults_in(kept->descriptor());
     if (options.simulate) watch_progress(kept->descriptor());

@@ -11,7 +11,7 @@ namespace conform::cli {
 namespace {
 
 /// The mistake in the value of --shuffle; empty: none.
-std::string is_seed(const std::string& word) {
+std::string mistake_in_seed(const std::string& word) {
   const bool right = word == "true" || word == "false" || parse_number(word).has_value();
   return right ? std::string() : "'" + word + "' is no number";
 }
@@ -115,7 +115,7 @@ void RunOptions::add_to(CLI::App& app) {
   app.add_flag(
          "--shuffle", command.shuffle,
          "The cases in a random order, drawn by --seed (or --shuffle=NUMBER): no verdict may depend on it")
-      ->check(CLI::Validator([](const std::string& word) { return is_seed(word); }, ""))
+      ->check(CLI::Validator([](const std::string& word) { return mistake_in_seed(word); }, ""))
       ->excludes(cct);
   add_choice(app, command.choice);
   app.add_flag("--annotate", command.annotate, "Print the causes as annotations for GitHub Actions, too");

@@ -64,9 +64,8 @@ class LiveDevice::Here final : public explore::Place {
   [[nodiscard]] Result<void> switch_power() override {
     return run_shell(device_.profile_.power_cycle, std::chrono::seconds(60));
   }
-  [[nodiscard]] Duration longest_boot() const override {
-    return std::max<Duration>(device_.profile_.boot_time, 2s);
-  }
+  [[nodiscard]] Duration longest_boot() const override { return device_.longest_boot(); }
+  [[nodiscard]] std::optional<Error> without_boot_up() const override { return device_.did_not_start(); }
   [[nodiscard]] bool is_real() const override { return true; }
   [[nodiscard]] Result<bool> comes_back() override { return device_.settle(false); }
 
@@ -100,6 +99,8 @@ LiveDevice::LiveDevice(can::Transport& transport, const device::Profile& profile
 
 LiveDevice::~LiveDevice() = default;
 
+Duration LiveDevice::longest_boot() const { return std::max<Duration>(profile_.boot_time, 2s); }
+
 Error LiveDevice::did_not_start() const {
   return {fmt::format("node {} sends no boot-up message when it is reset", profile_.node.value()),
           bus_->info().name, "does it hang? Switch its power off and on, or name power_cycle in the profile"};
@@ -109,8 +110,8 @@ Result<bool> LiveDevice::reset(engine::RunSession& session) const {
   const auto from = session.capture().size();
   if (auto sent = session.command(canopen::NmtCommand::reset_node); !sent)
     return std::unexpected(sent.error());
-  auto booted = session.recorder().find(from, engine::is_boot_up_of(session.node()),
-                                        session.now() + std::max<Duration>(profile_.boot_time, 2s));
+  auto booted =
+      session.recorder().find(from, engine::is_boot_up_of(session.node()), session.now() + longest_boot());
   if (!booted) return std::unexpected(booted.error());
   if (!*booted) return false;
   session.device_restarted();

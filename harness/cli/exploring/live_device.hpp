@@ -61,6 +61,7 @@ class LiveDevice {
   /// False: no boot-up message came.
   [[nodiscard]] Result<bool> reset(engine::RunSession& session) const;
   [[nodiscard]] Error did_not_start() const;
+  [[nodiscard]] Duration longest_boot() const;
   /// Resets the device. False: it does not start any more.
   [[nodiscard]] Result<bool> settle(bool at_end);
   /// By its power, where that can be switched.

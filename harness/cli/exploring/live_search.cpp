@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/exploring/live_search.hpp"
 
+#include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -10,8 +10,8 @@
 #include "can/socketcan_transport.hpp"
 #include "cli/exploring/live_device.hpp"
 #include "cli/exploring/model_description.hpp"
-#include "cli/run/device_under_test.hpp"
 #include "cli/run/run_journal.hpp"
+#include "cli/run/run_reports.hpp"
 #include "cli/run/stop_signal.hpp"
 #include "device/description.hpp"
 #include "journal/writer.hpp"
@@ -52,10 +52,6 @@ class Ended {
   const result::RunResult& run_;
 };
 
-std::string absolute(const std::string& path) {
-  return path.empty() ? path : std::filesystem::absolute(path).string();
-}
-
 /// What the device has that nobody has described: the draft says it.
 void describe_by(device::Profile& profile, const eds::EdsFile& drafted) {
   if (auto description = device::describe(drafted)) device::add_description(profile, std::move(*description));
@@ -67,14 +63,9 @@ bool claims_objects(const device::Profile& profile) {
 
 }  // namespace
 
-Result<LiveResult> explore_live(const ExploreCommand& options, const std::string& root,
-                                explore::SearchOptions search, const OnDevice& on_device, bool& usage) {
-  usage = true;
-  auto known = device_under_test({.profile = options.device, .eds = options.eds, .node = options.node},
-                                 {.simulate = false, .variants = {}, .suites = root});
-  if (!known) return std::unexpected(known.error());
-  auto& profile = known->profile;
-  usage = false;
+Result<LiveResult> explore_live(const ExploreCommand& options, const std::string& root, KnownDevice known,
+                                explore::SearchOptions search, const OnDevice& on_device) {
+  auto& profile = known.profile;
   auto transport = can::SocketCanTransport::open(options.interface);
   if (!transport) return std::unexpected(transport.error());
   auto lock = can::InterfaceLock::take(options.interface);
@@ -88,25 +79,23 @@ Result<LiveResult> explore_live(const ExploreCommand& options, const std::string
   journal::Writer journal(kept->descriptor());
   result::RunResult run;
   run.device = profile.name;
-  journal.begin({.interface = options.interface,
-                 .node = profile.node.value(),
-                 .simulated = false,
-                 .profile = absolute(options.device),
-                 .eds = absolute(options.eds),
-                 .suites = absolute(root),
-                 .epoch_ns = (*transport)->info().epoch_ns,
-                 .reports = {}},
-                run);
-  for (auto value : kept->left()) {
-    value.during.clear();
-    journal.changing(value);
-  }
+  const auto begins = kept->begin(journal,
+                                  {.interface = options.interface,
+                                   .node = profile.node.value(),
+                                   .simulated = false,
+                                   .profile = absolute(options.device),
+                                   .eds = absolute(options.eds),
+                                   .suites = absolute(root),
+                                   .epoch_ns = (*transport)->info().epoch_ns,
+                                   .reports = {}},
+                                  run);
+  if (!begins) return std::unexpected(begins.error());
   const Ended ended(journal, run);
   Journalled observer(journal);
 
   LiveDevice device(**transport, profile, allowed, observer, stop_signal);
   if (auto looked = device.look(); !looked) return std::unexpected(looked.error());
-  auto description = model_description(device, profile, known->description.get());
+  auto description = model_description(device, profile, known.description.get());
   if (!description) return std::unexpected(description.error());
   if (!claims_objects(profile)) describe_by(profile, **description);
   auto explorable = explorable_of(profile, {.description = *description}, options.variants);

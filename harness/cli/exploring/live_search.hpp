@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "cli/commands/explore_command.hpp"
 #include "cli/proof/explored.hpp"
+#include "cli/run/known_device.hpp"
 #include "explore/explorer.hpp"
 #include "steps/tier.hpp"
 
@@ -23,10 +24,9 @@ struct LiveResult {
 /// Done with what is explored before the search begins, for findings to be told.
 using OnDevice = std::function<void(const Explorable& device, NodeId node, steps::Tier allowed)>;
 
-/// `root`: folder of the program's suites. Error: the search did not begin; its exit code is `exit_usage`
-/// where `usage` is set.
+/// `root`: folder of the program's suites. Error: the search did not begin.
 [[nodiscard]] Result<LiveResult> explore_live(const ExploreCommand& options, const std::string& root,
-                                              explore::SearchOptions search, const OnDevice& on_device,
-                                              bool& usage);
+                                              KnownDevice known, explore::SearchOptions search,
+                                              const OnDevice& on_device);
 
 }  // namespace conform::cli

@@ -140,4 +140,16 @@ void RunJournal::look_at_earlier(const std::string& home) {
   if (!write_file_atomically(home + ".old", *text)) std::filesystem::remove(home + ".old", ignored);
 }
 
+Result<void> RunJournal::begin(journal::Writer& writer, const journal::Header& header,
+                               const result::RunResult& run) const {
+  writer.begin(header, run);
+  for (auto value : left_) {
+    value.during.clear();
+    writer.changing(value);
+  }
+  if (writer.error() == 0) return {};
+  return fail("cannot write the journal: " + std::generic_category().message(writer.error()), path_,
+              "--journal FILE puts it elsewhere");
+}
+
 }  // namespace conform::cli

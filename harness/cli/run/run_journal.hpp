@@ -23,6 +23,10 @@ class RunJournal {
   [[nodiscard]] static Result<RunJournal> open(const std::string& wish, const std::string& interface,
                                                unsigned node, bool simulated, const std::string& beside);
 
+  /// Writes the first line, and what the run before has left changed. Error: the journal cannot be written.
+  [[nodiscard]] Result<void> begin(journal::Writer& writer, const journal::Header& header,
+                                   const result::RunResult& run) const;
+
   [[nodiscard]] int descriptor() const { return file_.get(); }
   /// Held as long as the run, and who watches over it, live; -1 where there is none.
   [[nodiscard]] int lock_descriptor() const { return lock_.get(); }
