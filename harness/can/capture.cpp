@@ -6,16 +6,17 @@
 
 namespace conform::can {
 
-void Capture::comment(std::size_t index, std::string text) {
+void Capture::comment(std::size_t index, std::string_view text) {
   CONFORM_CHECK(index < frames_.size());
   auto& comment = frames_[index].comment;
-  if (!comment.empty()) text.insert(0, comment + std::string(between_comments));
-  comment = std::move(text);
+  if (!comment.empty()) comment.append(between_comments);
+  comment.append(text);
 }
 
 void Capture::continue_comment(std::size_t index, std::string_view end, std::string_view text) {
   CONFORM_CHECK(index < frames_.size());
-  if (frames_[index].comment.ends_with(end)) frames_[index].comment += text;
+  auto& comment = frames_[index].comment;
+  if (comment.view().ends_with(end)) comment.append(text);
 }
 
 }  // namespace conform::can

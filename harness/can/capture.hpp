@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,11 +14,41 @@
 
 namespace conform::can {
 
+/// What is said of a frame, if anything is. A run keeps every frame, and most have none: it takes the room of
+/// a pointer.
+class Comment {
+ public:
+  Comment() = default;
+  Comment(std::string_view text) { set(text); }
+  Comment(const std::string& text) { set(text); }
+  Comment(const char* text) { set(text); }
+  Comment(const Comment& other) { set(other.view()); }
+  Comment(Comment&&) noexcept = default;
+  Comment& operator=(const Comment& other) { return set(other.view()); }
+  Comment& operator=(Comment&&) noexcept = default;
+  ~Comment() = default;
+
+  [[nodiscard]] bool empty() const { return text_ == nullptr; }
+  [[nodiscard]] bool contains(std::string_view part) const { return view().contains(part); }
+  [[nodiscard]] std::string_view view() const {
+    return text_ ? std::string_view(*text_) : std::string_view();
+  }
+  void append(std::string_view text) { set(std::string(view()).append(text)); }
+  friend bool operator==(const Comment& a, const Comment& b) { return a.view() == b.view(); }
+
+ private:
+  Comment& set(std::string_view text) {
+    text_ = text.empty() ? nullptr : std::make_unique<std::string>(text);
+    return *this;
+  }
+  std::unique_ptr<std::string> text_;
+};
+
 struct CapturedFrame {
   Frame frame{};
   BusTime time{};
   Direction direction = Direction::received;
-  std::string comment{};  ///< shown by Wireshark as packet comment; empty for most frames
+  Comment comment{};  ///< shown by Wireshark as packet comment
 };
 
 /// What a capture file says about itself besides the frames.
@@ -37,7 +68,7 @@ class Capture {
   /// device may wait. What is not used costs address space only.
   void reserve(std::size_t frames) { frames_.reserve(frames); }
   /// Appends `text` to the comment of frame `index` (separated by "; ").
-  void comment(std::size_t index, std::string text);
+  void comment(std::size_t index, std::string_view text);
   /// Continues the comment of frame `index` by `text`, where it ends with `end`.
   void continue_comment(std::size_t index, std::string_view end, std::string_view text);
   [[nodiscard]] const std::vector<CapturedFrame>& frames() const { return frames_; }

@@ -223,7 +223,9 @@ class Reader {
       if (code == option_flags && value.size() == 4 && (integer(value) & 3U) == flag_outbound) {
         made.direction = Direction::transmitted;
       }
-      if (code == option_comment) made.comment += (made.comment.empty() ? "" : "; ") + text(value);
+      if (code != option_comment) return;
+      if (!made.comment.empty()) made.comment.append("; ");
+      made.comment.append(text(value));
     });
     if (!done) return done;
     if (loaded_.capture.size() == max_frames) return broken("it holds more than 50 million frames");

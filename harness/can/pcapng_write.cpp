@@ -105,7 +105,7 @@ void put_frame(Bytes& out, const CapturedFrame& captured, std::int64_t epoch_ns)
 
   const auto direction = to_le(captured.direction == Direction::received ? flag_inbound : flag_outbound, 4);
   block.option(option_flags, direction);
-  block.text_option(option_comment, captured.comment);
+  block.text_option(option_comment, captured.comment.view());
   block.end_of_options();
   block.finish();
 }

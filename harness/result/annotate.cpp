@@ -8,7 +8,7 @@ namespace {
 
 void add(can::Capture& capture, std::size_t index, const std::string& text) {
   if (index >= capture.size()) return;
-  if (capture.frames()[index].comment.find(text) == std::string::npos) capture.comment(index, text);
+  if (!capture.frames()[index].comment.contains(text)) capture.comment(index, text);
 }
 
 }  // namespace

@@ -31,11 +31,19 @@ struct Node::Impl : Parts {
   void boot_up();
   void change_state(NmtState from);
   void run_timers();
+  /// What is due by now is done before a frame is looked at. Nothing is, most of the time, and whoever drives
+  /// the node has just asked when something will be.
+  void run_due_timers() {
+    if (!wakeup || device.now >= *wakeup) run_timers();
+  }
+  [[nodiscard]] BusTime earliest_wakeup() const;
   /// A SYNC has come, or the node has sent one.
   void begin_cycle(std::optional<std::uint8_t> counter);
   void dispatch(const Frame& frame);
 
   TwinRemarks remarks;
+  /// When something is due, as said last; nothing: the node has changed since.
+  mutable std::optional<BusTime> wakeup;
 };
 
 Node::Impl::Impl(const Options& options, std::optional<Twin> twin) : Parts(options.node_id, options.storage) {
@@ -240,17 +248,20 @@ const TwinRemarks& Node::remarks() const { return impl_->remarks; }
 void Node::attach(Sender sender, conform::BusTime now) {
   impl_->device.outbox.attach(std::move(sender));
   impl_->device.now = now;
+  impl_->wakeup.reset();
   impl_->nmt.start_reset(Reset::node);
 }
 
 void Node::on_frame(const conform::can::Frame& frame, conform::BusTime now) {
   impl_->device.now = std::max(impl_->device.now, now);
-  impl_->run_timers();
+  impl_->run_due_timers();
+  impl_->wakeup.reset();
   if (!frame.error) impl_->device.inbox.receive(frame);
   impl_->sdo.send_segments();
 }
 
 void Node::on_transmitted(conform::BusTime now) {
+  impl_->wakeup.reset();
   impl_->device.now = std::max(impl_->device.now, now);
   impl_->device.outbox.on_transmitted(impl_->device.now);
   impl_->sdo.on_transmitted();
@@ -258,19 +269,24 @@ void Node::on_transmitted(conform::BusTime now) {
 }
 
 void Node::on_time(conform::BusTime now) {
+  impl_->wakeup.reset();
   impl_->device.now = std::max(impl_->device.now, now);
   impl_->run_timers();
   impl_->sdo.send_segments();
 }
 
 std::optional<conform::BusTime> Node::next_wakeup() const {
-  const Impl& impl = *impl_;
-  return earliest({impl.nmt.next_wakeup(), impl.consumer.next_wakeup(), impl.guarding.next_wakeup(),
-                   impl.emergency.next_wakeup(), impl.producer.next_wakeup(),
-                   impl.sync_producer.next_wakeup(), impl.sync_supervision.next_wakeup(),
-                   impl.time_producer.next_wakeup(), impl.pdos.next_wakeup(), impl.store.next_wakeup(),
-                   impl.sdo.next_wakeup(), impl.device.inbox.next_wakeup(),
-                   impl.device.outbox.next_wakeup()});
+  impl_->wakeup = impl_->earliest_wakeup();
+  return *impl_->wakeup == BusTime::max() ? std::nullopt : impl_->wakeup;
+}
+
+BusTime Node::Impl::earliest_wakeup() const {
+  const auto first =
+      earliest({nmt.next_wakeup(), consumer.next_wakeup(), guarding.next_wakeup(), emergency.next_wakeup(),
+                producer.next_wakeup(), sync_producer.next_wakeup(), sync_supervision.next_wakeup(),
+                time_producer.next_wakeup(), pdos.next_wakeup(), store.next_wakeup(), sdo.next_wakeup(),
+                device.inbox.next_wakeup(), device.outbox.next_wakeup()});
+  return first.value_or(BusTime::max());
 }
 
 }  // namespace refnode

@@ -47,7 +47,7 @@ TEST_CASE("several marks of one frame are told apart") {
   capture.comment(0, to_comment({.name = "a", .part = CasePart::step, .number = 1, .words = "wait"}));
   capture.comment(0, "fail X: nothing came");
   CHECK(capture.frames()[0].comment == "case a begin; case a step 1: wait; fail X: nothing came");
-  const auto marks = case_marks(capture.frames()[0].comment);
+  const auto marks = case_marks(capture.frames()[0].comment.view());
   REQUIRE(marks.size() == 2);
   CHECK(marks[0].part == CasePart::begin);
   CHECK(marks[1].words == "wait");

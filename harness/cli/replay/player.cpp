@@ -300,7 +300,7 @@ class Player {
   /// old frames that have none in the new capture go to the next that has one.
   void note(std::size_t index, std::size_t old) {
     for (; told_ <= old; ++told_) {
-      for (const auto& mark : can::case_marks(frames_[told_].comment))
+      for (const auto& mark : can::case_marks(frames_[told_].comment.view()))
         recorder_.capture().comment(index, can::to_comment(mark));
     }
   }

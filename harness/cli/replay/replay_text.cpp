@@ -46,7 +46,7 @@ class Headings {
   [[nodiscard]] std::string up_to(std::size_t index) {
     std::string out;
     for (; at_ <= index; ++at_) {
-      for (const auto& mark : can::case_marks(then_.at(at_).comment)) {
+      for (const auto& mark : can::case_marks(then_.at(at_).comment.view())) {
         if (auto text = heading_of(mark); !text.empty()) out = std::move(text);
       }
     }

@@ -25,7 +25,7 @@ std::vector<Place> places_in(std::span<const can::CapturedFrame> frames) {
   std::vector<Place> out;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (frames[i].comment.empty()) continue;
-    for (auto& mark : can::case_marks(frames[i].comment)) out.push_back({i, std::move(mark)});
+    for (auto& mark : can::case_marks(frames[i].comment.view())) out.push_back({i, std::move(mark)});
     if (frames[i].comment.contains(can::cases_are_over)) out.push_back({i, {}});
   }
   // Of two marks of one frame the one that was put there last may be the one that happened first.

@@ -423,7 +423,7 @@ TEST_CASE("the frames of a run name the case and the step they belong to") {
   const auto& frames = replayed.run.capture.frames();
   std::size_t steps = 0;
   for (auto i = replayed.section.first; i < replayed.section.end; ++i) {
-    for (const auto& each : can::case_marks(frames[i].comment)) {
+    for (const auto& each : can::case_marks(frames[i].comment.view())) {
       CHECK(each.name == replayed.name);
       if (each.part != CasePart::step) continue;
       ++steps;
