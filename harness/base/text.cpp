@@ -298,7 +298,9 @@ std::size_t code_point_size(std::string_view text) {
 }
 
 int code_points(std::string_view text) {
-  int count = 0;
+  const auto wide = std::ranges::find_if(text, [](char c) { return static_cast<signed char>(c) < 0; });
+  auto count = static_cast<int>(wide - text.begin());
+  text.remove_prefix(static_cast<std::size_t>(count));
   for (; !text.empty(); text.remove_prefix(code_point_size(text))) ++count;
   return count;
 }

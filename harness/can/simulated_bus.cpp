@@ -42,6 +42,7 @@ SimulatedBus::SimulatedBus(const Options& options)
   CONFORM_CHECK(options_.bit_rate >= 1000);
   CONFORM_CHECK(options_.node_turnaround.least >= Duration::zero());
   CONFORM_CHECK(options_.node_turnaround.most >= options_.node_turnaround.least);
+  if (1'000'000'000 % options_.bit_rate == 0) exact_bit_ = bit_time(1, options_.bit_rate);
   nodes_.emplace_back().name = "harness";
   wakeups_.push_back(never);
 }
@@ -176,6 +177,10 @@ void SimulatedBus::wake(std::size_t index) {
   find_first_sleeper();
 }
 
+Duration SimulatedBus::time_of(std::uint32_t bits) const {
+  return exact_bit_ > Duration::zero() ? bits * exact_bit_ : bit_time(bits, options_.bit_rate);
+}
+
 // All heads that are ready take part in the arbitration; the smallest arbitration field wins, and of equal
 // ones the sender attached first.
 void SimulatedBus::start_frame() {
@@ -194,8 +199,8 @@ void SimulatedBus::start_frame() {
   Queue& queue = nodes_[winner].queue;
   const Frame frame = queue.front().frame;
   const std::uint32_t bits = frame_bits(frame);
-  in_flight_ = InFlight{frame, winner, now_ + bit_time(bits, options_.bit_rate)};
-  bus_free_ = now_ + bit_time(bits + intermission_bits, options_.bit_rate);
+  in_flight_ = InFlight{frame, winner, now_ + time_of(bits)};
+  bus_free_ = now_ + time_of(bits + intermission_bits);
   queue.pop();
   if (queue.empty()) std::erase(waiting_, winner);
 }

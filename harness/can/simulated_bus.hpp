@@ -129,6 +129,7 @@ class SimulatedBus {
   [[nodiscard]] std::optional<BusEvent> deliver();
   [[nodiscard]] std::optional<BusEvent> apply_scheduled();
   void start_frame();
+  [[nodiscard]] Duration time_of(std::uint32_t bits) const;
   void wake(std::size_t index);
   void refresh_wakeups();
   void fault(const Node& node, const std::string& what);
@@ -141,6 +142,7 @@ class SimulatedBus {
 
   Options options_;
   std::uint64_t random_state_;
+  Duration exact_bit_{};  ///< where a bit takes whole nanoseconds, as at all usual rates: no division then
   BusTime now_{};
   BusTime bus_free_{};
   std::vector<Node> nodes_;           // [0] is the harness

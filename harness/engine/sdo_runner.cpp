@@ -40,10 +40,10 @@ class Runner {
       bool handed_over = false;
       const auto begins_with = turn_;
       for (std::size_t i = 0; i < runs_.size(); ++i) {
-        const auto index = (begins_with + i) % runs_.size();
+        const auto index = begins_with + i < runs_.size() ? begins_with + i : begins_with + i - runs_.size();
         auto sent = hand_over(runs_[index]);
         if (!sent) return std::unexpected(sent.error());
-        if (*sent) turn_ = (index + 1) % runs_.size();
+        if (*sent) turn_ = index + 1 < runs_.size() ? index + 1 : 0;
         handed_over = handed_over || *sent;
       }
       const bool heard = seen_ < recorder_.capture().size();

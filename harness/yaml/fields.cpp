@@ -30,6 +30,9 @@ std::string in_quotes(std::string_view key) {
   return out;
 }
 
+/// Most mappings are asked for at most so many.
+constexpr std::size_t usual_keys = 16;
+
 /// In the order of their first place.
 std::vector<std::string_view> each_once(const std::vector<std::string>& words) {
   std::vector<std::string_view> out;
@@ -193,6 +196,7 @@ Fields::Fields(const Node& node, Diagnostics& diagnostics, std::string what)
     : diagnostics_(&diagnostics), what_(std::move(what)) {
   if (node.is_mapping()) {
     node_ = &node;
+    asked_.reserve(usual_keys);
   } else if (!node.faulty()) {
     diagnostics.error(node, fmt::format("expected a mapping for the {}, found {}", what_, describe(node)),
                       lacks_space(node) ? "a space is needed behind the colon" : "");
@@ -205,8 +209,9 @@ Fields::Fields(Diagnostics& diagnostics, std::string what)
 Fields::~Fields() { finish(); }
 
 const Node* Fields::look_up(std::string_view key) {
+  if (node_ == nullptr) return nullptr;
   asked_.emplace_back(key);
-  return node_ == nullptr ? nullptr : node_->find(key);
+  return node_->find(key);
 }
 
 Field Fields::required(std::string_view key) {

@@ -13,6 +13,7 @@ namespace {
 
 std::string normalise(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (!text.contains('\r')) return std::string(text);
   std::string out;
   out.reserve(text.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -28,9 +29,9 @@ std::string to_string(Position position) { return fmt::format("{}:{}", position.
 
 Source::Source(std::string name, std::string_view text) : name_(std::move(name)), text_(normalise(text)) {
   line_starts_.push_back(0);
-  for (std::size_t i = 0; i < text_.size(); ++i) {
-    if (text_[i] == '\n' && i + 1 < text_.size()) line_starts_.push_back(i + 1);
-  }
+  for (auto end = text_.find('\n'); end != std::string::npos && end + 1 < text_.size();
+       end = text_.find('\n', end + 1))
+    line_starts_.push_back(end + 1);
 }
 
 int Source::line_count() const { return text_.empty() ? 0 : static_cast<int>(line_starts_.size()); }

@@ -32,6 +32,9 @@ Decoded decode(std::string_view text) {
   return {value, size};
 }
 
+/// What nearly all of a file is.
+constexpr bool is_common(char c) { return (c >= ' ' && c <= '~') || c == '\n'; }
+
 constexpr bool is_direction_mark(std::uint32_t c) {
   return c == 0x200EU || c == 0x200FU || (c >= 0x202AU && c <= 0x202EU) || (c >= 0x2066U && c <= 0x2069U);
 }
@@ -56,6 +59,10 @@ bool check_text(const Source& source, Diagnostics& diagnostics) {
   constexpr int enough = 20;  // a binary file would otherwise report each byte
   int faults = 0;
   for (std::size_t i = 0; i < text.size() && faults < enough;) {
+    if (is_common(text[i])) {
+      ++i;
+      continue;
+    }
     const auto decoded = decode(text.substr(i));
     const auto c = decoded.code_point;
     if (decoded.size == 0) {

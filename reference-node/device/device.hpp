@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/strong.hpp"
+#include "device/alarms.hpp"
 #include "device/errors.hpp"
 #include "device/inbox.hpp"
 #include "device/outbox.hpp"
@@ -28,6 +29,7 @@ struct Device {
   Inbox inbox;
   Outbox outbox;
   Errors errors;
+  Alarms pdo_alarms;  ///< event timers, deadlines and inhibit times
   Rule<bool(Service, NmtState)> works{works_in};
   /// The dictionary is that of a device description (twin.hpp): of what this node has beyond the standard
   /// nothing is there.

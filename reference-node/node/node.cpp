@@ -281,12 +281,24 @@ std::optional<conform::BusTime> Node::next_wakeup() const {
 }
 
 BusTime Node::Impl::earliest_wakeup() const {
-  const auto first =
-      earliest({nmt.next_wakeup(), consumer.next_wakeup(), guarding.next_wakeup(), emergency.next_wakeup(),
-                producer.next_wakeup(), sync_producer.next_wakeup(), sync_supervision.next_wakeup(),
-                time_producer.next_wakeup(), pdos.next_wakeup(), store.next_wakeup(), sdo.next_wakeup(),
-                device.inbox.next_wakeup(), device.outbox.next_wakeup()});
-  return first.value_or(BusTime::max());
+  BusTime first = BusTime::max();
+  const auto consider = [&first](const std::optional<BusTime>& at) {
+    if (at && *at < first) first = *at;
+  };
+  consider(nmt.next_wakeup());
+  consider(consumer.next_wakeup());
+  consider(guarding.next_wakeup());
+  consider(emergency.next_wakeup());
+  consider(producer.next_wakeup());
+  consider(sync_producer.next_wakeup());
+  consider(sync_supervision.next_wakeup());
+  consider(time_producer.next_wakeup());
+  consider(pdos.next_wakeup());
+  consider(store.next_wakeup());
+  consider(sdo.next_wakeup());
+  consider(device.inbox.next_wakeup());
+  consider(device.outbox.next_wakeup());
+  return first;
 }
 
 }  // namespace refnode

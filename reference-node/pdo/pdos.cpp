@@ -77,11 +77,4 @@ void Pdos::on_time() {
   for (TransmitPdo& pdo : transmit_) pdo.on_time();
 }
 
-std::optional<BusTime> Pdos::next_wakeup() const {
-  std::optional<BusTime> first;
-  for (const ReceivePdo& pdo : receive_) keep_earlier(first, pdo.next_wakeup());
-  for (const TransmitPdo& pdo : transmit_) keep_earlier(first, pdo.next_wakeup());
-  return first;
-}
-
 }  // namespace refnode

@@ -37,7 +37,7 @@ class Pdos {
   void on_state_change();
   void on_boot_up();
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return device_->pdo_alarms.next(); }
 
  private:
   Device* device_;

@@ -26,7 +26,11 @@ ReceivePdoRules::ReceivePdoRules()
       watched_from_start([](const PdoParameters&) { return false; }) {}
 
 ReceivePdo::ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16_t number)
-    : device_(&device), terms_(&terms), number_(number), parameters_(device, terms.parameters, number) {}
+    : device_(&device),
+      terms_(&terms),
+      number_(number),
+      parameters_(device, terms.parameters, number),
+      deadline_(device.pdo_alarms) {}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
   if (!terms_->rules.valid(parameters_) || !parameters_.cob_id().names(frame)) return false;

@@ -60,7 +60,6 @@ class ReceivePdo {
   /// Buffered data and the deadline end with a state change or reset.
   void on_state_change();
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const { return deadline_; }
 
  private:
   void apply(const Bytes& data);
@@ -74,9 +73,9 @@ class ReceivePdo {
   std::uint16_t number_;
   PdoParameters parameters_;
   bool applying_ = false;
-  std::optional<Bytes> buffered_;    ///< synchronous types: waiting for the SYNC
-  std::uint32_t syncs_ = 0;          ///< since then
-  std::optional<BusTime> deadline_;  ///< event timer, armed by the first RPDO
+  std::optional<Bytes> buffered_;  ///< synchronous types: waiting for the SYNC
+  std::uint32_t syncs_ = 0;        ///< since then
+  Alarms::Alarm deadline_;         ///< event timer, armed by the first RPDO
 };
 
 }  // namespace refnode

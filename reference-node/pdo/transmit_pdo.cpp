@@ -25,7 +25,11 @@ TransmitPdoRules::TransmitPdoRules()
       takes_effect([](const PdoParameters&) { return true; }) {}
 
 TransmitPdo::TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uint16_t number)
-    : device_(&device), terms_(&terms), parameters_(device, terms.parameters, number) {
+    : device_(&device),
+      terms_(&terms),
+      parameters_(device, terms.parameters, number),
+      timer_(device.pdo_alarms),
+      inhibited_until_(device.pdo_alarms) {
   parameters_.on_changed = [this] {
     if (terms_->rules.takes_effect(parameters_)) restart();
   };

@@ -72,11 +72,6 @@ class TransmitPdo {
   bool on_remote(const Frame& frame);
   void on_state_change();
   void on_time();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const {
-    auto first = timer_;
-    keep_earlier(first, inhibited_until_);
-    return first;
-  }
 
  private:
   [[nodiscard]] Bytes content() const;
@@ -96,8 +91,8 @@ class TransmitPdo {
   bool event_ = false;         ///< type 00h, or an event waiting for the inhibit time
   std::uint32_t syncs_ = 0;    ///< SYNCs since the last TPDO
   bool awaits_start_ = false;  ///< for the SYNC whose counter is the SYNC start value
-  std::optional<BusTime> timer_;
-  std::optional<BusTime> inhibited_until_;
+  Alarms::Alarm timer_;
+  Alarms::Alarm inhibited_until_;
 };
 
 }  // namespace refnode

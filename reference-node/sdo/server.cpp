@@ -259,7 +259,7 @@ void SdoServer::send(const SdoExchange& exchange, const std::optional<SdoData>& 
                        std::move(frames), device_->now);
 }
 
-bool SdoServer::send_segment() {
+bool SdoServer::send_segment_now() {
   auto* transfer = std::get_if<BlockUpload>(&transfer_);
   if (transfer == nullptr || !transfer->has_segment()) return false;
   if (!pacer_.may_send(device_->now, device_->outbox.waiting(device_->now), choices_->sub_block_queued))
@@ -297,8 +297,7 @@ void SdoServer::on_time() {
   reset();
 }
 
-std::optional<BusTime> SdoServer::next_wakeup() const {
-  if (!busy()) return std::nullopt;
+std::optional<BusTime> SdoServer::wakeup_of_transfer() const {
   std::optional<BusTime> next;
   if (const auto limit = choices_->time_out) next = active_at_ + *limit;
   if (const auto* transfer = std::get_if<BlockDownload>(&transfer_)) {

@@ -35,11 +35,16 @@ class SdoServer {
     return std::get_if<Kind>(&transfer_);
   }
 
+  /// A transfer is open.
+  [[nodiscard]] bool busy() const { return !std::holds_alternative<std::monostate>(transfer_); }
+
   void on_time();
   void on_transmitted() { pacer_.on_transmitted(device_->now); }
   /// Sends one segment of a block upload if it is time; false when there is none to send now.
-  bool send_segment();
-  [[nodiscard]] std::optional<BusTime> next_wakeup() const;
+  bool send_segment() { return running<BlockUpload>() != nullptr && send_segment_now(); }
+  [[nodiscard]] std::optional<BusTime> next_wakeup() const {
+    return busy() ? wakeup_of_transfer() : std::nullopt;
+  }
 
  private:
   using Transfer =
@@ -59,7 +64,8 @@ class SdoServer {
   /// A request that belongs to no transfer, or to another kind than the one that is running.
   [[nodiscard]] SdoReply out_of_place(SdoExchange& exchange) const;
 
-  [[nodiscard]] bool busy() const { return !std::holds_alternative<std::monostate>(transfer_); }
+  bool send_segment_now();
+  [[nodiscard]] std::optional<BusTime> wakeup_of_transfer() const;
   [[nodiscard]] bool block_transfer() const {
     return std::holds_alternative<BlockUpload>(transfer_) || std::holds_alternative<BlockDownload>(transfer_);
   }

@@ -44,7 +44,7 @@ void SdoServers::serve(const Frame& frame, SdoServer& server, std::uint32_t resp
   server.on_request(frame, response_id);
   // The request may have ended the life of a channel, its own included.
   for (Additional& additional : additional_) {
-    if (!rules.exists(additional.channel)) additional.server.reset();
+    if (additional.server.busy() && !rules.exists(additional.channel)) additional.server.reset();
   }
 }
 
@@ -57,8 +57,9 @@ void SdoServers::on_time() {
 }
 
 void SdoServers::send_segments() {
-  for (std::size_t idle = 0; idle < servers_.size(); turn_ = (turn_ + 1) % servers_.size()) {
+  for (std::size_t idle = 0; idle < servers_.size();) {
     idle = servers_[turn_]->send_segment() ? 0 : idle + 1;
+    if (++turn_ == servers_.size()) turn_ = 0;
   }
 }
 

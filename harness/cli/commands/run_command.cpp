@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <future>
 #include <optional>
 #include <system_error>
 
@@ -169,8 +170,8 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
   const bool colour = use_colour(options.color, 1);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return refuse(suites.error(), exit_usage);
-  const auto patterns = load_patterns(root->root);
-  if (!patterns) return refuse(patterns.error(), exit_usage);
+  // A megabyte, read by another processor until it is asked for.
+  auto reading = std::async(std::launch::async, load_patterns, root->root);
   auto known = device_under_test({options.device, options.eds, options.node, options.waivers},
                                  {options.simulate, options.variants, root->root});
   if (!known) return refuse(known.error(), exit_usage);
@@ -229,6 +230,8 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
   }
   if (auto sound = is_there(*suites, device::dictionary_of(*profile), run_options.plan); !sound)
     return refuse(sound.error(), exit_usage);
+  const auto patterns = reading.get();
+  if (!patterns) return refuse(patterns.error(), exit_usage);
 
   std::optional<can::InterfaceLock> lock;
   std::unique_ptr<can::SocketCanTransport> transport;
