@@ -17,6 +17,7 @@ namespace conform::reports {
 struct MatrixColumn {
   std::string name;  ///< raw, told apart from the others; every writer sanitises
   const result::RunResult* run = nullptr;
+  std::string report{};  ///< its html_report(), as the page finds it from its folder on; empty: none
 };
 
 /// A row: a requirement, and its verdict in each column; none: the run did not judge it.
@@ -55,7 +56,8 @@ class Matrix {
 [[nodiscard]] std::string matrix_csv(const Matrix& matrix);
 /// The devices, and the requirements that are not met alike by all of them.
 [[nodiscard]] std::string matrix_markdown(const Matrix& matrix);
-/// A document like that of a run (html/html.hpp).
+/// A document like that of a run (html/html.hpp). Where a device has a report, its name leads there, and what
+/// is not met to the requirement in it.
 [[nodiscard]] std::string matrix_html(const Matrix& matrix);
 
 }  // namespace conform::reports

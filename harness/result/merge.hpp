@@ -18,6 +18,7 @@ namespace conform::result {
 struct NamedRun {
   std::string name;
   RunResult run;
+  std::string page{};  ///< its HTML report, as absolute path, where there is one
 };
 
 /// Which part of how many parts a result is (`run --shard 2/5`); nothing: it is a whole run.

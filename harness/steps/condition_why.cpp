@@ -294,6 +294,8 @@ Why explain(const Tree& node, Facts& facts, bool held) {
     case Kind::changes:
     case Kind::integer:
     case Kind::described_by:
+    case Kind::placeholder:
+    case Kind::no_placeholder:
     case Kind::remaps: return about_entry(node, facts, held);
     case Kind::equal:
     case Kind::at_least:

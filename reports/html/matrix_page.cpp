@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several devices side by side, on one page.
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "reports/html/bar.hpp"
+#include "reports/html/book.hpp"
 #include "reports/html/document.hpp"
 #include "reports/html/markup.hpp"
 #include "reports/matrix.hpp"
@@ -28,8 +30,41 @@ std::string badge_of(const std::optional<Verdict>& verdict) {
   return verdict ? badge(*verdict) : badge("na", "not judged");
 }
 
+/// Where the columns lead to: their own reports.
+class Reports {
+ public:
+  explicit Reports(const Matrix& matrix) {
+    links_.reserve(matrix.columns().size());
+    for (const auto& each : matrix.columns()) {
+      links_.push_back({.path = text(url_path(each.report)), .book = {}});
+      if (!each.report.empty()) links_.back().book.emplace(*each.run);
+    }
+  }
+
+  /// What the device is called, as the link to its report.
+  [[nodiscard]] std::string name(std::size_t column, const std::string& words) const {
+    const auto& path = links_[column].path;
+    return path.empty() ? words : fmt::format("<a href=\"{}\">{}</a>", path, words);
+  }
+  /// What it makes of a requirement; what is not met leads to the evidence.
+  [[nodiscard]] std::string cell(std::size_t column, const MatrixRow& row) const {
+    const auto& verdict = row.verdicts[column];
+    const auto& [path, book] = links_[column];
+    if (!book || !verdict || *verdict <= Verdict::pass) return badge_of(verdict);
+    return fmt::format("<a href=\"{}#{}\">{}<span class=\"sr\"> of {}</span></a>", path,
+                       book->anchor(row.info->id), badge_of(verdict), clipped(row.info->id, 60));
+  }
+
+ private:
+  struct Link {
+    std::string path;
+    std::optional<Book> book;
+  };
+  std::vector<Link> links_;
+};
+
 /// One line for each device: who it is, how it did, and why its run ended, if it did.
-std::string device_section(const Matrix& matrix) {
+std::string device_section(const Matrix& matrix, const Reports& reports) {
   std::string rows;
   for (std::size_t i = 0; i < matrix.columns().size(); ++i) {
     const auto& column = matrix.columns()[i];
@@ -40,7 +75,7 @@ std::string device_section(const Matrix& matrix) {
     };
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{} {}{}</td></tr>\n",
-        clipped(column.name, 100), property("dut.node_id"), property("dut.serial"),
+        reports.name(i, clipped(column.name, 100)), property("dut.node_id"), property("dut.serial"),
         property("dut.software_version"), bar(counts), count_badges(counts),
         run.aborted ? "<br/>" + badge(Verdict::error) + " ended early: " + clipped(*run.aborted, 300)
                     : std::string());
@@ -50,22 +85,24 @@ std::string device_section(const Matrix& matrix) {
                        {{"Device"}, {"Node"}, {"Serial number"}, {"Software"}, {"Requirements"}}, rows));
 }
 
-std::string requirement_rows(const Matrix& matrix, const std::string& area) {
+std::string requirement_rows(const Matrix& matrix, const Reports& reports, const std::string& area) {
   std::string rows;
   for (const auto& row : matrix.rows()) {
     if (row.info->area != area) continue;
     rows += fmt::format("<tr data-v=\"{}\"><th scope=\"row\">{}<br/><span class=\"quiet\">{}</span></th>",
                         kind_of(row.worst()), clipped(row.info->id, 60),
                         clipped(prose(row.info->statement), 400));
-    for (const auto& verdict : row.verdicts) rows += fmt::format("<td>{}</td>", badge_of(verdict));
+    for (std::size_t i = 0; i < row.verdicts.size(); ++i)
+      rows += fmt::format("<td>{}</td>", reports.cell(i, row));
     rows += "</tr>\n";
   }
   return rows;
 }
 
-std::string requirement_section(const Matrix& matrix) {
+std::string requirement_section(const Matrix& matrix, const Reports& reports) {
   std::vector<std::string> names;
-  for (const auto& each : matrix.columns()) names.push_back(clipped(each.name, 40));
+  for (std::size_t i = 0; i < matrix.columns().size(); ++i)
+    names.push_back(reports.name(i, clipped(matrix.columns()[i].name, 40)));
   std::vector<Column> columns{{"Requirement"}};
   for (const auto& each : names) columns.push_back({each});
   std::vector<std::string> areas;
@@ -76,7 +113,7 @@ std::string requirement_section(const Matrix& matrix) {
   for (const auto& area : areas) {
     const auto title = area.empty() ? std::string("(no area)") : clipped(prose(area), 200);
     out += fmt::format("<div class=\"group\">\n<h3>{}</h3>\n{}</div>\n", title,
-                       table(title, "matrix", columns, requirement_rows(matrix, area)));
+                       table(title, "matrix", columns, requirement_rows(matrix, reports, area)));
   }
   return section("requirements", "Requirements", out, {"requirement", "requirements"});
 }
@@ -100,6 +137,7 @@ std::vector<Choice> choices_of(const Matrix& matrix) {
 std::string matrix_html(const Matrix& matrix) {
   const auto failing = std::ranges::count_if(
       matrix.columns(), [](const MatrixColumn& each) { return result::exit_code(*each.run) == 1; });
+  const Reports reports(matrix);
   std::set<std::string> tools;
   for (const auto& each : matrix.columns()) tools.insert(each.run->tool);
   Document page;
@@ -107,9 +145,11 @@ std::string matrix_html(const Matrix& matrix) {
   page.brand = "CANopen conformance of several devices";
   for (const auto& each : tools) page.generator += (page.generator.empty() ? "" : ", ") + clipped(each, 100);
   page.footer = "A cell is the worst verdict of the cases that judged the requirement on that device.";
+  if (std::ranges::any_of(matrix.columns(), [](const MatrixColumn& each) { return !each.report.empty(); }))
+    page.footer += " What is not met leads to it in the report of the device.";
   page.filter = {"requirements", "verdicts", "requirement, words of it", choices_of(matrix)};
-  page.parts = {{"devices", "Devices", device_section(matrix)},
-                {"requirements", "Requirements", requirement_section(matrix)}};
+  page.parts = {{"devices", "Devices", device_section(matrix, reports)},
+                {"requirements", "Requirements", requirement_section(matrix, reports)}};
   return document(page);
 }
 

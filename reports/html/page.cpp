@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -37,17 +39,49 @@ std::vector<Choice> choices_of(const result::RunResult& run) {
   return out;
 }
 
+std::string title_of(const result::RunResult& run) {
+  return fmt::format("{}: conformance to CiA 301",
+                     run.device.empty() ? "CANopen" : clipped(prose(run.device), 100));
+}
+
+std::string footer_of(const result::RunResult& run) {
+  return fmt::format("{}, {}.", clipped(run.tool, 200),
+                     run.started_utc_ns == 0 ? "in simulation" : utc_timestamp(run.started_utc_ns));
+}
+
+/// The list entries of a page, by how they begin.
+std::set<std::string_view> entries_of(std::string_view page) {
+  constexpr std::string_view begin = "<li id=\"";
+  std::set<std::string_view> out;
+  for (auto at = page.find(begin); at != std::string_view::npos; at = page.find(begin, at + begin.size())) {
+    const auto end = page.find('>', at);
+    if (end == std::string_view::npos) break;
+    out.insert(page.substr(at, end + 1 - at));
+  }
+  return out;
+}
+
 }  // namespace
+
+bool is_html_report_of(std::string_view page, const result::RunResult& run) {
+  const auto has = [page](const std::string& part) { return page.find(part) != std::string_view::npos; };
+  if (!has(fmt::format("<title>{}</title>", title_of(run))) ||
+      !has(fmt::format("<footer><p>{}</p></footer>", footer_of(run))))
+    return false;
+  const Book book(run);
+  const auto entries = entries_of(page);
+  return std::ranges::all_of(book.requirements(), [&](const RequirementVerdict& one) {
+    return entries.contains(requirement_tag(book, one));
+  });
+}
 
 std::string html_report(const result::RunResult& run, const Beside& beside) {
   const Book book(run, beside);
   Document page;
-  page.title = fmt::format("{}: conformance to CiA 301",
-                           run.device.empty() ? "CANopen" : clipped(prose(run.device), 100));
+  page.title = title_of(run);
   page.brand = "CANopen conformance report";
   page.generator = clipped(run.tool, 200);
-  page.footer = fmt::format("{}, {}.", page.generator,
-                            run.started_utc_ns == 0 ? "in simulation" : utc_timestamp(run.started_utc_ns));
+  page.footer = footer_of(run);
   page.filter = {"causes, requirements, cases and entries", "verdicts", "object, requirement, case",
                  choices_of(run)};
   page.parts = {{"summary", "Summary", summary_section(book)},

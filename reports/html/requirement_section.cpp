@@ -11,10 +11,9 @@ namespace {
 
 std::string one_requirement(const Book& book, const RequirementVerdict& one) {
   const auto* info = book.run().requirement(one.id);
-  const auto kind = one.verdict ? css_class(*one.verdict) : std::string_view("na");
   const auto& cases = book.cases_of(one.id);
   std::string out =
-      fmt::format("<li id=\"{}\" data-v=\"{}\">\n<p>{} <b>{}</b> ", book.anchor(one.id), kind,
+      fmt::format("{}\n<p>{} <b>{}</b> ", requirement_tag(book, one),
                   one.verdict ? badge(*one.verdict) : badge("na", "not judged"), clipped(one.id, 200));
   if (info != nullptr) {
     out += clipped(prose(info->statement), 1000);
@@ -42,6 +41,11 @@ std::string one_requirement(const Book& book, const RequirementVerdict& one) {
 }
 
 }  // namespace
+
+std::string requirement_tag(const Book& book, const RequirementVerdict& one) {
+  const auto kind = one.verdict ? css_class(*one.verdict) : std::string_view("na");
+  return fmt::format("<li id=\"{}\" data-v=\"{}\">", book.anchor(one.id), kind);
+}
 
 std::string requirement_section(const Book& book) {
   const auto areas = tally_by_area(book.run());

@@ -23,6 +23,8 @@ namespace conform::reports::html {
 [[nodiscard]] std::string dictionary_section(const Book& book);
 [[nodiscard]] std::string change_section(const Book& book);
 [[nodiscard]] std::string requirement_section(const Book& book);
+/// How the entry of a requirement in it begins: with its name on the page, and its verdict.
+[[nodiscard]] std::string requirement_tag(const Book& book, const RequirementVerdict& one);
 [[nodiscard]] std::string case_section(const Book& book);
 
 }  // namespace conform::reports::html

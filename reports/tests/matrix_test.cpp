@@ -3,16 +3,19 @@
 
 #include "catch.hpp"
 #include "fixture.hpp"
+#include "page.hpp"
+#include "reports/html/html.hpp"
 #include "reports/junit.hpp"
 
 using namespace conform;
 using namespace conform::reports;
 using result::RunResult;
 using result::Verdict;
+using testing::contains;
+using testing::parsed;
+using testing::text_of;
 
 namespace {
-
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 /// A device that fails nothing of the sample.
 RunResult right_run() {
@@ -66,6 +69,57 @@ TEST_CASE("what hostile devices call themselves stays text in every form of the 
       text, [](char c) { return (c >= 0 && c < 0x20 && c != '\n' && c != '\r') || c == 0x7F; }));
   CHECK_FALSE(contains(matrix_html(matrix), "<script>alert"));
   CHECK(contains(matrix_csv(matrix), "'=cmd|calc"));
+}
+
+TEST_CASE("a device leads to its report, and what it does not meet to the requirement there") {
+  const auto wrong = testing::sample_run(), right = right_run();
+  const auto page = matrix_html(
+      Matrix({{"drive A", &wrong, "../a/report.html"}, {"drive B", &right, "b.html"}, {"drive C", &wrong}}));
+  const auto document = parsed(page);
+  CHECK(contains(page, "<th scope=\"row\"><a href=\"../a/report.html\">drive A</a></th>"));
+  CHECK(contains(page, "<th scope=\"row\">drive C</th>"));
+  CHECK(contains(page, "What is not met leads to it in the report of the device."));
+  CHECK_FALSE(contains(matrix_html(Matrix({{"drive C", &wrong}})), "leads to it"));
+  const auto own = html_report(wrong);
+  std::size_t failed = 0;
+  for (const auto& found : document.select_nodes("//section[@id='requirements']//td//a")) {
+    const std::string target = found.node().attribute("href").value();
+    INFO(target);
+    const auto front = std::string_view("../a/report.html#");
+    REQUIRE(target.starts_with(front));
+    CHECK(contains(own, "id=\"" + target.substr(front.size()) + "\""));
+    failed += contains(text_of(found.node()), "fail");
+  }
+  CHECK(failed == Matrix({{"drive A", &wrong}}).counts(0).fail);
+}
+
+TEST_CASE("the place of a report stays the target of a link, whatever folders and files are called") {
+  const auto wrong = testing::sample_run();
+  const auto page = matrix_html(Matrix({{"drive", &wrong, "\"><script>alert(1)</script>/a#b?c%d e&.html"},
+                                        {"other", &wrong, "javascript:alert(1)"}}));
+  (void)parsed(page);
+  CHECK_FALSE(contains(page, "<script>alert"));
+  CHECK_FALSE(contains(page, "javascript:"));
+  CHECK(contains(page, "%22%3E%3Cscript%3Ealert%281%29%3C/script%3E/a%23b%3Fc%25d%20e%26.html#r-"));
+}
+
+TEST_CASE("a page is the report of one run only") {
+  const auto run = testing::sample_run();
+  const auto page = html_report(run);
+  CHECK(is_html_report_of(page, run));
+  CHECK(is_html_report_of(
+      html_report(run, {.path = "/out/report.html", .reports = {{"json", "/out/r.json"}}}), run));
+  CHECK_FALSE(is_html_report_of("", run));
+  CHECK_FALSE(is_html_report_of(page.substr(0, page.size() / 2), run));
+  CHECK_FALSE(is_html_report_of(page, right_run()));
+  auto later = run, other = run, newer = run;
+  later.started_utc_ns += 1'000'000'000;
+  other.device = "another drive";
+  newer.tool += ".1";
+  for (const auto& each : {later, other, newer}) CHECK_FALSE(is_html_report_of(page, each));
+  const auto hostile = testing::hostile_run(testing::hostile_text());
+  CHECK(is_html_report_of(html_report(hostile), hostile));
+  CHECK_FALSE(is_html_report_of(matrix_html(Matrix({{"drive", &run}})), run));
 }
 
 TEST_CASE("several devices share one JUnit file in which their classes stay apart") {

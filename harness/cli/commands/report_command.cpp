@@ -12,13 +12,16 @@
 namespace conform::cli {
 namespace {
 
-/// Several runs as they lie on the disk, each under its name.
+/// Several runs as they lie on the disk, each under its name, and with its page where that lies beside it.
 Result<std::vector<result::NamedRun>> runs_of(const std::vector<std::string>& sources) {
   std::vector<result::NamedRun> out;
   for (const auto& path : sources) {
-    auto run = read_run_to_compare(path);
-    if (!run) return std::unexpected(run.error());
-    out.push_back({path, std::move(*run)});
+    auto source = read_run_with_cases(path);
+    if (!source) return std::unexpected(source.error());
+    const auto own = source->reports.reports.find("html");
+    auto page =
+        page_of(source->run, pages_beside(path, own == source->reports.reports.end() ? "" : own->second));
+    out.push_back({path, std::move(source->run), std::move(page)});
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
+#include "cli/run/run_reports.hpp"
 #include "cli/run/several.hpp"
 #include "cli/run/terminal.hpp"
 
@@ -56,7 +57,11 @@ int run_nodes(const RunCommand& options) {
     std::optional<result::RunResult> done;
     const int code = run_command(for_node(options, node), &done);
     if (done) {
-      runs.push_back({fmt::format("node {}", node), std::move(*done)});
+      const auto html = options.reports.find("html");
+      auto page = html == options.reports.end() || html->second.empty()
+                      ? std::string()
+                      : page_of(*done, {absolute(of_node(html->second, node))});
+      runs.push_back({fmt::format("node {}", node), std::move(*done), std::move(page)});
     } else if (code != 0) {
       // What is refused for one node is refused for each.
       return code;

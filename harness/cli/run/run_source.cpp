@@ -31,14 +31,20 @@ Result<RunSource> read_run(const std::string& path) {
                    std::move(header.eds)};
 }
 
-Result<result::RunResult> read_run_to_compare(const std::string& path) {
+Result<RunSource> read_run_with_cases(const std::string& path) {
   auto source = read_run(path);
-  if (!source) return std::unexpected(source.error());
+  if (!source) return source;
   if (source->run.cases.empty()) {
     return fail("the run has no cases to compare" +
                     (source->run.aborted ? ": " + *source->run.aborted : std::string()),
                 path, "a result of 'run --json', or the journal of a run");
   }
+  return source;
+}
+
+Result<result::RunResult> read_run_to_compare(const std::string& path) {
+  auto source = read_run_with_cases(path);
+  if (!source) return std::unexpected(source.error());
   return std::move(source->run);
 }
 

@@ -18,8 +18,10 @@ struct RunSource {
 
 /// Error: a file that cannot be read, or is neither.
 [[nodiscard]] Result<RunSource> read_run(const std::string& path);
-/// To compare another run with it: an error as well where it has no cases, as a file that says that its run
+/// To hold other runs against it: an error as well where it has no cases, as a file that says that its run
 /// has not ended.
+[[nodiscard]] Result<RunSource> read_run_with_cases(const std::string& path);
+/// The same, of which only what was found counts.
 [[nodiscard]] Result<result::RunResult> read_run_to_compare(const std::string& path);
 
 }  // namespace conform::cli

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/files.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/run/run_reports.hpp"
 #include "cli/run/terminal.hpp"
+#include "reports/beside.hpp"
+#include "reports/html/html.hpp"
 #include "reports/junit.hpp"
 #include "reports/matrix.hpp"
 
@@ -90,10 +94,34 @@ Result<std::vector<NamedRun>> devices_of(std::vector<NamedRun> runs) {
   return out;
 }
 
+std::vector<std::string> pages_beside(const std::string& result, const std::string& own) {
+  const std::filesystem::path path(absolute(result));
+  std::vector<std::string> out;
+  if (!own.empty()) out.push_back(own);
+  out.push_back(std::filesystem::path(path).replace_extension(".html").string());
+  out.push_back((path.parent_path() / "report.html").string());
+  return out;
+}
+
+std::string page_of(const result::RunResult& run, const std::vector<std::string>& files) {
+  constexpr std::uint64_t largest = std::uint64_t{1} << 30U;
+  for (const auto& file : files) {
+    const auto text = read_file(file, largest);
+    if (text && reports::is_html_report_of(*text, run)) return file;
+  }
+  return {};
+}
+
 int report_devices(const std::vector<NamedRun>& devices, const std::map<std::string, std::string>& asked,
                    bool quiet, const std::string& color) {
+  const auto html = asked.find("html");
+  // A page that is about to be replaced by the matrix is nowhere to lead to.
+  const reports::Beside page{.path = html == asked.end() ? std::string() : absolute(html->second)};
   std::vector<reports::MatrixColumn> columns;
-  for (const auto& each : devices) columns.push_back({each.name, &each.run});
+  for (const auto& each : devices) {
+    const bool has_page = !page.path.empty() && !each.page.empty() && each.page != page.path;
+    columns.push_back({each.name, &each.run, has_page ? page.relative(each.page) : std::string()});
+  }
   const reports::Matrix matrix(std::move(columns));
   bool written = true;
   for (const auto& [format, path] : asked) {

@@ -4,12 +4,14 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import urllib.parse
 import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1))
@@ -201,6 +203,69 @@ class CommandLine(unittest.TestCase):
         self.assertIn("several devices cannot be in one file of --tap", refused.stderr)
         twice = run("run", "--simulate", "--nodes", "5,5")
         self.assertEqual(twice.returncode, 2)
+
+    def links_of(self, page):
+        """Where the names of the devices lead to, and what is not met by them."""
+        root = ElementTree.parse(self.path(page)).getroot()
+        sections = {each.get("id"): each for each in root.iter("section")}
+        return ({each.get("href") for each in sections["devices"].iter("a")},
+                {each.get("href") for cell in sections["requirements"].iter("td") for each in cell.iter("a")})
+
+    def anchor_is_there(self, page, link):
+        file, anchor = link.split("#")
+        path = os.path.join(os.path.dirname(self.path(page)), urllib.parse.unquote(file))
+        with open(path, encoding="utf-8") as report:
+            self.assertIn(f'<li id="{anchor}" data-v="fail">', report.read())
+
+    def test_the_matrix_of_a_run_leads_to_the_report_of_each_node(self):
+        done = run("run", "--simulate", "--nodes", "5,9", "--defect", "1003-nonzero-write-accepted", "cia301/dictionary/1003*", "--html",
+                   self.path("all nodes.html"), "-q")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        devices, cells = self.links_of("all nodes.html")
+        self.assertEqual(devices, {"all%20nodes.node5.html", "all%20nodes.node9.html"})
+        self.assertIn("all%20nodes.node9.html#r-OD-1003-06", cells)
+        for link in cells:
+            self.anchor_is_there("all nodes.html", link)
+
+    def test_the_matrix_of_results_leads_to_the_reports_that_lie_beside_them(self):
+        def make(folder, result, page, *more):
+            os.makedirs(self.path(folder), exist_ok=True)
+            done = run("run", "--simulate", "cia301/dictionary/1003*", "--json", self.path(f"{folder}/{result}"),
+                       "--html", self.path(f"{folder}/{page}"), "-q", *more)
+            self.assertIn(done.returncode, (0, 1), done.stderr)
+
+        make("rack/a", "result.json", "report.html", "-n", "5", "--defect", "1003-nonzero-write-accepted")
+        make("rack/b", "pump.json", "pump.html", "-n", "6")
+        make("rack/c", "result.json", "elsewhere.html", "-n", "7")
+        # A report of the same name that is another run's: it found something else.
+        make("rack/d", "result.json", "report.html", "-n", "8")
+        make("rack/d", "result.json", "other.html", "-n", "8", "--defect", "1003-nonzero-write-accepted")
+        os.makedirs(self.path("pages"))
+        sources = [self.path(f"rack/{each}") for each in ("a/result.json", "b/pump.json", "c/result.json", "d/result.json")]
+        done = run("report", "--merge", *sources, "--html", self.path("pages/matrix.html"), "-q")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        devices, cells = self.links_of("pages/matrix.html")
+        self.assertEqual(devices, {"../rack/a/report.html", "../rack/b/pump.html"})
+        self.assertIn("../rack/a/report.html#r-OD-1003-06", cells)
+        for link in cells:
+            self.anchor_is_there("pages/matrix.html", link)
+        # The page itself is no report of a device, also where it takes the place of one.
+        shutil.copytree(self.path("rack"), self.path("again"))
+        done = run("report", "--merge", self.path("again/a/result.json"), self.path("again/b/pump.json"), "--html",
+                   self.path("again/a/report.html"), "-q")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(self.links_of("again/a/report.html"), ({"../b/pump.html"}, set()))
+
+    def test_the_matrix_leads_nowhere_where_a_device_was_played_in_parts(self):
+        parts = []
+        for number in (1, 2):
+            parts.append(self.path(f"part{number}.json"))
+            run("run", "--simulate", "-n", "5", "cia301/dictionary/1003*", "--shard", f"{number}/2", "--json", parts[-1],
+                "--html", self.path(f"part{number}.html"), "-q")
+        run("run", "--simulate", "-n", "6", "cia301/dictionary/1003*", "--json", self.path("six.json"), "--html", self.path("six.html"), "-q")
+        done = run("report", "--merge", *parts, self.path("six.json"), "--html", self.path("m.html"), "-q")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.links_of("m.html")[0], {"six.html"})
 
     def test_slower_devices_are_given_more_time_by_one_option(self):
         done = run("run", "--simulate", "--timeout-scale", "3", "cia301/nmt*", "--json", self.path("r.json"))

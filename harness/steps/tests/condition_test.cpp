@@ -122,6 +122,10 @@ TEST_CASE("A condition that is false names the part, the entry and the value tha
   CHECK(why("not $object is writable") == "1003h:00 is writable");
   CHECK(why("1010h:01 is present and device claims emcy") ==
         "1010h:01 is absent, and the device does not claim 'emcy'");
+  CHECK(why("$object is an allowed placeholder") ==
+        "1003h:00 is no placeholder by the word of profile or description");
+  CHECK(why("$object is a forbidden placeholder") ==
+        "1003h:00 is not forbidden as placeholder by profile or description");
   session.others = "707h";
   CHECK(why("nobody else is heard on the bus") == "somebody else is on the bus: 707h");
   // Of 'unless' it is the other way round.
@@ -151,6 +155,7 @@ TEST_CASE("A condition that is false for want of something says what the user co
   // Where the device itself lacks something nothing can be given.
   CHECK(wants("1010h is present and device claims mpdo").empty());
   CHECK(wants("1010h is present").empty());
+  CHECK(wants("$object is an allowed placeholder").empty());
   CHECK(wants("not device claims sync producer").empty());
 }
 
