@@ -16,20 +16,21 @@ namespace {
 
 constexpr std::size_t longest_line = 255;  // CiA 306: characters of a line
 constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
-constexpr std::string_view blanks = " \t\v\f";
 constexpr char dos_end = '\x1A';  ///< what programs of DOS put behind the text
 
-char lower_ascii(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
+// Nearly all texts begin and end with something else.
 std::size_t leading_blanks(std::string_view text) {
-  const auto first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos ? text.size() : first;
+  std::size_t count = 0;
+  while (count < text.size() && is_blank(text[count])) ++count;
+  return count;
 }
 
 std::string_view without_blanks(std::string_view text) {
   text.remove_prefix(leading_blanks(text));
-  const auto last = text.find_last_not_of(blanks);
-  return last == std::string_view::npos ? std::string_view() : text.substr(0, last + 1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 Position at(std::size_t line, std::size_t offset) {
@@ -46,16 +47,14 @@ std::string_view without_end_mark(std::string_view text) {
 
 bool is_control(char c) {
   const auto byte = static_cast<unsigned char>(c);
-  return (byte < 0x20 && blanks.find(c) == std::string_view::npos) || byte == 0x7F;
+  return (byte < 0x20 && !is_blank(c)) || byte == 0x7F;
 }
 
 enum class LineEnd { none, lf, crlf, cr };
 
 }  // namespace
 
-bool same_word(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  // Nearly all words that are compared differ in the first letter, or not at all.
+bool same_letters(std::string_view a, std::string_view b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i] != b[i] && lower_ascii(a[i]) != lower_ascii(b[i])) return false;
   }

@@ -60,7 +60,16 @@ class IniFile {
   std::size_t line_count_ = 0;
 };
 
-/// Equal apart from the case of ASCII letters.
-[[nodiscard]] bool same_word(std::string_view a, std::string_view b);
+constexpr char lower_ascii(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+/// The same of two texts of one length.
+[[nodiscard]] bool same_letters(std::string_view a, std::string_view b);
+
+/// Equal apart from the case of ASCII letters. Nearly all words that are compared differ in length or in the
+/// first letter, or not at all.
+[[nodiscard]] inline bool same_word(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  return a.empty() || (lower_ascii(a.front()) == lower_ascii(b.front()) && same_letters(a, b));
+}
 
 }  // namespace conform::eds

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -166,16 +167,22 @@ class Pile {
   }
 
  private:
-  /// An object is large: each is moved once.
+  /// An object is large: each is moved once, to where another has made room.
   void sort() {
-    std::vector<std::pair<Index, std::size_t>> order;
-    order.reserve(objects_.size());
-    for (std::size_t i = 0; i < objects_.size(); ++i) order.emplace_back(objects_[i].index, i);
-    std::ranges::sort(order);
-    std::vector<Object> sorted;
-    sorted.reserve(objects_.size());
-    for (const auto& [index, place] : order) sorted.push_back(std::move(objects_[place]));
-    objects_ = std::move(sorted);
+    std::vector<std::size_t> from(objects_.size());  // place -> where its object stands
+    std::iota(from.begin(), from.end(), std::size_t{0});
+    std::ranges::sort(from, {}, [this](std::size_t place) { return objects_[place].index; });
+    for (std::size_t begin = 0; begin < from.size(); ++begin) {
+      if (from[begin] == begin) continue;
+      auto first = std::move(objects_[begin]);
+      auto hole = begin;
+      while (from[hole] != begin) {
+        objects_[hole] = std::move(objects_[from[hole]]);
+        hole = std::exchange(from[hole], hole);
+      }
+      objects_[hole] = std::move(first);
+      from[hole] = hole;
+    }
   }
 
   std::vector<Object> objects_;

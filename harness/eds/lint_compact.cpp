@@ -52,16 +52,15 @@ void check(const Subject& subject, Findings& findings) {
   if (!subject.expansion_fault.empty()) findings.add(too_many, subject.expansion_at, subject.expansion_fault);
   for (const auto& object : subject.file.objects) {
     const auto size = number_of(object.compact_sub_obj).value_or(0);
-    const auto name = section_name(object.index);
     if (size > 254)
       findings.add(bad_size, object.compact_sub_obj.at,
-                   fmt::format("{}: CompactSubObj {} is above 254", name, size));
+                   fmt::format("{}: CompactSubObj {} is above 254", section_name(object.index), size));
     for (const auto* list : {&object.lists->names, &object.lists->values, &object.lists->denotations})
       check_list(*list, size, findings);
     if (size == 0) continue;
     if (number_of(object.sub_number).value_or(0) > 0)
       findings.add(with_sub_number, object.sub_number.at,
-                   fmt::format("{}: SubNumber besides CompactSubObj", name));
+                   fmt::format("{}: SubNumber besides CompactSubObj", section_name(object.index)));
     for (const auto& sub : object.subs) {
       if (sub.sub.value() <= size)
         findings.add(

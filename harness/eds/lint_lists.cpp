@@ -107,12 +107,14 @@ class Check {
   void in_its_list(const Listed& each) {
     const bool is_manufacturers = between(each.index, 0x2000, 0x5FFF);
     const bool is_mandatory_list = each.list == &file_.mandatory_objects;
-    const auto message = fmt::format("{} does not belong into [{}]", to_string(each.index), each.list->name);
+    const auto message = [&each] {
+      return fmt::format("{} does not belong into [{}]", to_string(each.index), each.list->name);
+    };
     if (is_manufacturers != (each.list == &file_.manufacturer_objects))
-      findings_.add(wrong_list, each.at, message,
+      findings_.add(wrong_list, each.at, message(),
                     "2000h to 5FFFh belong into [ManufacturerObjects], others into one of the other two");
     else if (is_mandatory(each.index) ? !is_mandatory_list : is_mandatory_list && each.index.value() < 0x2000)
-      findings_.add(other_list, each.at, message, "1000h, 1001h and 1018h belong into [MandatoryObjects]");
+      findings_.add(other_list, each.at, message(), "1000h, 1001h and 1018h belong into [MandatoryObjects]");
   }
 
   void compare() {
