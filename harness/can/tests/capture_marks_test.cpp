@@ -40,6 +40,21 @@ TEST_CASE("other comments are no marks of a case") {
     CHECK_FALSE(parse_case_mark(text));
 }
 
+TEST_CASE("a copied frame has a comment of its own, and none takes no room") {
+  CapturedFrame frame;
+  CHECK(frame.comment.empty());
+  CHECK(frame.comment.view().empty());
+  frame.comment = "first";
+  CapturedFrame copy = frame;
+  copy.comment.append(", then more");
+  CHECK(frame.comment == "first");
+  CHECK(copy.comment.contains("then"));
+  copy = frame;
+  CHECK(copy.comment == frame.comment);
+  copy.comment = "";
+  CHECK(copy.comment.empty());
+}
+
 TEST_CASE("several marks of one frame are told apart") {
   Capture capture;
   capture.add(CapturedFrame{});
