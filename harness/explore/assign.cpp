@@ -153,7 +153,10 @@ std::optional<Assigned> assign(const Evidence& evidence) {
     case Difference::What::broken: return std::nullopt;
     case Difference::What::gone: return violates("NMT-BOOT-02");
     case Difference::What::late: return strains("SDO-GEN-18");
-    case Difference::What::answer: break;
+    case Difference::What::answer:
+      if (talks_of_lss(evidence)) return assign_beside_lss(evidence);
+      if (talks_of_channels(evidence)) return assign_beside_channel(evidence);
+      break;
     default: return assign_frame(evidence);
   }
   const auto& last = evidence.last();

@@ -72,6 +72,18 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_fault(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_request(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
+/// Additional SDO channels were used in the conversation.
+[[nodiscard]] bool talks_of_channels(const Evidence& evidence);
+/// A frame where something was asked on such a channel.
+[[nodiscard]] std::optional<Assigned> assign_channel_frame(const Evidence& evidence);
+/// Another answer on the default channel, which takes something asked on another one to show.
+[[nodiscard]] std::optional<Assigned> assign_beside_channel(const Evidence& evidence);
+/// LSS was used in the conversation.
+[[nodiscard]] bool talks_of_lss(const Evidence& evidence);
+/// A frame on 7E4h.
+[[nodiscard]] std::optional<Assigned> assign_lss_answer(const Evidence& evidence);
+/// Anything else in a conversation that needs LSS to show it.
+[[nodiscard]] std::optional<Assigned> assign_beside_lss(const Evidence& evidence);
 
 /// The rule for what the client did wrong in a transfer; empty: it did nothing, or no rule is known.
 [[nodiscard]] std::string rule_of_fault(const Action& action);

@@ -360,6 +360,11 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
   const auto node = evidence.words.node.value();
   const auto set = canopen::connection_set(evidence.words.node);
   const bool surplus = evidence.difference().what == What::surplus;
+  if (frame.is_data(canopen::lss_response_can_id)) return assign_lss_answer(evidence);
+  if (talks_of_lss(evidence) && !frame.extended) return assign_beside_lss(evidence);
+  if (talks_of_channels(evidence) && !frame.extended) {
+    if (auto channel = assign_channel_frame(evidence)) return channel;
+  }
   if (frame.extended) return surplus ? violates("CAN-TRF-03") : std::nullopt;
   if (frame.id == set.error_control.value()) return assign_error_control(evidence);
   if (frame.remote) return surplus ? strains("CAN-TRF-04") : std::nullopt;
