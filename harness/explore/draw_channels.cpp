@@ -85,8 +85,8 @@ void talk::draw_channels(Draft& draft) {
   const auto* first = draft.words.find({Index(channel.index), SubIndex(1)});
   if (first == nullptr || !first->writable()) return;
   if (random.chance(25)) {
-    draft.write(channel.index, 1, talk::not_valid);
-    draft.write(channel.index, 2, talk::not_valid);
+    draft.write(channel.index, 1, talk::not_valid | channel.request);
+    draft.write(channel.index, 2, talk::not_valid | channel.response);
   }
   if (random.chance(90)) draft.write(channel.index, 1, channel.request);
   if (random.chance(90)) draft.write(channel.index, 2, channel.response);
@@ -108,7 +108,9 @@ void talk::draw_channels(Draft& draft) {
     draft.read(channel.index, 1);
     send(draft, channel, 0x40, {Index(0x1000), SubIndex(0)});
   } else if (random.chance(40)) {
-    draft.write(channel.index, random.chance(50) ? 1 : 2, talk::not_valid);
+    const bool request = random.chance(50);
+    draft.write(channel.index, request ? 1 : 2,
+                talk::not_valid | (request ? channel.request : channel.response));
     send(draft, channel, 0x40, {Index(0x1000), SubIndex(0)});
   }
 }
