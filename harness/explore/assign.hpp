@@ -72,6 +72,9 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_fault(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_request(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
+/// An upload that was asked for in a frame of its own, and what came and was due.
+[[nodiscard]] std::optional<Assigned> assign_single_upload(const Evidence& evidence, ByteView came,
+                                                           ByteView due);
 /// Additional SDO channels were used in the conversation.
 [[nodiscard]] bool talks_of_channels(const Evidence& evidence);
 /// A frame where something was asked on such a channel.

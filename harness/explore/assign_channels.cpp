@@ -84,7 +84,10 @@ std::optional<Assigned> assign_channel_frame(const Evidence& evidence) {
   if (!is_given(evidence, frame.id, 2)) return std::nullopt;
   if (difference.what == What::surplus) return surplus(evidence);
   if (is_interleaved(evidence)) return violates("SDO-MUL-04");
-  return difference.what == What::missing ? violates("SDO-MUL-01") : std::nullopt;
+  if (difference.what == What::missing) return violates("SDO-MUL-01");
+  return asks(evidence, evidence.last())
+             ? assign_single_upload(evidence, difference.came.bytes(), difference.due.bytes())
+             : std::nullopt;
 }
 
 std::optional<Assigned> assign_beside_channel(const Evidence& evidence) {

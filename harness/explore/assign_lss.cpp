@@ -306,6 +306,12 @@ std::optional<Assigned> assign_lss_answer(const Evidence& evidence) {
 
 std::optional<Assigned> assign_beside_lss(const Evidence& evidence) {
   if (is_odd(evidence)) return violates("LSS-GEN-03");
+  const auto& difference = evidence.difference();
+  // Another value of a COB-ID goes with the node-ID; what has another form does not.
+  const bool answers =
+      difference.what == What::other_data && difference.came.id >= 0x580 && difference.came.id < 0x600;
+  if (answers && (difference.came.dlc != 8 || difference.came.data[0] != difference.due.data[0]))
+    return assign_single_upload(evidence, difference.came.bytes(), difference.due.bytes());
   const Course course(evidence);
   return course.node_id ? other_node_id(course, evidence.difference().what) : violates("LSS-GEN-04");
 }

@@ -168,6 +168,36 @@ bool guarding_runs(const Evidence& evidence) {
   return evidence.wrote(0x100C, 0).has_value() || evidence.wrote(0x100D, 0).has_value();
 }
 
+/// Some RPDO has to come in time.
+bool has_deadline(const Evidence& evidence) {
+  for (std::uint16_t index = 0x1400; index < 0x1404; ++index) {
+    if (evidence.wrote(index, 5).value_or(0) != 0) return true;
+  }
+  return false;
+}
+
+/// A node that is monitored is lost, and nothing is said of it.
+std::optional<Assigned> missing_loss(const Evidence& evidence) {
+  std::size_t entries = 0;
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) entries += evidence.wrote(0x1016, sub).has_value();
+  return violates(entries > 1 ? "EC-HBC-13" : "EC-HBC-03");
+}
+
+/// A node is said to be lost that is there, or was not heard since it is monitored.
+std::optional<Assigned> surplus_loss(const Evidence& evidence) {
+  const Action* beat = nullptr;
+  for (const auto& each : evidence.conversation) {
+    const bool begins = each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80 ||
+                        (each.kind == Action::Kind::download && each.object.index == Index(0x1016));
+    if (begins) beat = nullptr;
+    const bool beats = each.kind == Action::Kind::frame && !each.frame.remote && !each.frame.extended &&
+                       each.frame.id > 0x700 && each.frame.id <= 0x77F;
+    if (beats) beat = &each;
+  }
+  if (beat == nullptr) return violates("EC-HBC-02");
+  return beat->frame.data[0] == 0 ? strains("EC-HBC-12") : violates("EC-HBC-04");
+}
+
 std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   const auto& about = frame_of(evidence);
@@ -179,15 +209,19 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
       const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
       return due == 0x8130   ? violates("EC-HBC-03")
              : due == 0x8210 ? violates("PDO-RX-06")
+             : due == 0x8240 ? violates("SYNC-CON-05")
                              : violates("EMCY-FMT-01");
     }
     // Which bits of the error register a device has is its choice, but for the first.
     if (difference.came.data[2] != difference.due.data[2])
-      return ((difference.came.data[2] ^ difference.due.data[2]) & 1U) != 0 ? violates("EMCY-FMT-03")
-                                                                            : strains("EMCY-FMT-03");
+      return difference.came.data[2] != 0 && (difference.came.data[2] & 1U) == 0 ? violates("EMCY-FMT-04")
+             : ((difference.came.data[2] ^ difference.due.data[2]) & 1U) != 0    ? violates("EMCY-FMT-03")
+                                                                                 : strains("EMCY-FMT-03");
     return std::nullopt;
   }
   const bool missing = difference.what == What::missing;
+  const bool off = (evidence.wrote(0x1014, 0).value_or(0) & canopen::cob_id::bit31) != 0;
+  if (!missing && off) return violates("OD-1014-08");
   if (!missing && evidence.stopped()) return violates("EMCY-NMT-01");
   if (evidence.wrote(0x1015, 0).value_or(0) != 0) return violates("EMCY-INH-01");
   const bool asked = evidence.some([&](const Action& each) {
@@ -196,7 +230,7 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   if (!missing && asked) return violates("EMCY-COB-06");
   if (evidence.wrote(0x1014, 0)) return violates(missing ? "OD-1014-07" : "OD-1014-08");
   if (code == 0x8130) {
-    if (!guarding_runs(evidence)) return violates(missing ? "EC-HBC-03" : "EC-HBC-04");
+    if (!guarding_runs(evidence)) return missing ? missing_loss(evidence) : surplus_loss(evidence);
     if (missing) return violates("EC-NG-07");
     if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0)
       return violates("EC-NG-09");
@@ -205,9 +239,9 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   }
   if (code == 0x8210) return missing ? violates("PDO-RX-06") : strains("PDO-RX-06");
   if (code == 0x8220) return strains("PDO-RX-07");
+  if (code == 0x8240 && missing && evidence.wrote(0x1005, 0)) return violates("OD-1005-07");
   if (code == 0x8240) return violates(missing ? "SYNC-CON-05" : "SYNC-CON-03");
-  if (code == 0x8250)
-    return violates(missing || evidence.wrote(0x1400, 5).value_or(1) != 0 ? "PDO-RX-14" : "PDO-RX-15");
+  if (code == 0x8250) return violates(missing || has_deadline(evidence) ? "PDO-RX-14" : "PDO-RX-15");
   if (code == 0) {
     if (evidence.wrote(0x1016, 1) || evidence.wrote(0x1016, 2)) return violates("EC-HBC-07");
     if (guarding_runs(evidence)) return violates("EC-NG-10");
@@ -286,6 +320,9 @@ std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting&
     return evidence.commanded() ? in_its_state(evidence, "PDO-TX-02") : strains("PDO-TX-02");
   if (setting.cob_id && (*setting.cob_id & canopen::cob_id::bit31) != 0) return violates("OD-1800-09");
   const auto type = setting.type.value_or(255);
+  // With no entry in force it has nothing to send.
+  if (evidence.wrote(static_cast<std::uint16_t>(setting.index + 0x200), 0) == 0U)
+    return violates("PDO-MAP-20");
   const bool asked =
       evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
   if (asked && type >= 0xFE) return violates("OD-1800-14");
@@ -298,7 +335,7 @@ std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting&
   if (type == 0xFD) return violates("PDO-TX-19");
   if (setting.inhibit.value_or(0) != 0) return violates("PDO-TX-12");
   if (setting.timer) return violates(*setting.timer == 0 ? "PDO-TX-10" : "PDO-TX-09");
-  if (auto rpdo = assign_rpdo(evidence)) return strains("PDO-TX-08");
+  if (auto rpdo = assign_rpdo(evidence)) return strains(std::move(rpdo->requirement));
   return strains("PDO-TX-08");
 }
 
@@ -310,7 +347,8 @@ std::optional<Assigned> assign_tpdo(const Evidence& evidence, std::uint16_t numb
   if (difference.came.dlc != difference.due.dlc) return violates("PDO-TX-01");
   if (auto rpdo = assign_rpdo(evidence)) return rpdo;
   if (setting.type == 0xFDU) return violates("PDO-TX-19");
-  return violates("PDO-TX-01");
+  // What it holds are values of entries, which may be wrong by themselves.
+  return strains("PDO-TX-01");
 }
 
 std::optional<Assigned> assign_sync(const Evidence& evidence) {
@@ -318,13 +356,22 @@ std::optional<Assigned> assign_sync(const Evidence& evidence) {
   if (difference.what == What::other_data) {
     const bool again = evidence.some(
         [](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
+    if (difference.due.dlc == 0) return violates("SYNC-PRO-01");
     return violates(again ? "SYNC-PRO-05" : "SYNC-PRO-04");
   }
   if (difference.what == What::surplus) {
+    const auto moved = evidence.wrote(0x1005, 0);
+    if (moved && (*moved & canopen::cob_id::base_id_mask) != difference.came.id)
+      return violates("OD-1005-06");
     if (evidence.stopped()) return violates("SYNC-PRO-06");
     const bool off = (evidence.wrote(0x1005, 0).value_or(0) & canopen::cob_id::bit30) == 0;
     if (off || evidence.wrote(0x1006, 0).value_or(1) == 0) return violates("SYNC-PRO-03");
   }
+  const bool stored = evidence.some([](const Action& each) {
+    return each.kind == Action::Kind::download && each.object.index == Index(0x1010);
+  });
+  if (difference.what == What::missing && stored && last_reset(evidence).found)
+    return violates("SYNC-PRO-07");
   if (evidence.operational()) return violates("NMT-SVC-01");
   return violates("SYNC-PRO-01");
 }
@@ -376,10 +423,17 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
     if (frame.id == set.tpdo[number].value()) return assign_tpdo(evidence, number);
     const auto moved = evidence.wrote(static_cast<std::uint16_t>(0x1800 + number), 1);
     if (!moved || (*moved & canopen::cob_id::base_id_mask) != frame.id) continue;
-    return violates("OD-1800-11");
+    if (evidence.difference().what == What::other_data) return assign_tpdo(evidence, number);
+    return violates(surplus && (*moved & canopen::cob_id::bit31) != 0 ? "OD-1800-09" : "OD-1800-11");
   }
   const auto moved = evidence.wrote(0x1014, 0);
-  if (moved && (*moved & canopen::cob_id::base_id_mask) == frame.id) return violates("OD-1014-07");
+  if (moved && (*moved & canopen::cob_id::base_id_mask) == frame.id)
+    return evidence.difference().what == What::other_data ? assign_emcy(evidence) : violates("OD-1014-07");
+  const auto sync = evidence.wrote(0x1005, 0), time = evidence.wrote(0x1012, 0);
+  if (sync && (*sync & canopen::cob_id::base_id_mask) == frame.id)
+    return evidence.difference().what == What::missing ? violates("OD-1005-06") : assign_sync(evidence);
+  if (time && (*time & canopen::cob_id::base_id_mask) == frame.id)
+    return evidence.difference().what == What::missing ? violates("OD-1012-06") : assign_time(evidence);
   if (!surplus) return std::nullopt;
   if (frame.id == 0) return violates("NMT-SVC-05");
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.id != 0x700U + node)

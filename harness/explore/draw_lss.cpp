@@ -141,8 +141,10 @@ void ask_as(Draft& draft, std::uint8_t node) {
   constexpr std::uint16_t objects[] = {0x1000, 0x1014, 0x1200, 0x1400, 0x1800};
   const auto index = draft.random.of(objects);
   const std::uint8_t sub = index >= 0x1200 ? 1 : 0;
-  draft.send(0x600U + node, {0x40, static_cast<std::uint8_t>(index & 0xFFU),
-                             static_cast<std::uint8_t>(index >> 8U), sub, 0, 0, 0, 0});
+  const auto read =
+      can::data_frame(CanId(0x600U + node), {0x40, static_cast<std::uint8_t>(index & 0xFFU),
+                                             static_cast<std::uint8_t>(index >> 8U), sub, 0, 0, 0, 0});
+  draft.add(node == draft.words.node.value() ? request(read) : frame(read));
 }
 
 /// How a device is told to begin with what was configured.

@@ -133,7 +133,7 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
   explore::SearchOptions search;
   search.seed = options.seed;
   search.most_actions = options.actions;
-  search.most_findings = 6;
+  search.most_findings = 12;
   search.offer = right.offer;
   search.repeats = 1;
   search.on_finding = [&](const explore::Finding& finding) {
@@ -143,7 +143,7 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
     }
     out.found = true;
     const auto rule = finding.assigned ? catalogue.canonical(finding.assigned->requirement) : std::nullopt;
-    out.said.push_back(rule ? *rule
+    out.said.push_back(rule ? *rule + " " + word_of(finding, catalogue)
                             : "? " + explore::describe(finding.conversation.back(), right.words.node) +
                                   " : " + explore::came_text(finding, right.words) + " / " +
                                   explore::due_text(finding, right.words));
