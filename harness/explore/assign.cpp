@@ -170,7 +170,9 @@ std::optional<Assigned> assign(const Evidence& evidence) {
     const bool reset = evidence.some([&](const Action& each) {
       return each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80;
     });
-    return in_its_state(evidence, reset && !evidence.stopped() ? "SDO-GEN-16" : "SDO-GEN-15");
+    // How long a device boots is its choice, and long behind that a model is silent only because it is slow.
+    if (reset && !evidence.stopped()) return strains("SDO-GEN-16");
+    return in_its_state(evidence, "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);
 }

@@ -296,7 +296,8 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
                                        const ExploreProofOptions& options) {
   // What is asked for: some defects, random legal devices, or all defects and every legal variant.
   const bool drawn = options.combinations > 0;
-  const auto rows = drawn ? std::vector<const refnode::Defect*>() : chosen_rows(options.only);
+  const bool no_defects = drawn || (options.only.empty() && !options.variants.empty());
+  const auto rows = no_defects ? std::vector<const refnode::Defect*>() : chosen_rows(options.only);
   const auto right = explorable_of(profile, {}, {});
   if (!right) return std::unexpected(right.error());
   auto found = all_in_parallel(rows.size(), options.jobs,
@@ -305,7 +306,10 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
   std::vector<std::vector<std::string>> devices;
   for (std::size_t i = 0; i < options.combinations; ++i)
     devices.push_back(draw_combination(options.seed, i).variants);
-  if (!drawn && options.only.empty()) {
+  for (const auto& id : options.variants) {
+    if (refnode::find_variant(id) != nullptr) devices.push_back({id});
+  }
+  if (!drawn && options.only.empty() && options.variants.empty()) {
     for (const auto& variant : refnode::variants()) devices.push_back({std::string(variant.id)});
   }
   auto legal = all_in_parallel(devices.size(), options.jobs, [&](std::size_t i) {
