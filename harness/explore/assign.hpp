@@ -72,6 +72,12 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_fault(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_request(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
+/// An EMCY.
+[[nodiscard]] std::optional<Assigned> assign_emcy(const Evidence& evidence);
+/// The frame that it is all about.
+[[nodiscard]] const can::Frame& frame_of(const Evidence& evidence);
+/// A guard request to the device.
+[[nodiscard]] bool guards(const Action& action, const Evidence& evidence);
 /// An upload that was asked for in a frame of its own, and what came and was due.
 [[nodiscard]] std::optional<Assigned> assign_single_upload(const Evidence& evidence, ByteView came,
                                                            ByteView due);
