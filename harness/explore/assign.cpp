@@ -149,7 +149,11 @@ std::optional<Assigned> assign_fault(const Evidence& evidence) {
 std::optional<Assigned> assign(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   switch (difference.what) {
-    case Difference::What::rule: return violates(difference.requirement);
+    case Difference::What::rule:
+      // The monitors know the device by the node-ID that it had.
+      // A CAN-ID of an additional SDO server may have been given to another service, too.
+      return gives_node_id(evidence) || is_on_channel(evidence) ? strains(difference.requirement)
+                                                                : violates(difference.requirement);
     case Difference::What::broken: return std::nullopt;
     case Difference::What::gone: return violates("NMT-BOOT-02");
     case Difference::What::late: return strains("SDO-GEN-18");

@@ -81,6 +81,8 @@ struct Assigned {
 /// An upload that was asked for in a frame of its own, and what came and was due.
 [[nodiscard]] std::optional<Assigned> assign_single_upload(const Evidence& evidence, ByteView came,
                                                            ByteView due);
+/// What came is on the CAN-ID of the answers of an additional SDO server.
+[[nodiscard]] bool is_on_channel(const Evidence& evidence);
 /// Additional SDO channels were used in the conversation.
 [[nodiscard]] bool talks_of_channels(const Evidence& evidence);
 /// A frame where something was asked on such a channel.
@@ -89,6 +91,8 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_beside_channel(const Evidence& evidence);
 /// LSS was used in the conversation.
 [[nodiscard]] bool talks_of_lss(const Evidence& evidence);
+/// LSS was to give the device another node-ID.
+[[nodiscard]] bool gives_node_id(const Evidence& evidence);
 /// A frame on 7E4h.
 [[nodiscard]] std::optional<Assigned> assign_lss_answer(const Evidence& evidence);
 /// Anything else in a conversation that needs LSS to show it.

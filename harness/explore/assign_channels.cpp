@@ -71,6 +71,8 @@ std::optional<Assigned> surplus(const Evidence& evidence) {
 
 }  // namespace
 
+bool is_on_channel(const Evidence& evidence) { return is_given(evidence, evidence.difference().came.id, 2); }
+
 bool talks_of_channels(const Evidence& evidence) {
   return evidence.some([&](const Action& each) { return asks(evidence, each); });
 }

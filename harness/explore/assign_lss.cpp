@@ -294,6 +294,10 @@ bool is_odd(const Evidence& evidence) {
 
 bool talks_of_lss(const Evidence& evidence) { return evidence.some(is_lss); }
 
+bool gives_node_id(const Evidence& evidence) {
+  return evidence.some([](const Action& each) { return is(each, LssCommand::configure_node_id); });
+}
+
 std::optional<Assigned> assign_lss_answer(const Evidence& evidence) {
   if (is_odd(evidence)) return violates("LSS-GEN-03");
   const Course course(evidence);

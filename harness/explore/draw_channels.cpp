@@ -80,7 +80,8 @@ void change_number(Draft& draft, const Channel& channel) {
 
 void talk::draw_channels(Draft& draft) {
   auto& random = draft.random;
-  const Channel channels[] = {{0x1201, 0x6A0, 0x6B0}, {0x1202, 0x6C8, 0x6D0}};
+  // None of these is what other talk gives to other services.
+  const Channel channels[] = {{0x1201, 0x690, 0x684}, {0x1202, 0x6C8, 0x6D4}};
   const auto& channel = channels[random.chance(80) ? 0 : 1];
   const auto* first = draft.words.find({Index(channel.index), SubIndex(1)});
   if (first == nullptr || !first->writable()) return;

@@ -317,6 +317,8 @@ Result<std::vector<std::string>> LiveDevice::leave() {
 void meet(Explorable& explorable, LiveDevice& device) {
   // A machine that runs other programs, too, wakes up late and sees frames late.
   constexpr Duration jitter = 40ms;
+  // The twin that is its model has no layer setting services.
+  explorable.words.lss = false;
   auto& bench = explorable.bench;
   bench.place = [&device] { return device.enter(); };
   bench.jitter = jitter;
