@@ -149,11 +149,18 @@ std::optional<Assigned> assign_fault(const Evidence& evidence) {
 std::optional<Assigned> assign(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   switch (difference.what) {
-    case Difference::What::rule: return violates(difference.requirement);
+    case Difference::What::rule:
+      // The monitors know the device by the node-ID that it had.
+      // A CAN-ID of an additional SDO server may have been given to another service, too.
+      return gives_node_id(evidence) || is_on_channel(evidence) ? strains(difference.requirement)
+                                                                : violates(difference.requirement);
     case Difference::What::broken: return std::nullopt;
     case Difference::What::gone: return violates("NMT-BOOT-02");
     case Difference::What::late: return strains("SDO-GEN-18");
-    case Difference::What::answer: break;
+    case Difference::What::answer:
+      if (talks_of_lss(evidence)) return assign_beside_lss(evidence);
+      if (talks_of_channels(evidence)) return assign_beside_channel(evidence);
+      break;
     default: return assign_frame(evidence);
   }
   const auto& last = evidence.last();
@@ -167,7 +174,9 @@ std::optional<Assigned> assign(const Evidence& evidence) {
     const bool reset = evidence.some([&](const Action& each) {
       return each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80;
     });
-    return in_its_state(evidence, reset && !evidence.stopped() ? "SDO-GEN-16" : "SDO-GEN-15");
+    // How long a device boots is its choice, and long behind that a model is silent only because it is slow.
+    if (reset && !evidence.stopped()) return strains("SDO-GEN-16");
+    return in_its_state(evidence, "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);
 }

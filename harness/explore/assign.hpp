@@ -72,6 +72,31 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_fault(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_request(const Evidence& evidence);
 [[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
+/// An EMCY.
+[[nodiscard]] std::optional<Assigned> assign_emcy(const Evidence& evidence);
+/// The frame that it is all about.
+[[nodiscard]] const can::Frame& frame_of(const Evidence& evidence);
+/// A guard request to the device.
+[[nodiscard]] bool guards(const Action& action, const Evidence& evidence);
+/// An upload that was asked for in a frame of its own, and what came and was due.
+[[nodiscard]] std::optional<Assigned> assign_single_upload(const Evidence& evidence, ByteView came,
+                                                           ByteView due);
+/// What came is on the CAN-ID of the answers of an additional SDO server.
+[[nodiscard]] bool is_on_channel(const Evidence& evidence);
+/// Additional SDO channels were used in the conversation.
+[[nodiscard]] bool talks_of_channels(const Evidence& evidence);
+/// A frame where something was asked on such a channel.
+[[nodiscard]] std::optional<Assigned> assign_channel_frame(const Evidence& evidence);
+/// Another answer on the default channel, which takes something asked on another one to show.
+[[nodiscard]] std::optional<Assigned> assign_beside_channel(const Evidence& evidence);
+/// LSS was used in the conversation.
+[[nodiscard]] bool talks_of_lss(const Evidence& evidence);
+/// LSS was to give the device another node-ID.
+[[nodiscard]] bool gives_node_id(const Evidence& evidence);
+/// A frame on 7E4h.
+[[nodiscard]] std::optional<Assigned> assign_lss_answer(const Evidence& evidence);
+/// Anything else in a conversation that needs LSS to show it.
+[[nodiscard]] std::optional<Assigned> assign_beside_lss(const Evidence& evidence);
 
 /// The rule for what the client did wrong in a transfer; empty: it did nothing, or no rule is known.
 [[nodiscard]] std::string rule_of_fault(const Action& action);

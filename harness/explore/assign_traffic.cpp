@@ -13,12 +13,6 @@ using What = Difference::What;
 
 constexpr std::uint8_t start = 1, stop = 2, pre_operational = 0x80;
 
-/// The frame that it is all about.
-const can::Frame& frame_of(const Evidence& evidence) {
-  const auto& difference = evidence.difference();
-  return difference.what == What::missing ? difference.due : difference.came;
-}
-
 /// An NMT frame that no device may obey, or every one must; empty: all are plain.
 std::string odd_nmt(const Evidence& evidence) {
   for (const auto& each : evidence.conversation) {
@@ -116,11 +110,6 @@ std::optional<Assigned> assign_heartbeat(const Evidence& evidence) {
   return evidence.settled() && period != 0 ? violates("EC-HBP-01") : strains("EC-HBP-01");
 }
 
-bool guards(const Action& action, const Evidence& evidence) {
-  return action.kind == Action::Kind::frame && action.frame.remote && !action.frame.extended &&
-         action.frame.id == 0x700U + evidence.words.node.value();
-}
-
 std::optional<Assigned> assign_guarding(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   const bool heartbeat = evidence.wrote(0x1017, 0).has_value();
@@ -162,62 +151,6 @@ std::optional<Assigned> assign_error_control(const Evidence& evidence) {
     return each.kind == Action::Kind::frame && each.frame.remote && (each.frame.id & 0x780U) == 0x700U;
   });
   return guarded ? assign_guarding(evidence) : assign_heartbeat(evidence);
-}
-
-bool guarding_runs(const Evidence& evidence) {
-  return evidence.wrote(0x100C, 0).has_value() || evidence.wrote(0x100D, 0).has_value();
-}
-
-std::optional<Assigned> assign_emcy(const Evidence& evidence) {
-  const auto& difference = evidence.difference();
-  const auto& about = frame_of(evidence);
-  const auto code = about.size() < 2 ? 0U : static_cast<unsigned>(about.data[0] | (about.data[1] << 8U));
-  if (difference.what == What::other_data) {
-    if (difference.came.dlc != 8) return violates("EMCY-FMT-01");
-    if (difference.came.data[0] != difference.due.data[0] ||
-        difference.came.data[1] != difference.due.data[1]) {
-      const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
-      return due == 0x8130   ? violates("EC-HBC-03")
-             : due == 0x8210 ? violates("PDO-RX-06")
-                             : violates("EMCY-FMT-01");
-    }
-    // Which bits of the error register a device has is its choice, but for the first.
-    if (difference.came.data[2] != difference.due.data[2])
-      return ((difference.came.data[2] ^ difference.due.data[2]) & 1U) != 0 ? violates("EMCY-FMT-03")
-                                                                            : strains("EMCY-FMT-03");
-    return std::nullopt;
-  }
-  const bool missing = difference.what == What::missing;
-  if (!missing && evidence.stopped()) return violates("EMCY-NMT-01");
-  if (evidence.wrote(0x1015, 0).value_or(0) != 0) return violates("EMCY-INH-01");
-  const bool asked = evidence.some([&](const Action& each) {
-    return each.kind == Action::Kind::frame && each.frame.remote && each.frame.id == about.id;
-  });
-  if (!missing && asked) return violates("EMCY-COB-06");
-  if (evidence.wrote(0x1014, 0)) return violates(missing ? "OD-1014-07" : "OD-1014-08");
-  if (code == 0x8130) {
-    if (!guarding_runs(evidence)) return violates(missing ? "EC-HBC-03" : "EC-HBC-04");
-    if (missing) return violates("EC-NG-07");
-    if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0)
-      return violates("EC-NG-09");
-    const bool requested = evidence.some([&](const Action& each) { return guards(each, evidence); });
-    return violates(requested ? "EC-NG-07" : "EC-NG-08");
-  }
-  if (code == 0x8210) return missing ? violates("PDO-RX-06") : strains("PDO-RX-06");
-  if (code == 0x8220) return strains("PDO-RX-07");
-  if (code == 0x8240) return violates(missing ? "SYNC-CON-05" : "SYNC-CON-03");
-  if (code == 0x8250)
-    return violates(missing || evidence.wrote(0x1400, 5).value_or(1) != 0 ? "PDO-RX-14" : "PDO-RX-15");
-  if (code == 0) {
-    if (evidence.wrote(0x1016, 1) || evidence.wrote(0x1016, 2)) return violates("EC-HBC-07");
-    if (guarding_runs(evidence)) return violates("EC-NG-10");
-    return violates("EMCY-SEQ-02");
-  }
-  const auto raises = std::ranges::count_if(
-      evidence.conversation, [](const Action& each) { return each.kind == Action::Kind::download; });
-  if (!missing) return violates(raises == 0 ? "EMCY-SEQ-03" : "EMCY-SEQ-01");
-  if (raises > 1) return violates("EMCY-SEQ-04");
-  return evidence.operational() ? violates("EMCY-SEQ-01") : violates("EMCY-NMT-02");
 }
 
 /// What the conversation has made of a PDO.
@@ -286,6 +219,9 @@ std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting&
     return evidence.commanded() ? in_its_state(evidence, "PDO-TX-02") : strains("PDO-TX-02");
   if (setting.cob_id && (*setting.cob_id & canopen::cob_id::bit31) != 0) return violates("OD-1800-09");
   const auto type = setting.type.value_or(255);
+  // With no entry in force it has nothing to send.
+  if (evidence.wrote(static_cast<std::uint16_t>(setting.index + 0x200), 0) == 0U)
+    return violates("PDO-MAP-20");
   const bool asked =
       evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
   if (asked && type >= 0xFE) return violates("OD-1800-14");
@@ -298,7 +234,7 @@ std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting&
   if (type == 0xFD) return violates("PDO-TX-19");
   if (setting.inhibit.value_or(0) != 0) return violates("PDO-TX-12");
   if (setting.timer) return violates(*setting.timer == 0 ? "PDO-TX-10" : "PDO-TX-09");
-  if (auto rpdo = assign_rpdo(evidence)) return strains("PDO-TX-08");
+  if (auto rpdo = assign_rpdo(evidence)) return strains(std::move(rpdo->requirement));
   return strains("PDO-TX-08");
 }
 
@@ -310,7 +246,8 @@ std::optional<Assigned> assign_tpdo(const Evidence& evidence, std::uint16_t numb
   if (difference.came.dlc != difference.due.dlc) return violates("PDO-TX-01");
   if (auto rpdo = assign_rpdo(evidence)) return rpdo;
   if (setting.type == 0xFDU) return violates("PDO-TX-19");
-  return violates("PDO-TX-01");
+  // What it holds are values of entries, which may be wrong by themselves.
+  return strains("PDO-TX-01");
 }
 
 std::optional<Assigned> assign_sync(const Evidence& evidence) {
@@ -318,13 +255,22 @@ std::optional<Assigned> assign_sync(const Evidence& evidence) {
   if (difference.what == What::other_data) {
     const bool again = evidence.some(
         [](const Action& each) { return each.kind == Action::Kind::frame && each.frame.id == 0; });
+    if (difference.due.dlc == 0) return violates("SYNC-PRO-01");
     return violates(again ? "SYNC-PRO-05" : "SYNC-PRO-04");
   }
   if (difference.what == What::surplus) {
+    const auto moved = evidence.wrote(0x1005, 0);
+    if (moved && (*moved & canopen::cob_id::base_id_mask) != difference.came.id)
+      return violates("OD-1005-06");
     if (evidence.stopped()) return violates("SYNC-PRO-06");
     const bool off = (evidence.wrote(0x1005, 0).value_or(0) & canopen::cob_id::bit30) == 0;
     if (off || evidence.wrote(0x1006, 0).value_or(1) == 0) return violates("SYNC-PRO-03");
   }
+  const bool stored = evidence.some([](const Action& each) {
+    return each.kind == Action::Kind::download && each.object.index == Index(0x1010);
+  });
+  if (difference.what == What::missing && stored && last_reset(evidence).found)
+    return violates("SYNC-PRO-07");
   if (evidence.operational()) return violates("NMT-SVC-01");
   return violates("SYNC-PRO-01");
 }
@@ -360,6 +306,11 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
   const auto node = evidence.words.node.value();
   const auto set = canopen::connection_set(evidence.words.node);
   const bool surplus = evidence.difference().what == What::surplus;
+  if (frame.is_data(canopen::lss_response_can_id)) return assign_lss_answer(evidence);
+  if (talks_of_lss(evidence) && !frame.extended) return assign_beside_lss(evidence);
+  if (talks_of_channels(evidence) && !frame.extended) {
+    if (auto channel = assign_channel_frame(evidence)) return channel;
+  }
   if (frame.extended) return surplus ? violates("CAN-TRF-03") : std::nullopt;
   if (frame.id == set.error_control.value()) return assign_error_control(evidence);
   if (frame.remote) return surplus ? strains("CAN-TRF-04") : std::nullopt;
@@ -371,10 +322,17 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
     if (frame.id == set.tpdo[number].value()) return assign_tpdo(evidence, number);
     const auto moved = evidence.wrote(static_cast<std::uint16_t>(0x1800 + number), 1);
     if (!moved || (*moved & canopen::cob_id::base_id_mask) != frame.id) continue;
-    return violates("OD-1800-11");
+    if (evidence.difference().what == What::other_data) return assign_tpdo(evidence, number);
+    return violates(surplus && (*moved & canopen::cob_id::bit31) != 0 ? "OD-1800-09" : "OD-1800-11");
   }
   const auto moved = evidence.wrote(0x1014, 0);
-  if (moved && (*moved & canopen::cob_id::base_id_mask) == frame.id) return violates("OD-1014-07");
+  if (moved && (*moved & canopen::cob_id::base_id_mask) == frame.id)
+    return evidence.difference().what == What::other_data ? assign_emcy(evidence) : violates("OD-1014-07");
+  const auto sync = evidence.wrote(0x1005, 0), time = evidence.wrote(0x1012, 0);
+  if (sync && (*sync & canopen::cob_id::base_id_mask) == frame.id)
+    return evidence.difference().what == What::missing ? violates("OD-1005-06") : assign_sync(evidence);
+  if (time && (*time & canopen::cob_id::base_id_mask) == frame.id)
+    return evidence.difference().what == What::missing ? violates("OD-1012-06") : assign_time(evidence);
   if (!surplus) return std::nullopt;
   if (frame.id == 0) return violates("NMT-SVC-05");
   if (frame.id >= 0x701 && frame.id <= 0x77F && frame.id != 0x700U + node)

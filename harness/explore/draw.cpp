@@ -292,6 +292,7 @@ Vocabulary vocabulary_of(const device::Profile& profile) {
   Vocabulary out;
   out.node = profile.node;
   out.errors = profile.errors;
+  out.lss = profile.claims.contains("lss");
   for (const auto& trigger : profile.errors) {
     if (trigger.heartbeat_node) out.other = *trigger.heartbeat_node;
   }

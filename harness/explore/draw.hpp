@@ -22,6 +22,7 @@ struct Vocabulary {
   std::vector<device::Entry> entries;  ///< that the device has, ascending; none of those nobody may touch
   std::vector<device::ErrorTrigger> errors;
   NodeId other{0x7E};  ///< a node that is not there, whose heartbeats may be sent
+  bool lss = false;    ///< it has layer setting services
 
   [[nodiscard]] const device::Entry* find(Multiplexer mux) const;
   [[nodiscard]] bool has(std::uint16_t index, std::uint8_t sub = 0) const {
@@ -78,6 +79,14 @@ struct Talk {
 /// All of them: about single entries and requests, and about whole services.
 [[nodiscard]] std::span<const Talk> talks_of_entries();
 [[nodiscard]] std::span<const Talk> talks_of_services();
+
+/// CAN-IDs that additional SDO servers are given, and those near them.
+[[nodiscard]] constexpr bool is_other_channel(std::uint32_t id) { return id >= 0x680 && id <= 0x6DF; }
+/// A request there that changes nothing in the dictionary: an upload or its segments, an abort.
+[[nodiscard]] constexpr bool only_reads(const can::Frame& frame) {
+  const auto specifier = frame.data[0] >> 5U;
+  return frame.dlc == 8 && specifier >= 2 && specifier <= 5;
+}
 
 /// A conversation of at least `length` actions; the same for the same seed.
 [[nodiscard]] Conversation draw(const Vocabulary& words, std::uint64_t seed, std::size_t length);

@@ -23,6 +23,9 @@ constexpr Duration tolerance = 4ms;
 constexpr Duration model_patience = 500ms;
 constexpr Duration stopped_patience = 10ms;
 constexpr Duration device_patience = 3000ms;
+/// A device with which something differs is heard for so long after that, so that a model that is only late
+/// is not taken for one that agrees.
+constexpr Duration behind_difference = 300ms;
 /// An answer so much later than the model's is worth telling.
 constexpr Duration late_answer = 80ms;
 
@@ -102,8 +105,18 @@ class Duel {
     return look();
   }
 
+  /// A device that was recorded is known up to the end of that: a model that agrees by then only because it
+  /// is slow has not agreed.
+  std::optional<Difference> finish_at(BusTime end) {
+    if (auto out = finish()) return out;
+    meet(std::max(Duration(0), end - device_.now()));
+    return look();
+  }
+
   /// What came behind a difference, for models with which there is none.
-  void listen_on() { device_.run_until(device_.now() + 2 * allowance()); }
+  void listen_on(Duration more = Duration(0)) {
+    device_.run_until(device_.now() + std::max(2 * allowance(), more));
+  }
 
   /// To the last action, of the device and of the model.
   [[nodiscard]] const Answer& answer() const { return answer_; }
@@ -290,7 +303,9 @@ void ask_what_it_holds(std::span<const Action> conversation, Side& device, Playe
     out.holds = device.perform(upload(last.object), device_patience);
 }
 
-Result<Played> play(const Bench& bench, std::span<const Action> conversation, Side& device, bool keep) {
+/// `end`: of a device that was recorded.
+Result<Played> play(const Bench& bench, std::span<const Action> conversation, Side& device, bool keep,
+                    std::optional<BusTime> end = std::nullopt) {
   auto model = bench.model();
   if (!model) return std::unexpected(model.error());
   Duel duel(device, std::move(*model), bench);
@@ -304,11 +319,13 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, Si
     out.due.push_back(duel.due());
   }
   if (!out.difference) {
-    out.difference = duel.finish();
+    out.difference = end ? duel.finish_at(*end) : duel.finish();
     if (out.difference) out.difference->action = conversation.empty() ? 0 : conversation.size() - 1;
   } else if (keep) {
     duel.listen_on();
   }
+  if (keep) out.trace = device.trace();
+  if (keep && out.difference) duel.listen_on(behind_difference);
   if (device.fault()) return std::unexpected(*device.fault());
   if (device.distrusted()) {
     out.distrusted = true;
@@ -337,7 +354,6 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, bo
   if (device.fault()) return std::unexpected(*device.fault());
   auto out = play(bench, conversation, device, true);
   if (!out) return out;
-  out->trace = device.trace();
   auto recording = device.recording();
   // Not what was asked behind it.
   recording.answers.resize(out->actions);
@@ -350,7 +366,7 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, co
   Recorded device(recording);
   // It was played until something differed.
   return play(bench, conversation.first(std::min(conversation.size(), recording.answers.size())), device,
-              false);
+              false, recording.end);
 }
 
 }  // namespace conform::explore

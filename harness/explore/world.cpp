@@ -22,6 +22,8 @@ constexpr Duration behind_boot_up = 50ms;
 /// Behind a fault that ends a transfer, and behind a frame that asks for nothing.
 constexpr Duration after_fault = 5ms;
 constexpr Duration after_frame = 1ms;
+/// LSS answers are waited for: what comes later would be taken for the answer to the next request.
+constexpr Duration after_lss = 8ms;
 /// A server that never ends a transfer must not end the search.
 constexpr std::size_t most_frames_of_a_transfer = 4000;
 constexpr std::size_t most_in_flight = 8;
@@ -166,7 +168,7 @@ Answer World::perform(const Action& action, Duration patience) {
     case Action::Kind::frame:
       if (const auto command = action.nmt_command(node_); command != 0) last_command_ = command;
       send(action.frame);
-      run_until(now() + after_frame);
+      run_until(now() + (action.frame.id == canopen::lss_request_can_id.value() ? after_lss : after_frame));
       break;
     case Action::Kind::power:
       if (auto done = place_->switch_power(); !done) fault_ = done.error();

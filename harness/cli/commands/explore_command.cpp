@@ -87,12 +87,15 @@ int prove(const ExploreCommand& options, const std::string& root, const scenario
   const auto proof = prove_exploration(profile->profile, catalogue,
                                        {.seed = options.seed,
                                         .only = options.defects,
+                                        .variants = options.variants,
                                         .combinations = options.combinations,
                                         .actions = options.actions.value_or(20'000),
                                         .jobs = options.jobs});
   if (!proof) return report_error(proof.error(), exit_usage);
   if (proof->defects.empty() && proof->variants.empty())
-    return report_error({"no defect is named so", {}, "canopen-refnode --list-defects"}, exit_usage);
+    return report_error(
+        {"no defect or variant is named so", {}, "canopen-refnode --list-defects, --list-variants"},
+        exit_usage);
   print(exploration_words(*proof, options.verbose));
   return proof->falsely_blamed() == 0 ? 0 : 1;
 }

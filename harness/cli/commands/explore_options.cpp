@@ -49,10 +49,10 @@ CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
   sub->add_option("--write", command.write, "Write the findings as scenarios")->type_name("FILE");
   sub->add_flag("--strict", command.strict, "Exit with 3 for what is tolerated or has no known rule, too");
   sub->add_flag("-q,--quiet", command.quiet, "Print only the summary");
-  auto* prove =
-      sub->add_flag("--prove", command.prove,
-                    "What is found of each defect of the reference node (or those of --defect), and "
-                    "whether legal variants are blamed; --actions for each (default 20000)");
+  auto* prove = sub->add_flag(
+      "--prove", command.prove,
+      "What is found of each defect of the reference node (or those of --defect and --variant), "
+      "and whether legal variants are blamed; --actions for each (default 20000)");
   sub->add_option(
          "--combinations", command.combinations,
          "With --prove: whether this many random combinations of legal variants are blamed, and nothing else")

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "canopen/cob_id.hpp"
+#include "canopen/lss.hpp"
 #include "canopen/nmt.hpp"
 #include "canopen/program_control.hpp"
 #include "cli/run/shell.hpp"
@@ -206,6 +208,20 @@ bool LiveDevice::is_as_told(const explore::Action& action) const {
   return !triggers || (told && action.fault.empty());
 }
 
+/// Of LSS what asks and switches states: a node-ID or bit rate that was configured or stored would outlast
+/// the conversation, and what an unknown command does nobody knows.
+bool LiveDevice::may_ask_lss(const can::Frame& frame) {
+  using canopen::LssCommand;
+  if (frame.remote || frame.extended || frame.dlc != 8) return false;
+  switch (static_cast<LssCommand>(frame.data[0])) {
+    case LssCommand::configure_node_id:
+    case LssCommand::configure_bit_timing:
+    case LssCommand::activate_bit_timing:
+    case LssCommand::store: return false;
+    default: return !canopen::lss_command_name(frame.data[0]).empty();
+  }
+}
+
 bool LiveDevice::may(const explore::Action& action) const {
   using Kind = explore::Action::Kind;
   switch (action.kind) {
@@ -216,6 +232,9 @@ bool LiveDevice::may(const explore::Action& action) const {
     case Kind::request:
     case Kind::frame: break;
   }
+  if (action.frame.id == canopen::lss_request_can_id.value() && !may_ask_lss(action.frame)) return false;
+  // What is written on other channels is not seen to be put back.
+  if (explore::is_other_channel(action.frame.id) && !explore::only_reads(action.frame)) return false;
   if (const auto object = steps::download_begun(action.frame, profile_.node); object) {
     if (!may_write(*object) || !is_as_told(explore::download(*object, {}))) return false;
   }
@@ -298,6 +317,8 @@ Result<std::vector<std::string>> LiveDevice::leave() {
 void meet(Explorable& explorable, LiveDevice& device) {
   // A machine that runs other programs, too, wakes up late and sees frames late.
   constexpr Duration jitter = 40ms;
+  // The twin that is its model has no layer setting services.
+  explorable.words.lss = false;
   auto& bench = explorable.bench;
   bench.place = [&device] { return device.enter(); };
   bench.jitter = jitter;

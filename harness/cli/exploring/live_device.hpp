@@ -70,6 +70,7 @@ class LiveDevice {
   [[nodiscard]] bool may_write(Multiplexer object) const;
   [[nodiscard]] bool is_open(Multiplexer object) const;
   [[nodiscard]] bool is_as_told(const explore::Action& action) const;
+  [[nodiscard]] static bool may_ask_lss(const can::Frame& frame);
   void changing(Multiplexer object);
 
   device::Profile profile_;

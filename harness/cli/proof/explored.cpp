@@ -133,7 +133,7 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
   explore::SearchOptions search;
   search.seed = options.seed;
   search.most_actions = options.actions;
-  search.most_findings = 6;
+  search.most_findings = 12;
   search.offer = right.offer;
   search.repeats = 1;
   search.on_finding = [&](const explore::Finding& finding) {
@@ -143,7 +143,7 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
     }
     out.found = true;
     const auto rule = finding.assigned ? catalogue.canonical(finding.assigned->requirement) : std::nullopt;
-    out.said.push_back(rule ? *rule
+    out.said.push_back(rule ? *rule + " " + word_of(finding, catalogue)
                             : "? " + explore::describe(finding.conversation.back(), right.words.node) +
                                   " : " + explore::came_text(finding, right.words) + " / " +
                                   explore::due_text(finding, right.words));
@@ -296,7 +296,8 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
                                        const ExploreProofOptions& options) {
   // What is asked for: some defects, random legal devices, or all defects and every legal variant.
   const bool drawn = options.combinations > 0;
-  const auto rows = drawn ? std::vector<const refnode::Defect*>() : chosen_rows(options.only);
+  const bool no_defects = drawn || (options.only.empty() && !options.variants.empty());
+  const auto rows = no_defects ? std::vector<const refnode::Defect*>() : chosen_rows(options.only);
   const auto right = explorable_of(profile, {}, {});
   if (!right) return std::unexpected(right.error());
   auto found = all_in_parallel(rows.size(), options.jobs,
@@ -305,7 +306,10 @@ Result<ExploreProof> prove_exploration(const device::Profile& profile, const sce
   std::vector<std::vector<std::string>> devices;
   for (std::size_t i = 0; i < options.combinations; ++i)
     devices.push_back(draw_combination(options.seed, i).variants);
-  if (!drawn && options.only.empty()) {
+  for (const auto& id : options.variants) {
+    if (refnode::find_variant(id) != nullptr) devices.push_back({id});
+  }
+  if (!drawn && options.only.empty() && options.variants.empty()) {
     for (const auto& variant : refnode::variants()) devices.push_back({std::string(variant.id)});
   }
   auto legal = all_in_parallel(devices.size(), options.jobs, [&](std::size_t i) {

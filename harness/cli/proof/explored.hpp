@@ -65,9 +65,10 @@ struct ExploreProof {
 
 struct ExploreProofOptions {
   std::uint64_t seed = 1;
-  std::vector<std::string> only{};  ///< defects; empty: all
-  std::size_t combinations = 0;     ///< so many random legal devices, and no defects
-  std::size_t actions = 20'000;     ///< for each defect and each legal device
+  std::vector<std::string> only{};      ///< defects; empty: all
+  std::vector<std::string> variants{};  ///< only these legal variants, and no defects but those of `only`
+  std::size_t combinations = 0;         ///< so many random legal devices, and no defects
+  std::size_t actions = 20'000;         ///< for each defect and each legal device
   unsigned jobs = 0;
 };
 [[nodiscard]] Result<ExploreProof> prove_exploration(const device::Profile& profile,

@@ -189,8 +189,15 @@ TEST_CASE("nothing is sent that the tier does not cover, and nothing is ever sto
     bench.bus.attach(device, "device");
     const auto result = bench.explore(6000);
     CHECK(result.episodes > 10);
-    std::size_t beyond = 0, stored = 0, of_application = 0, downloads = 0;
+    std::size_t beyond = 0, stored = 0, of_application = 0, downloads = 0, configured = 0, unseen = 0;
     for (const auto& frame : device.heard) {
+      // LSS that configures, switches the bit rate or stores, or that is no command.
+      constexpr std::uint8_t lasting[] = {0x11, 0x13, 0x15, 0x17};
+      const bool lss = frame.id == 0x7E5 && !frame.remote;
+      configured += lss && (frame.dlc != 8 || std::ranges::find(lasting, frame.data[0]) != std::end(lasting));
+      // Downloads that are not watched.
+      const bool other = frame.id >= 0x680 && frame.id <= 0x6DF && !frame.remote;
+      unseen += other && frame.size() > 0 && (frame.data[0] >> 5U == 1 || frame.data[0] >> 5U == 6);
       beyond += steps::need_of(frame, bench.words.node).tier > tier;
       const auto object = steps::download_begun(frame, bench.words.node);
       if (!object) continue;
@@ -211,6 +218,8 @@ TEST_CASE("nothing is sent that the tier does not cover, and nothing is ever sto
     }
     CHECK(beyond == 0);
     CHECK(stored == 0);
+    CHECK(configured == 0);
+    CHECK(unseen == 0);
     CHECK(of_application == 0);
     CHECK(downloads > 100);
   }

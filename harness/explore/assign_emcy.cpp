@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emergencies that came without being due, or did not come.
+#include <algorithm>
+#include <string>
+
+#include "canopen/cob_id.hpp"
+#include "explore/assign.hpp"
+
+namespace conform::explore {
+
+using What = Difference::What;
+
+namespace {
+
+bool guarding_runs(const Evidence& evidence) {
+  return evidence.wrote(0x100C, 0).has_value() || evidence.wrote(0x100D, 0).has_value();
+}
+
+/// Some RPDO has to come in time.
+bool has_deadline(const Evidence& evidence) {
+  for (std::uint16_t index = 0x1400; index < 0x1404; ++index) {
+    if (evidence.wrote(index, 5).value_or(0) != 0) return true;
+  }
+  return false;
+}
+
+/// A node that is monitored is lost, and nothing is said of it.
+std::optional<Assigned> missing_loss(const Evidence& evidence) {
+  std::size_t entries = 0;
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) entries += evidence.wrote(0x1016, sub).has_value();
+  return violates(entries > 1 ? "EC-HBC-13" : "EC-HBC-03");
+}
+
+/// A node is said to be lost that is there, or was not heard since it is monitored.
+std::optional<Assigned> surplus_loss(const Evidence& evidence) {
+  const Action* beat = nullptr;
+  for (const auto& each : evidence.conversation) {
+    const bool begins = each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80 ||
+                        (each.kind == Action::Kind::download && each.object.index == Index(0x1016));
+    if (begins) beat = nullptr;
+    const bool beats = each.kind == Action::Kind::frame && !each.frame.remote && !each.frame.extended &&
+                       each.frame.id > 0x700 && each.frame.id <= 0x77F;
+    if (beats) beat = &each;
+  }
+  if (beat == nullptr) return violates("EC-HBC-02");
+  return beat->frame.data[0] == 0 ? strains("EC-HBC-12") : violates("EC-HBC-04");
+}
+
+}  // namespace
+
+const can::Frame& frame_of(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  return difference.what == What::missing ? difference.due : difference.came;
+}
+
+bool guards(const Action& action, const Evidence& evidence) {
+  return action.kind == Action::Kind::frame && action.frame.remote && !action.frame.extended &&
+         action.frame.id == 0x700U + evidence.words.node.value();
+}
+
+std::optional<Assigned> assign_emcy(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  const auto& about = frame_of(evidence);
+  const auto code = about.size() < 2 ? 0U : static_cast<unsigned>(about.data[0] | (about.data[1] << 8U));
+  if (difference.what == What::other_data) {
+    if (difference.came.dlc != 8) return violates("EMCY-FMT-01");
+    if (difference.came.data[0] != difference.due.data[0] ||
+        difference.came.data[1] != difference.due.data[1]) {
+      const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
+      return due == 0x8130   ? violates("EC-HBC-03")
+             : due == 0x8210 ? violates("PDO-RX-06")
+             : due == 0x8240 ? violates("SYNC-CON-05")
+                             : violates("EMCY-FMT-01");
+    }
+    // Which bits of the error register a device has is its choice, but for the first.
+    if (difference.came.data[2] != difference.due.data[2])
+      return difference.came.data[2] != 0 && (difference.came.data[2] & 1U) == 0 ? violates("EMCY-FMT-04")
+             : ((difference.came.data[2] ^ difference.due.data[2]) & 1U) != 0    ? violates("EMCY-FMT-03")
+                                                                                 : strains("EMCY-FMT-03");
+    return std::nullopt;
+  }
+  const bool missing = difference.what == What::missing;
+  const bool off = (evidence.wrote(0x1014, 0).value_or(0) & canopen::cob_id::bit31) != 0;
+  if (!missing && off) return violates("OD-1014-08");
+  if (!missing && evidence.stopped()) return violates("EMCY-NMT-01");
+  if (evidence.wrote(0x1015, 0).value_or(0) != 0) return violates("EMCY-INH-01");
+  const bool asked = evidence.some([&](const Action& each) {
+    return each.kind == Action::Kind::frame && each.frame.remote && each.frame.id == about.id;
+  });
+  if (!missing && asked) return violates("EMCY-COB-06");
+  if (evidence.wrote(0x1014, 0)) return violates(missing ? "OD-1014-07" : "OD-1014-08");
+  if (code == 0x8130) {
+    if (!guarding_runs(evidence)) return missing ? missing_loss(evidence) : surplus_loss(evidence);
+    if (missing) return violates("EC-NG-07");
+    if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0)
+      return violates("EC-NG-09");
+    const bool requested = evidence.some([&](const Action& each) { return guards(each, evidence); });
+    return violates(requested ? "EC-NG-07" : "EC-NG-08");
+  }
+  if (code == 0x8210) return missing ? violates("PDO-RX-06") : strains("PDO-RX-06");
+  if (code == 0x8220) return strains("PDO-RX-07");
+  if (code == 0x8240 && missing && evidence.wrote(0x1005, 0)) return violates("OD-1005-07");
+  if (code == 0x8240) return violates(missing ? "SYNC-CON-05" : "SYNC-CON-03");
+  if (code == 0x8250) return violates(missing || has_deadline(evidence) ? "PDO-RX-14" : "PDO-RX-15");
+  if (code == 0) {
+    if (evidence.wrote(0x1016, 1) || evidence.wrote(0x1016, 2)) return violates("EC-HBC-07");
+    if (guarding_runs(evidence)) return violates("EC-NG-10");
+    return violates("EMCY-SEQ-02");
+  }
+  const auto raises = std::ranges::count_if(
+      evidence.conversation, [](const Action& each) { return each.kind == Action::Kind::download; });
+  if (!missing) return violates(raises == 0 ? "EMCY-SEQ-03" : "EMCY-SEQ-01");
+  if (raises > 1) return violates("EMCY-SEQ-04");
+  return evidence.operational() ? violates("EMCY-SEQ-01") : violates("EMCY-NMT-02");
+}
+
+}  // namespace conform::explore
