@@ -98,8 +98,9 @@ class IniParser {
       remark(Deviation::byte_order_mark, 0);
       begin = utf8_mark.size();
     }
+    const LineEnds ends(bytes_);
     while (begin < bytes_.size() && !refused_) {
-      const auto end = end_of_line(bytes_, begin);
+      const auto end = ends.from(begin);
       line(bytes_.substr(begin, end - begin));
       begin = end;
       if (begin == bytes_.size()) break;

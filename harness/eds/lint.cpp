@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
+#include "base/in_parallel.hpp"
 #include "base/text.hpp"
 #include "eds/expand.hpp"
 #include "eds/lint_comments.hpp"
@@ -24,6 +26,10 @@ constexpr std::array groups = {
     &predefined_rules, &sub_object_rules, &compact_rules, &pdo_rules,   &mapping_rules, &identity_rules,
     &module_rules,     &presence_rules,   &cob_id_rules,  &entry_rules, &xdd_rules,
 };
+
+/// Objects of a file of which the groups are looked at side by side; those of a smaller one are done before
+/// another thread has begun.
+constexpr std::size_t worth_threads = 500;
 
 std::vector<RuleGroup> tables() {
   std::vector<RuleGroup> out;
@@ -59,6 +65,13 @@ void Findings::add(const Rule& rule, Position at, std::string message, std::stri
   report_.findings.push_back({&rule, at, std::move(message), std::move(hint)});
 }
 
+void Findings::join(Findings other) {
+  auto& more = other.report_;
+  std::ranges::move(more.findings, std::back_inserter(report_.findings));
+  report_.left_out += more.left_out;
+  for (const auto& [rule, count] : more.left_out_of) report_.left_out_of[rule] += count;
+}
+
 LintReport Findings::finish() {
   std::ranges::sort(report_.findings, [](const Finding& a, const Finding& b) {
     return std::tie(a.at, a.rule->code, a.message) < std::tie(b.at, b.rule->code, b.message);
@@ -77,8 +90,11 @@ LintReport lint(const EdsFile& file) {
       if (!subject.expansion_at.known()) subject.expansion_at = object.compact_sub_obj.at;
     }
   }
+  std::array<Findings, groups.size()> found;
+  const unsigned jobs = file.objects.size() < worth_threads ? 1 : 0;
+  in_parallel(groups.size(), jobs, [&](std::size_t i) { groups[i]->check(subject, found[i]); });
   Findings findings;
-  for (const auto* group : groups) group->check(subject, findings);
+  for (auto& each : found) findings.join(std::move(each));
   auto report = findings.finish();
   mark_roots(file, report);
   return report;

@@ -28,6 +28,8 @@ struct Subject {
 class Findings {
  public:
   void add(const Rule& rule, Position at, std::string message, std::string hint = {});
+  /// Those of another group of rules, which has no rule with these in common.
+  void join(Findings other);
   [[nodiscard]] LintReport finish();
 
  private:

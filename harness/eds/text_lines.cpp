@@ -20,9 +20,10 @@ std::size_t end_of_line(std::string_view bytes, std::size_t from) {
 TextLines::TextLines(std::string_view bytes) : bytes_(bytes) {
   constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
   std::size_t at = bytes.starts_with(utf8_mark) ? utf8_mark.size() : 0;
+  const LineEnds ends(bytes);
   while (at < bytes.size()) {
     starts_.push_back(at);
-    at = end_of_line(bytes, at);
+    at = ends.from(at);
     if (at == bytes.size()) break;
     at += bytes.substr(at).starts_with("\r\n") ? 2U : 1U;
   }

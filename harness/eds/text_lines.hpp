@@ -2,6 +2,7 @@
 // The lines of a file, ended as the readers of descriptions take them: LF, CR LF or CR, also mixed.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,19 @@ namespace conform::eds {
 
 /// Where the line that `from` is in ends; the size of the text when nothing ends it.
 [[nodiscard]] std::size_t end_of_line(std::string_view bytes, std::size_t from);
+
+/// The same for one line after the other. Where no CR is in the text, as in most, only LF is looked for.
+class LineEnds {
+ public:
+  explicit LineEnds(std::string_view bytes) : bytes_(bytes), returns_(bytes.contains('\r')) {}
+  [[nodiscard]] std::size_t from(std::size_t begin) const {
+    return returns_ ? end_of_line(bytes_, begin) : std::min(bytes_.find('\n', begin), bytes_.size());
+  }
+
+ private:
+  std::string_view bytes_;
+  bool returns_;
+};
 
 class TextLines {
  public:
