@@ -36,13 +36,13 @@ struct Node::Impl : Parts {
   void run_due_timers() {
     if (!wakeup || device.now >= *wakeup) run_timers();
   }
-  [[nodiscard]] BusTime earliest_wakeup() const;
+  [[nodiscard]] std::optional<BusTime> earliest_wakeup() const;
   /// A SYNC has come, or the node has sent one.
   void begin_cycle(std::optional<std::uint8_t> counter);
   void dispatch(const Frame& frame);
 
   TwinRemarks remarks;
-  /// When something is due, as said last; nothing: the node has changed since.
+  /// When something is due, as said last (BusTime::max(): never); nothing: the node has changed since.
   mutable std::optional<BusTime> wakeup;
 };
 
@@ -276,28 +276,26 @@ void Node::on_time(conform::BusTime now) {
 }
 
 std::optional<conform::BusTime> Node::next_wakeup() const {
-  impl_->wakeup = impl_->earliest_wakeup();
-  return *impl_->wakeup == BusTime::max() ? std::nullopt : impl_->wakeup;
+  const auto first = impl_->earliest_wakeup();
+  impl_->wakeup = first.value_or(BusTime::max());
+  return first;
 }
 
-BusTime Node::Impl::earliest_wakeup() const {
-  BusTime first = BusTime::max();
-  const auto consider = [&first](const std::optional<BusTime>& at) {
-    if (at && *at < first) first = *at;
-  };
-  consider(nmt.next_wakeup());
-  consider(consumer.next_wakeup());
-  consider(guarding.next_wakeup());
-  consider(emergency.next_wakeup());
-  consider(producer.next_wakeup());
-  consider(sync_producer.next_wakeup());
-  consider(sync_supervision.next_wakeup());
-  consider(time_producer.next_wakeup());
-  consider(pdos.next_wakeup());
-  consider(store.next_wakeup());
-  consider(sdo.next_wakeup());
-  consider(device.inbox.next_wakeup());
-  consider(device.outbox.next_wakeup());
+std::optional<BusTime> Node::Impl::earliest_wakeup() const {
+  std::optional<BusTime> first;
+  keep_earlier(first, nmt.next_wakeup());
+  keep_earlier(first, consumer.next_wakeup());
+  keep_earlier(first, guarding.next_wakeup());
+  keep_earlier(first, emergency.next_wakeup());
+  keep_earlier(first, producer.next_wakeup());
+  keep_earlier(first, sync_producer.next_wakeup());
+  keep_earlier(first, sync_supervision.next_wakeup());
+  keep_earlier(first, time_producer.next_wakeup());
+  keep_earlier(first, pdos.next_wakeup());
+  keep_earlier(first, store.next_wakeup());
+  keep_earlier(first, sdo.next_wakeup());
+  keep_earlier(first, device.inbox.next_wakeup());
+  keep_earlier(first, device.outbox.next_wakeup());
   return first;
 }
 
