@@ -325,13 +325,15 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
     if (evidence.difference().what == What::other_data) return assign_tpdo(evidence, number);
     return violates(surplus && (*moved & canopen::cob_id::bit31) != 0 ? "OD-1800-09" : "OD-1800-11");
   }
-  const auto moved = evidence.wrote(0x1014, 0);
-  if (moved && (*moved & canopen::cob_id::base_id_mask) == frame.id)
+  const auto is_moved_to = [&](std::uint16_t index) {
+    const auto moved = evidence.wrote(index, 0);
+    return moved && (*moved & canopen::cob_id::base_id_mask) == frame.id;
+  };
+  if (is_moved_to(0x1014))
     return evidence.difference().what == What::other_data ? assign_emcy(evidence) : violates("OD-1014-07");
-  const auto sync = evidence.wrote(0x1005, 0), time = evidence.wrote(0x1012, 0);
-  if (sync && (*sync & canopen::cob_id::base_id_mask) == frame.id)
+  if (is_moved_to(0x1005))
     return evidence.difference().what == What::missing ? violates("OD-1005-06") : assign_sync(evidence);
-  if (time && (*time & canopen::cob_id::base_id_mask) == frame.id)
+  if (is_moved_to(0x1012))
     return evidence.difference().what == What::missing ? violates("OD-1012-06") : assign_time(evidence);
   if (!surplus) return std::nullopt;
   if (frame.id == 0) return violates("NMT-SVC-05");
