@@ -170,10 +170,12 @@ Result<CaseRunner::Flow> CaseRunner::run_step(const Step& step) {
   }
   if (step.walk) return run_walk(step);
   witness_.begin_step();
+  const auto late_sendings = session_.recorder().late_sendings();
   auto actual = act(step, can::CasePart::step);
   witness_.note_done(step);
   if (!actual) return cannot_go_on(step, actual.error());
-  if (step.action->rests_on_time() || is_late(*actual, session_)) witness_.note_time();
+  const bool host_was_late = session_.recorder().late_sendings() != late_sendings;
+  if (step.action->rests_on_time() || is_late(*actual, session_) || host_was_late) witness_.note_time();
   if (!step.label.empty()) session_.label(step, *actual);
   if (!step.branches.empty()) return run_branches(step, *actual);
   return judge(step, *actual);

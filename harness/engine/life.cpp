@@ -31,6 +31,7 @@ std::function<Result<void>()> Life::power_switch() {
     const auto& frames = run_.recorder.capture().frames();
     run_.live.follow(frames);
     if (auto done = run_.options.power_cycle(); !done) return done;
+    (void)run_.recorder.now();  // the command may have taken seconds, and nobody was late
     // The start that comes now is the harness's doing.
     run_.live.lose_track();
     losses_.push_back({frames.size(), frames.size()});

@@ -61,7 +61,16 @@ void Recorder::record(can::CapturedFrame frame) {
       part_->frame = index;
     }
   }
-  observer_->recorded(capture_.frames().back());
+  const auto& recorded = capture_.frames().back();
+  if (recorded.direction == can::Direction::transmitted) note_echo(recorded);
+  observer_->recorded(recorded);
+}
+
+void Recorder::note_echo(const can::CapturedFrame& echo) {
+  const auto late = echo.time - std::exchange(free_to_send_, std::max(free_to_send_, echo.time));
+  if (late <= can::host_is_late || is_produced(echo.frame)) return;
+  ++late_sendings_;
+  woke(late);
 }
 
 bool Recorder::is_produced(const can::Frame& frame) const {
@@ -128,6 +137,7 @@ Result<std::size_t> Recorder::send(const can::Frame& frame) {
 
 Result<void> Recorder::post(const can::Frame& frame) {
   if (stop_requested()) return broken({stopped, {}, {}});
+  free_to_send_ = std::max(free_to_send_, recent_);
   auto sent = transport_.send(frame);
   if (!sent) return broken(sent.error());
   return {};

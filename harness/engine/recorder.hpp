@@ -36,6 +36,7 @@ class Recorder {
     // place.
     if (transport.info().receive_buffer > 0)
       capture_.reserve(std::min<std::size_t>(most_frames, std::size_t{1} << 20U));
+    (void)now();
   }
 
   [[nodiscard]] BusTime now() const { return recent_ = transport_.now(); }
@@ -88,11 +89,15 @@ class Recorder {
 
   /// How late the host was since the last call.
   struct Lateness {
-    Duration waking{};     ///< behind the end of a wait
+    Duration waking{};     ///< behind the end of a wait, or, from host_is_late on, with a frame of its own
     Duration producing{};  ///< behind the time at which a produced frame was due, where that is more than
                            ///< half its period
   };
   [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
+  /// Frames of ours, but for productions, that were on the bus more than host_is_late behind the last thing
+  /// that we had known before: whoever stands still in the middle of a sub-block finds a server that has lost
+  /// patience.
+  [[nodiscard]] std::uint64_t late_sendings() const { return late_sendings_; }
 
   /// A waking that was so late that the machine must have had other work.
   struct LateWaking {
@@ -125,6 +130,7 @@ class Recorder {
   [[nodiscard]] Result<void> produce_due();
   [[nodiscard]] std::unexpected<Error> broken(Error error);
   void woke(Duration late);
+  void note_echo(const can::CapturedFrame& echo);
   void record(can::CapturedFrame frame);
   [[nodiscard]] bool is_produced(const can::Frame& frame) const;
 
@@ -136,6 +142,8 @@ class Recorder {
   // It was at least this late when we last knew. Reading the clock costs as much as sending a frame on some
   // machines.
   mutable BusTime recent_{};
+  BusTime free_to_send_{};  ///< then we were at work for certain, and the frame before was gone
+  std::uint64_t late_sendings_ = 0;
   bool ignore_stop_ = false;
   std::optional<Error> fault_;
   can::Capture capture_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDO transfers, faults and channels, seen through whole runs and sessions on the simulated bus.
+#include <deque>
+
 #include "bench.hpp"
 #include "can/frame_time.hpp"
 #include "canopen/tests/scripted_server.hpp"
@@ -11,6 +13,7 @@ using namespace conform::engine;
 using namespace conform::engine::testing;
 using conform::testing::ScriptedServer;
 using result::Verdict;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -175,6 +178,88 @@ TEST_CASE("a server's abort within a sub-block is heeded at once") {
     return each.frame.is_data(CanId(0x601)) && each.frame.data[0] >= 1 && each.frame.data[0] < 0x20;
   });
   CHECK(segments < 20);
+}
+
+namespace {
+
+/// A host that stands still before it sends the request that `is_it` picks, the first time: whatever comes
+/// meanwhile waits for it.
+class StandingStill final : public can::Transport {
+ public:
+  using Pick = std::function<bool(const can::Frame&)>;
+  StandingStill(can::Transport& inner, Duration pause, Pick is_it)
+      : inner_(inner), pause_(pause), is_it_(std::move(is_it)) {}
+  BusTime now() const override { return inner_.now(); }
+  Result<void> send(const can::Frame& frame) override {
+    if (is_it_ && is_it_(frame)) {
+      is_it_ = nullptr;
+      const auto until = inner_.now() + pause_;
+      for (;;) {
+        auto event = inner_.receive(until);
+        if (!event) return std::unexpected(event.error());
+        if (!*event) break;
+        waiting_.push_back(**event);
+      }
+    }
+    return inner_.send(frame);
+  }
+  Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+    if (waiting_.empty() || waiting_.front().time > deadline) return inner_.receive(deadline);
+    auto out = waiting_.front();
+    waiting_.pop_front();
+    return out;
+  }
+  can::BusHealth health() override { return inner_.health(); }
+  can::TransportInfo info() const override { return inner_.info(); }
+
+ private:
+  can::Transport& inner_;
+  Duration pause_;
+  Pick is_it_;
+  std::deque<can::BusEvent> waiting_;
+};
+
+/// A download by block of which the host sends segment 5 late, to a device that gives it up at segment 5
+/// whenever `gives_up` says so.
+Outcome play_standing_still(Duration pause, bool gives_up_each_time) {
+  BlockDevice device;
+  can::SimulatedBus bus;
+  bus.attach(device.device, "scripted device");
+  const auto is_segment = [](const can::Frame& frame) { return frame.id == 0x601 && frame.data[0] == 5; };
+  StandingStill transport(bus.transport(), pause, [&](const can::Frame& frame) {
+    device.server.abort_at_segment = 5;
+    return is_segment(frame);
+  });
+  const auto inner = device.device.before;
+  device.device.before = [&](ScriptedDevice& on, const can::Frame& frame, BusTime now) {
+    const bool done = inner(on, frame, now);
+    if (is_segment(frame) && !gives_up_each_time) device.server.abort_at_segment = 0;
+    return done;
+  };
+  const auto suite = suite_of(steps_of(R"(
+      - download: {object: 2010h:00, pattern: 100 bytes, transfer: block}
+        checks: T-MUST
+)"));
+  Outcome out;
+  out.run = run(transport, writing_profile(), suite, catalogue(), {}, out.capture);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a server that loses patience with a host standing still in a sub-block violates nothing") {
+  const auto out = play_standing_still(300ms, false);
+  INFO(out.only().reason);
+  CHECK(out.only().verdict == Verdict::pass);
+  CHECK(out.only().tried.starts_with("2 times"));
+}
+
+TEST_CASE("a server that gives up a download also when the host is in time is failed") {
+  CHECK(play_standing_still(300ms, true).only().verdict == Verdict::fail);
+  // So short a pause is nothing that a server may take for the end of the transfer.
+  const auto in_time = play_standing_still(50ms, false);
+  CHECK(in_time.only().verdict == Verdict::fail);
+  CHECK(in_time.only().tried.empty());
 }
 
 TEST_CASE("harmless traffic between request and answer changes nothing") {
