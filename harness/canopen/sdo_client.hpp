@@ -121,5 +121,7 @@ class SdoClient {
 
 /// Longest upload that is kept; a longer one is cut with 0504 0005h.
 inline constexpr std::size_t most_upload_bytes = std::size_t{1} << 20U;
+/// From so many bytes on a value takes so long (a second at 50 kbit/s) that it is not read without need.
+inline constexpr std::size_t least_long_value = 1024;
 
 }  // namespace conform::canopen

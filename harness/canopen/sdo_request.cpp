@@ -44,7 +44,9 @@ Result<std::unique_ptr<SdoClient>> make_sdo_client(const SdoRequest& request) {
   const auto plan = request.faults.empty() ? nullptr : std::make_shared<SdoFaultPlan>(request.faults);
   std::unique_ptr<SdoClient> client;
   switch (protocol) {
-    case SdoProtocol::upload: client = std::make_unique<SdoUpload>(request.object, request.max_bytes); break;
+    case SdoProtocol::upload:
+      client = std::make_unique<SdoUpload>(request.object, request.max_bytes, request.enough);
+      break;
     case SdoProtocol::download: {
       auto mode = request.mode;
       if (request.announced) mode = SdoDownload::Mode::segmented;

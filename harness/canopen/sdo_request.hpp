@@ -28,6 +28,7 @@ struct SdoRequest {
   bool crc = true;                             ///< block: ask for the CRC
   std::vector<SdoFault> faults{};
   std::size_t max_bytes = most_upload_bytes;
+  std::optional<std::size_t> enough{};  ///< upload by segments: bytes after which a long value is given up
 };
 
 /// Error (of the scenario) when a fault has no place in the transfer, or the data do not fit its mode.

@@ -23,7 +23,8 @@ std::string wrong_toggle(bool got, std::size_t segment) {
 
 }  // namespace
 
-SdoUpload::SdoUpload(Multiplexer mux, std::size_t max_bytes) : mux_(mux), max_bytes_(max_bytes) {}
+SdoUpload::SdoUpload(Multiplexer mux, std::size_t max_bytes, std::optional<std::size_t> enough)
+    : mux_(mux), max_bytes_(max_bytes), enough_(enough) {}
 
 std::optional<std::size_t> SdoUpload::settled() const {
   return initiated_ ? std::optional<std::size_t>(result_.counts.segments) : std::nullopt;
@@ -119,6 +120,10 @@ void SdoUpload::on_segment(ByteView bytes) {
   if (empty_ >= max_empty_segments) {
     return violation(fmt::format("delivers {} segments without data one after the other", empty_),
                      abort::general);
+  }
+  if (enough_ && received >= *enough_ && announced.value_or(0) >= least_long_value) {
+    result_.reply = abort::general;
+    return finish(Kind::gave_up);
   }
   toggle_ = !toggle_;
 }

@@ -15,7 +15,9 @@ namespace conform::canopen {
 class SdoUpload final : public SdoClient {
  public:
   /// `max_bytes` bounds what is kept; a longer object ends as a violation with the reply 0504 0005h.
-  explicit SdoUpload(Multiplexer mux, std::size_t max_bytes = most_upload_bytes);
+  /// `enough`: after so many bytes of a value that is told to be long, the client gives up by an abort.
+  explicit SdoUpload(Multiplexer mux, std::size_t max_bytes = most_upload_bytes,
+                     std::optional<std::size_t> enough = std::nullopt);
   [[nodiscard]] std::optional<SdoFrame> next(std::size_t unsent) override;
   bool on_frame(ByteView data, std::size_t unsent) override;
   void on_silence() override { give_up_waiting(); }
@@ -29,6 +31,7 @@ class SdoUpload final : public SdoClient {
 
   Multiplexer mux_;
   std::size_t max_bytes_;
+  std::optional<std::size_t> enough_;
   bool initiated_ = false;
   bool asked_ = false;  ///< the request is out, the server is to act
   bool toggle_ = false;

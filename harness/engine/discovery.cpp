@@ -36,14 +36,14 @@ void extend_array(device::Dictionary& out, Index index, std::uint8_t highest) {
 /// Looks at an entry. A device that answers nothing any more would cost a time-out for each of the entries
 /// that follow; one that is only starting has its time, and is asked again.
 Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object, const Means& means) {
-  auto answer = session.peek(object);
+  auto answer = session.glance(object);
   if (!answer || answer->kind != Kind::silence) return answer;
   auto life = look_for_life(session, means);
   if (!life) return std::unexpected(life.error());
   if (life->life != Alive::answers)
     return fail("the device fell silent when " + to_string(object) + " was looked for", {}, life->tried);
   if (life->at_once) return answer;
-  answer = session.peek(object);
+  answer = session.glance(object);
   if (!answer || answer->kind != Kind::silence) return answer;
   life = look_for_life(session, means);
   if (!life) return std::unexpected(life.error());

@@ -7,13 +7,14 @@
 
 #include "base/bytes.hpp"
 #include "base/strong.hpp"
+#include "canopen/sdo_client.hpp"
 
 namespace conform::engine {
 
 class LongValues {
  public:
   /// From this size on a value is worth remembering, in bytes.
-  static constexpr std::size_t least = 1024;
+  static constexpr std::size_t least = canopen::least_long_value;
 
   /// The device has told or confirmed `value`.
   void note(Multiplexer object, const Bytes& value) {

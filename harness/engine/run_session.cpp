@@ -38,10 +38,14 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
   });
 }
 
-Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) {
+Result<steps::SdoAnswer> RunSession::peek(Multiplexer object) { return look_at(object, false); }
+
+Result<steps::SdoAnswer> RunSession::glance(Multiplexer object) { return look_at(object, true); }
+
+Result<steps::SdoAnswer> RunSession::look_at(Multiplexer object, bool beginning_is_enough) {
   if (asks_nothing_) return fail_scenario("the value of " + to_string(object) + " is not asked for");
   if (auto reached = await_state(); !reached) return std::unexpected(reached.error());
-  auto answer = channel_.upload(object, std::nullopt);
+  auto answer = beginning_is_enough ? channel_.glance(object) : channel_.upload(object, std::nullopt);
   adapt();
   // A transfer that was given up is no reason to end the run.
   if (!answer && answer.error().of == Error::Of::scenario) {

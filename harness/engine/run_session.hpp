@@ -166,8 +166,11 @@ class RunSession final : public steps::Session {
   void note_left_changed() { left_changed_ = true; }
   /// Uploads that judge nothing and open no window.
   [[nodiscard]] Result<steps::SdoAnswer> peek(Multiplexer object);
+  /// The same of an entry of which it matters that it is there: of a long value only the beginning is read.
+  [[nodiscard]] Result<steps::SdoAnswer> glance(Multiplexer object);
 
  private:
+  [[nodiscard]] Result<steps::SdoAnswer> look_at(Multiplexer object, bool beginning_is_enough);
   [[nodiscard]] bool may_play_nodes() const { return guard_.run() >= steps::Tier::motion; }
   /// A start, stop or enter pre-operational that the device may not have followed yet.
   struct Ordered {

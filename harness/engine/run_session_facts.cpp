@@ -111,7 +111,7 @@ Result<bool> RunSession::is_present(Multiplexer object, bool whole_object) {
   }
   const auto known = present_.find(object);
   if (known != present_.end()) return known->second;
-  auto answer = peek(object);
+  auto answer = glance(object);
   if (!answer) return std::unexpected(answer.error());
   using Kind = steps::SdoAnswer::Kind;
   // Silence is neither: to take it for absence would excuse the device from every rule about the entry.

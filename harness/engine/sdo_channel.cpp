@@ -232,6 +232,13 @@ Result<steps::SdoAnswer> SdoChannel::upload(Multiplexer object, std::optional<Du
   return run_one({.upload = true, .object = object}, timeout);
 }
 
+Result<steps::SdoAnswer> SdoChannel::glance(Multiplexer object) {
+  auto answer = run_one({.upload = true, .object = object, .enough = enough_to_see}, std::nullopt);
+  // A server may answer the abort, wrongly; not into what comes next.
+  if (answer && answer->kind == steps::SdoAnswer::Kind::gave_up) note_abort(last_request_);
+  return answer;
+}
+
 Result<std::optional<std::array<std::uint8_t, 8>>> SdoChannel::ask(
     const std::array<std::uint8_t, 8>& request) {
   using Answer = std::optional<std::array<std::uint8_t, 8>>;

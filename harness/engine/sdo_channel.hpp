@@ -31,6 +31,10 @@ class SdoChannel {
   [[nodiscard]] Result<steps::SdoAnswer> download(Multiplexer object, Bytes data,
                                                   canopen::SdoDownload::Mode mode,
                                                   std::optional<Duration> timeout);
+  /// Reads as much as tells what is there: of a value that is told to be long only the beginning, whereupon
+  /// the client aborts (SdoAnswer::glanced_at).
+  [[nodiscard]] Result<steps::SdoAnswer> glance(Multiplexer object);
+  static constexpr std::size_t enough_to_see = 48;  ///< bytes
   /// How many bytes the entry holds, as the answer to the initiate request tells; the transfer is not carried
   /// through. nullopt: it cannot be read.
   [[nodiscard]] Result<std::optional<std::uint64_t>> held_bytes(Multiplexer object);

@@ -6,6 +6,7 @@
 
 #include "canopen/abort_code.hpp"
 #include "canopen/data_type.hpp"
+#include "engine/sdo_channel.hpp"
 
 namespace conform::engine {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using Kind = steps::SdoAnswer::Kind;
 
 /// A device may hold a DOMAIN of a megabyte.
-constexpr std::size_t most_kept = 48;
+constexpr std::size_t most_kept = SdoChannel::enough_to_see;
 
 bool says_absent(const steps::SdoAnswer& answer) {
   return answer.kind == Kind::aborted &&
@@ -57,6 +58,7 @@ result::EntryFacts said_of(const device::Entry& entry, const device::Profile& pr
 
 void Survey::note(Multiplexer object, const steps::SdoAnswer& answer) {
   Seen seen{answer, answer.data.size(), says_absent(answer)};
+  if (answer.glanced_at()) seen.size = *answer.announced;
   seen.answer.data.resize(std::min(seen.size, most_kept));
   seen_[object] = std::move(seen);
 }
@@ -73,7 +75,7 @@ void Survey::describe(const Seen& seen, const device::Entry& entry, result::Entr
     return;
   }
   into.presence = answer.kind == Kind::silence ? result::unanswered : result::present;
-  if (answer.kind != Kind::confirmed) {
+  if (answer.kind != Kind::confirmed && !answer.glanced_at()) {
     into.refusal = answer.refusal();
     return;
   }

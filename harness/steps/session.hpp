@@ -37,6 +37,8 @@ struct SdoAnswer {
   std::optional<std::uint32_t> announced{};  ///< uploads: size that the server told
   canopen::TransferCounts counts{};
 
+  /// A long value of which only the beginning was read: `data`, of `announced` bytes.
+  [[nodiscard]] bool glanced_at() const { return kind == Kind::gave_up && announced && !data.empty(); }
   /// Why it was not confirmed: "abort 0601 0002h (write of a read-only object)", "no answer within 1 s".
   [[nodiscard]] std::string refusal() const {
     return kind == Kind::aborted ? "abort " + canopen::describe(code) : detail;
