@@ -77,38 +77,60 @@ class StoredDescription final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
     auto out = std::make_unique<StoredDescription>();
-    auto object = parse_object_at(value, context.names);
+    std::optional<ObjectReference> object;
+    if (value.node()->is_mapping()) {
+      auto fields = value.fields("stored_description");
+      object = parse_object_at(fields.required("object"), context.names);
+      out->content_ = parse_expression_at(fields.required("content"), context.names);
+      if (!out->content_) return nullptr;
+    } else {
+      object = parse_object_at(value, context.names);
+    }
     if (!object) return nullptr;
     out->object_ = *object;
     return out;
   }
   Need need() const override { return {}; }
+  bool acts() const override { return !content_; }
   bool rests_on_time() const override { return false; }
   const ObjectReference* object() const override { return &object_; }
   Measures measures() const override { return {"malformed", "difference", "absent"}; }
-  std::string words(Session&) const override { return "read the device description in " + object_.text(); }
+  std::string words(Session&) const override {
+    return content_ ? "take what " + object_.text() + " holds for a device description"
+                    : "read the device description in " + object_.text();
+  }
 
   Result<Actual> run(Session& session) const override {
     const auto object = object_.resolve(session);
     if (!object) return std::unexpected(object.error());
+    if (content_) {
+      auto content = content_->evaluate(session);
+      if (!content) return std::unexpected(content.error());
+      if (!content->bytes) return fail_scenario("'" + content_->text() + "' are no data");
+      return judge(session, *object, *content->bytes, {});
+    }
     auto answer = session.upload(*object, std::nullopt);
     if (!answer) return std::unexpected(answer.error());
     Actual out;
     out.decisive = answer->decisive;
-    if (answer->kind != SdoAnswer::Kind::confirmed) {
-      out.kind = answer->kind == SdoAnswer::Kind::aborted   ? Actual::Kind::aborted
-                 : answer->kind == SdoAnswer::Kind::silence ? Actual::Kind::silence
-                                                            : Actual::Kind::violation;
-      out.code = answer->code;
-      out.detail = answer->detail;
-      return out;
-    }
-    if (answer->data.empty()) {
+    if (answer->kind == SdoAnswer::Kind::confirmed)
+      return judge(session, *object, answer->data, std::move(out));
+    out.kind = answer->kind == SdoAnswer::Kind::aborted   ? Actual::Kind::aborted
+               : answer->kind == SdoAnswer::Kind::silence ? Actual::Kind::silence
+                                                          : Actual::Kind::violation;
+    out.code = answer->code;
+    out.detail = answer->detail;
+    return out;
+  }
+
+ private:
+  static Result<Actual> judge(Session& session, Multiplexer object, const Bytes& content, Actual out) {
+    if (content.empty()) {
       out.detail = "nothing";
       return out;
     }
-    const std::string name = to_string(*object);
-    const std::string_view text(reinterpret_cast<const char*>(answer->data.data()), answer->data.size());
+    const std::string name = to_string(object);
+    const std::string_view text(reinterpret_cast<const char*>(content.data()), content.size());
     const auto file = eds::read(text, name);
     if (!file) return no_description(std::move(out), file.error().text());
     if (!file->device_info.present || file->objects.empty())
@@ -118,7 +140,6 @@ class StoredDescription final : public Action {
     return compared;
   }
 
- private:
   static Actual no_description(Actual out, const std::string& why) {
     out.measured["malformed"] = 1;
     out.measured["difference"] = out.measured["absent"] = 0;
@@ -211,6 +232,7 @@ class StoredDescription final : public Action {
   }
 
   ObjectReference object_;
+  std::optional<Expression> content_;
 };
 
 constexpr Verb table[] = {
@@ -221,7 +243,7 @@ constexpr Verb table[] = {
      &Objects::parse},
     {"stored_description",
      "Read the device description (EDS) that an entry holds, and hold it against the device and the given one.",
-     "(entry): 1021h:00\nmeasured: malformed (1: it is no device description), difference (from the given one and from "
+     "(entry): 1021h:00; or object: the entry, content: what was read of it before\nmeasured: malformed (1: it is no device description), difference (from the given one and from "
      "1018h), absent (objects it describes that the device does not have)",
      "- stored_description: 1021h:00\n  checks: EDS-VSD-11\n  expect: {malformed: 0, difference: 0, absent: 0}",
      &StoredDescription::parse},
