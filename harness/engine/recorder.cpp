@@ -68,7 +68,7 @@ void Recorder::record(can::CapturedFrame frame) {
 
 void Recorder::note_echo(const can::CapturedFrame& echo) {
   const auto late = echo.time - std::exchange(free_to_send_, std::max(free_to_send_, echo.time));
-  if (late <= can::host_is_late || is_produced(echo.frame)) return;
+  if (late <= can::host_is_late) return;
   ++late_sendings_;
   woke(late);
 }
@@ -104,6 +104,7 @@ Result<void> Recorder::produce_due() {
     const Duration late = current - running.due;
     if (running.production.keeps_time && running.sent > 0 && late > running.production.every / 2)
       lateness_.producing = std::max(lateness_.producing, late);
+    free_to_send_ = std::max(free_to_send_, current);
     auto& frame = running.production.frame;
     if (const auto last = running.production.counts_to)
       frame.data[0] = static_cast<std::uint8_t>(running.sent % *last + 1);

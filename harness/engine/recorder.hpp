@@ -94,8 +94,8 @@ class Recorder {
                            ///< half its period
   };
   [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
-  /// Frames of ours, but for productions, that were on the bus more than host_is_late behind the last thing
-  /// that we had known before: whoever stands still in the middle of a sub-block finds a server that has lost
+  /// Frames of ours that were on the bus more than host_is_late behind the last thing that we had known before
+  /// (productions are looked after above): whoever stands still in the middle of a sub-block finds a server that has lost
   /// patience.
   [[nodiscard]] std::uint64_t late_sendings() const { return late_sendings_; }
 

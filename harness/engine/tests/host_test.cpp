@@ -179,6 +179,18 @@ TEST_CASE("a cyclic frame that the host sends late is told, the first one is not
   CHECK(recorder.take_lateness().producing == Duration(0));
 }
 
+TEST_CASE("the last cyclic frame of a few is not late because nothing was sent before it") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  CHECK(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})).has_value());
+  recorder.produce({"sync", can::data_frame(CanId(0x80), {}), 150ms, 3});
+  REQUIRE(recorder.wait_until(recorder.now() + 500ms).has_value());
+  CHECK(recorder.late_sendings() == 0);
+  CHECK(recorder.take_lateness().waking == Duration(0));
+}
+
 TEST_CASE("A produced SYNC may count in its data") {
   can::SimulatedBus bus;
   ScriptedDevice device;
