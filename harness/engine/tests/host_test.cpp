@@ -121,6 +121,12 @@ TEST_CASE("every bus-off and every step of the clock is noticed, not only the fi
   CHECK(second(stepped) == Verdict::inconclusive);
 }
 
+TEST_CASE("an interface that held a frame back leaves open what the device did meanwhile") {
+  const auto out = play_unwell([](can::BusHealth& health) { ++health.transmit_stalls; });
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[1].verdict == Verdict::inconclusive);
+}
+
 TEST_CASE("a host that was late is no excuse for a value that was read, and what it saw in time stays") {
   const auto out = play_unwell([](can::BusHealth& health) { ++health.late_frames; });
   CHECK(out.verdict_of("T-MUST") == Verdict::pass);
