@@ -2,6 +2,7 @@
 """What the tests need that do something to the bus, the link or the clock of the machine: rights, kernel modules, `tc`."""
 import ctypes
 import os
+import re
 import shutil
 import subprocess
 
@@ -49,6 +50,35 @@ class Shaped:
         if done.returncode != 0:
             self.test.skipTest(f"no {self.discipline[0]} on {self.interface}: {done.stderr.strip()}")
         return self
+
+    def __exit__(self, *_):
+        tc("qdisc", "del", "dev", self.interface, "root")
+
+
+class Selected:
+    """Frames of the CAN-IDs `number`/`mask` pass netem, e.g. Selected(test, "vcan0", 0x600, 0x780, "loss", "1%"); the others do not."""
+
+    def __init__(self, test, interface, number, mask, *fault):
+        self.test, self.interface, self.number, self.mask, self.fault = test, interface, number, mask, fault
+
+    def __enter__(self):
+        if shutil.which("tc") is None:
+            self.test.skipTest("tc (iproute2) is not installed")
+        for module in ("sch_prio", "sch_netem", "cls_basic", "em_canid"):
+            load_module("net/sched/" + module)
+        for arguments in (["qdisc", "add", "dev", self.interface, "root", "handle", "1:", "prio", "bands", "2", "priomap", *["0"] * 16],
+                          ["qdisc", "add", "dev", self.interface, "parent", "1:2", "handle", "2:", "netem", "limit", "100000", *self.fault],
+                          ["filter", "add", "dev", self.interface, "parent", "1:", "prio", "1", "basic", "match",
+                           f"canid(sff {self.number:#x}:{self.mask:#x})", "flowid", "1:2"]):
+            done = tc(*arguments)
+            if done.returncode != 0:
+                self.__exit__()
+                self.test.skipTest(f"frames cannot be selected on {self.interface}: {done.stderr.strip()}")
+        return self
+
+    def passed(self):
+        """How many frames netem has let through so far."""
+        return int(re.search(r"qdisc netem 2:.*\n Sent \d+ bytes (\d+) pkt", tc("-s", "qdisc", "show", "dev", self.interface).stdout)[1])
 
     def __exit__(self, *_):
         tc("qdisc", "del", "dev", self.interface, "root")

@@ -54,7 +54,7 @@ class Disturbed(unittest.TestCase):
         while played < INSTANTS:
             runs += 1
             with Node():
-                process = subprocess.Popen(self.arguments(name), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                process = subprocess.Popen(self.arguments(f"{name} {runs}"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
                 said = []
                 reader = threading.Thread(target=lambda: said.append(process.stdout.read()))
                 reader.start()
@@ -66,16 +66,17 @@ class Disturbed(unittest.TestCase):
                 process.wait(900)
                 reader.join()
                 process.stdout.close()
-            found = verdicts(os.path.join(self.folder, f"{name}.xml"))
+            found = verdicts(os.path.join(self.folder, f"{name} {runs}.xml"))
             self.assertEqual(found.keys(), self.calm.keys())
             for case, (word, text) in found.items():
                 if word in LEFT_OPEN:
                     open_[text.splitlines()[0]] += 1
-                elif word != self.calm[case][0]:
+                # A case that is tried again shows a monitor more than there was to see before.
+                elif word != self.calm[case][0] and not (case.startswith("monitor/") and word in ("pass", "n/a")):
                     different[f"run {runs}: {case}"] = f"{self.calm[case][0]} became {word}: {text}"
             self.assertIn(process.returncode, (0, 3) if not different else (0, 1, 3), said[0][-3000:])
             self.assertNotIn("not put back", said[0])
-        self.assertEqual(different, {})
+        self.assertFalse(different, "\n".join(f"{case}: {what}" for case, what in different.items()))
         judged = runs * sum(word != "n/a" for word, _ in self.calm.values())
         print(f"\n  {name}: {played} instants in {runs} runs, {judged} judged cases, none differs, {sum(open_.values())} left open, "
               f"on {INTERFACE}, an AF_CAN socket", flush=True)
