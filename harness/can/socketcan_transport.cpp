@@ -172,6 +172,9 @@ Result<void> SocketCanTransport::configure() {
       .tv_sec = 0,
       .tv_usec = std::chrono::duration_cast<std::chrono::microseconds>(patience_of_socket).count()};
   may_block_ = set_option(fd, SOL_SOCKET, SO_RCVTIMEO, patience);
+  transmit_watch_.reset();
+  if (options_.receive_own && !facts_.echo && !facts_.is_virtual)
+    transmit_watch_.emplace("/sys/class/net/" + facts_.name + "/statistics");
   return {};
 }
 
@@ -264,6 +267,7 @@ Result<bool> SocketCanTransport::come_back(BusTime deadline) {
   (void)::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &told, &length);
   if (was_away || told != 0) {
     ++health_.outages;
+    if (transmit_watch_) transmit_watch_->forget();
     events_.clear();
     next_event_ = 0;
     echo_expected_ = false;
@@ -271,7 +275,7 @@ Result<bool> SocketCanTransport::come_back(BusTime deadline) {
   return true;
 }
 
-Result<bool> SocketCanTransport::wait_for_room(int error, BusTime give_up) {
+Result<bool> SocketCanTransport::wait_for_room(int error, BusTime give_up, bool again) {
   const BusTime current = now();
   if (current >= give_up) return false;
   Duration patience = give_up - current;
@@ -281,7 +285,7 @@ Result<bool> SocketCanTransport::wait_for_room(int error, BusTime give_up) {
     // The queue of the interface is full though the socket is writable: poll() would return at once, again
     // and again. Nothing announces room here, so look again after some frame times.
     count = 0;
-    patience = std::min<Duration>(patience, std::chrono::milliseconds(10));
+    patience = std::min<Duration>(patience, std::chrono::milliseconds(again ? 20 : 10));
   }
   const timespec timeout = to_timespec(patience);
   if (::ppoll(&entry, count, &timeout, nullptr) < 0 && errno != EINTR) return std::unexpected(fault(errno));
@@ -303,6 +307,7 @@ Result<void> SocketCanTransport::send(const Frame& frame) {
         events_.push_back({frame, last_stamp_, Direction::transmitted});
       }
       echo_expected_ = is_can_ && options_.receive_own;
+      if (transmit_watch_) transmit_watch_->took(std::max(last_now_, last_stamp_));
       return {};
     }
     const int error = errno;
@@ -312,11 +317,12 @@ Result<void> SocketCanTransport::send(const Frame& frame) {
       continue;
     }
     if (error != EAGAIN && error != ENOBUFS) return std::unexpected(fault(error));
-    if (!give_up) {
+    const bool again = give_up.has_value();
+    if (!again) {
       ++health_.transmit_retries;
       give_up = now() + options_.send_bound;
     }
-    const auto room = wait_for_room(error, *give_up);
+    const auto room = wait_for_room(error, *give_up, again);
     if (!room) return std::unexpected(room.error());
     if (!*room) {
       return fail("the transmit queue stayed full for " + to_string(options_.send_bound), facts_.name,
@@ -406,6 +412,13 @@ Result<void> SocketCanTransport::take(std::size_t index, std::optional<BusTime>&
   return {};
 }
 
+// The clock is not read for it: what was seen last is late enough.
+void SocketCanTransport::look_at_what_waits() {
+  const auto look = transmit_watch_->next_look();
+  const auto known = std::max(last_now_, last_stamp_);
+  if (look && known >= *look && transmit_watch_->stands_still(known)) ++health_.transmit_stalls;
+}
+
 void SocketCanTransport::note_error_frame(const Frame& frame) {
   ++health_.error_frames;
   if ((frame.id & CAN_ERR_BUSOFF) != 0) {
@@ -427,6 +440,7 @@ Result<std::optional<BusEvent>> SocketCanTransport::receive(BusTime deadline) {
     }
     if (auto error = not_usable()) return std::unexpected(*error);
     if (last_look) return std::nullopt;
+    if (transmit_watch_) look_at_what_waits();
     auto look = Look::at_once;
     if (echo_expected_) {
       echo_expected_ = false;  // most interfaces have it ready: look without asking poll() first
@@ -434,9 +448,11 @@ Result<std::optional<BusEvent>> SocketCanTransport::receive(BusTime deadline) {
       patient = false;  // after one try poll() takes over, which also hears the other descriptors
       look = Look::patient;
     } else {
-      const auto more_time = wait_until(deadline);
+      auto until = deadline;
+      if (transmit_watch_) until = std::min(deadline, transmit_watch_->next_look().value_or(deadline));
+      const auto more_time = wait_until(until);
       if (!more_time) return std::unexpected(more_time.error());
-      last_look = !*more_time;
+      last_look = !*more_time && (until == deadline || now() < until);
     }
     // A fault behind good frames waits: dead_ and link_down_ report it when the frames have been handed out.
     if (auto done = drain(look); !done && next_event_ == events_.size()) return std::unexpected(done.error());
@@ -455,6 +471,10 @@ BusHealth SocketCanTransport::health() {
     }
     const std::uint64_t backlog = backlog_drops();
     if (backlog > backlog_drops_at_start_) dropped += backlog - backlog_drops_at_start_;
+  }
+  if (transmit_watch_) {
+    (void)now();
+    look_at_what_waits();
   }
   health_.frames_dropped = dropped_before_ + dropped + controller_overflows_;
   clock_.check_clock();

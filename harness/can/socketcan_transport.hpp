@@ -13,6 +13,7 @@
 #include "can/descriptor.hpp"
 #include "can/realtime_stamps.hpp"
 #include "can/socketcan_interface.hpp"
+#include "can/transmit_watch.hpp"
 #include "can/transport.hpp"
 
 namespace conform::can {
@@ -64,7 +65,8 @@ class SocketCanTransport final : public Transport {
   [[nodiscard]] bool reopen();
   /// False when the deadline has passed or the wake descriptor is readable.
   [[nodiscard]] Result<bool> wait_until(BusTime deadline);
-  [[nodiscard]] Result<bool> wait_for_room(int error, BusTime give_up);
+  [[nodiscard]] Result<bool> wait_for_room(int error, BusTime give_up, bool again);
+  void look_at_what_waits();
 
   Descriptor socket_;
   InterfaceFacts facts_;
@@ -88,6 +90,7 @@ class SocketCanTransport final : public Transport {
   bool link_down_ = false;
   bool bus_off_now_ = false;
   std::optional<Error> dead_;
+  std::optional<TransmitWatch> transmit_watch_;  // where the echo of a frame does not prove that it was sent
 };
 
 }  // namespace conform::can

@@ -46,11 +46,13 @@ struct BusHealth {
   std::uint64_t outages = 0;   ///< times the bus was away and came back: nobody heard what passed meanwhile
   std::uint64_t clock_steps = 0;  ///< times the stamps' clock was set
   std::uint64_t late_frames = 0;  ///< received frames that waited for us longer than host_is_late
+  /// Looks that found a frame of ours still in the interface, longer than host_is_late behind its echo.
+  std::uint64_t transmit_stalls = 0;
 
   /// Whether frames may be missing, or have wrong stamps, since the snapshot `before`.
   [[nodiscard]] bool has_gap_since(const BusHealth& before) const {
     return frames_dropped > before.frames_dropped || bus_offs > before.bus_offs || outages > before.outages ||
-           clock_steps > before.clock_steps;
+           clock_steps > before.clock_steps || transmit_stalls > before.transmit_stalls;
   }
 };
 

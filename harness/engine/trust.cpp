@@ -27,6 +27,11 @@ std::optional<HostTrouble> trouble_of(const can::BusHealth& before, const can::B
     return HostTrouble{"bus-off during the case"};
   if (after.clock_steps > before.clock_steps || (after.clock_stepped && !before.clock_stepped))
     return HostTrouble{"the host's clock was set during the case"};
+  if (after.transmit_stalls > before.transmit_stalls) {
+    return HostTrouble{.why = "the interface held a frame back for more than " +
+                              to_string(can::host_is_late) + " during the case",
+                       .passes_by = true};
+  }
   if (other_client) return HostTrouble{"another SDO client used the channel during the case"};
   if (lateness.producing > Duration(0)) {
     return HostTrouble{.why = "the host sent a cyclic frame " + to_string(lateness.producing) + " late",

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host or a bus in trouble: bus-off, steps of the clock, late frames, floods.
+#include <atomic>
+
 #include "bench.hpp"
 #include "engine/recorder.hpp"
 
@@ -63,7 +65,44 @@ Outcome play_unwell(const UnwellTransport::Trouble& trouble, std::string_view sc
   return out;
 }
 
+/// A host that stands still in its first wait, until long behind its end, while frames come.
+class StoppedTransport final : public can::Transport {
+ public:
+  explicit StoppedTransport(std::vector<can::BusEvent> events) : events_(std::move(events)) {}
+  BusTime now() const override { return now_; }
+  Result<void> send(const can::Frame&) override { return {}; }
+  Result<std::optional<can::BusEvent>> receive(BusTime deadline) override {
+    now_ = std::max(now_, std::exchange(stands_still_, false) ? deadline + 1s : deadline);
+    if (next_ == events_.size() || events_[next_].time > deadline) return std::nullopt;
+    return events_[next_++];
+  }
+  can::BusHealth health() override { return {}; }
+  can::TransportInfo info() const override { return {}; }
+
+ private:
+  std::vector<can::BusEvent> events_;
+  std::size_t next_ = 0;
+  bool stands_still_ = true;
+  BusTime now_{};
+};
+
 }  // namespace
+
+TEST_CASE("what came within a wait is found, however long the host stood still in it") {
+  can::Frame frame;
+  frame.id = 0x080;
+  StoppedTransport transport({{frame, BusTime(30ms)}, {frame, BusTime(90ms)}, {frame, BusTime(110ms)}});
+  const std::atomic<int> nobody_stops = 0;
+  Recorder recorder(transport, &nobody_stops);
+  std::size_t found = 0;
+  for (std::size_t from = 0; found < 9; ++found) {
+    const auto next = recorder.find(from, [](const can::CapturedFrame&) { return true; }, BusTime(100ms));
+    REQUIRE(next.has_value());
+    if (!*next) break;
+    from = **next + 1;
+  }
+  CHECK(found == 2);
+}
 
 TEST_CASE("every bus-off and every step of the clock is noticed, not only the first") {
   const auto first = [](const Outcome& out) { return out.run.cases[0].verdict; };
@@ -80,6 +119,12 @@ TEST_CASE("every bus-off and every step of the clock is noticed, not only the fi
   });
   CHECK(first(stepped) == Verdict::inconclusive);
   CHECK(second(stepped) == Verdict::inconclusive);
+}
+
+TEST_CASE("an interface that held a frame back leaves open what the device did meanwhile") {
+  const auto out = play_unwell([](can::BusHealth& health) { ++health.transmit_stalls; });
+  CHECK(out.run.cases[0].verdict == Verdict::inconclusive);
+  CHECK(out.run.cases[1].verdict == Verdict::inconclusive);
 }
 
 TEST_CASE("a host that was late is no excuse for a value that was read, and what it saw in time stays") {
