@@ -100,12 +100,16 @@ function(conform_test_support)
   endif()
 endfunction()
 
-# conform_test(NAME SOURCES ... DEPENDS ... [LABELS ...]): one Catch2 binary test_NAME, registered with CTest as NAME.
+# conform_test(NAME [LONG] SOURCES ... DEPENDS ... [LABELS ...]): one Catch2 binary test_NAME, registered with CTest as NAME. LONG: only
+# with CONFORM_LONG_TESTS.
 function(conform_test name)
   if(NOT BUILD_TESTING)
     return()
   endif()
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "LONG" "" "SOURCES;DEPENDS;LABELS" ${ARGN})
+  if(arg_LONG AND NOT CONFORM_LONG_TESTS)
+    return()
+  endif()
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE conform_test_main ${arg_DEPENDS})
   target_compile_definitions(test_${name} PRIVATE CONFORM_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
