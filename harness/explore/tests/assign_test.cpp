@@ -4,6 +4,7 @@
 #include "catch.hpp"
 
 #include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
 #include "explore/tests/device.hpp"
 
 using namespace conform;
@@ -40,6 +41,24 @@ std::optional<Assigned> judged(const Conversation& talk, const Answer& device, c
   played.answers.assign(talk.size(), confirmed());
   played.due.assign(talk.size(), confirmed());
   return assign({words, talk, played});
+}
+
+/// In `talk` this came, and with the model that.
+std::optional<Assigned> judged_frames(const Conversation& talk, Difference::What what, const can::Frame& came,
+                                      const can::Frame& due) {
+  const auto words = words_of_the_standard();
+  Played played;
+  played.difference.emplace();
+  played.difference->what = what;
+  played.difference->action = talk.size() - 1;
+  played.difference->came = came;
+  played.difference->due = due;
+  return assign({words, talk, played});
+}
+
+std::string text_of(const std::optional<Assigned>& assigned) {
+  if (!assigned) return "";
+  return assigned->requirement + (assigned->grade == Grade::violated ? " violated" : " tolerated");
 }
 
 const Multiplexer device_type{Index(0x1000), SubIndex(0)};
@@ -87,4 +106,42 @@ TEST_CASE("the phrase of a fault tells its rule") {
   CHECK(rule_of_fault(action) == "SDO-BUP-11");
   action.fault = "";
   CHECK(rule_of_fault(action).empty());
+}
+
+TEST_CASE("a value of power-on that nobody has changed is no matter of a reset") {
+  const Multiplexer heartbeat_time{Index(0x1017), SubIndex(0)};
+  const auto device = confirmed({0xF4, 1}), model = confirmed({0, 0});
+  const auto named = [&](Conversation talk) {
+    talk.push_back(upload(heartbeat_time));
+    return text_of(judged(talk, device, model));
+  };
+  const auto at_once = named({});
+  CHECK(named({{.kind = Action::Kind::power}, wait(std::chrono::milliseconds(900))}) == at_once);
+  CHECK(named({nmt(NodeId(5), 0x82), wait(std::chrono::milliseconds(300))}) == at_once);
+  CHECK(named({download(heartbeat_time, {0xF4, 1}), nmt(NodeId(5), 0x82)}) == "NMT-FSA-24 violated");
+}
+
+TEST_CASE("what a device does wrong with the node-ID from LSS it does as wrong with another one") {
+  const auto lss = [](std::initializer_list<std::uint8_t> bytes) {
+    return frame(can::data_frame(canopen::lss_request_can_id, bytes));
+  };
+  const Conversation talk{lss({4, 1, 0, 0, 0, 0, 0, 0}), lss({0x11, 0x20, 0, 0, 0, 0, 0, 0}),
+                          nmt(NodeId(5), 0x82), wait(std::chrono::milliseconds(200)),
+                          frame(can::data_frame(CanId(0x620), {0x40, 0, 0x14, 1, 0, 0, 0, 0}))};
+  using What = Difference::What;
+  const auto heartbeat = can::data_frame(CanId(0x720), {std::uint8_t{0x7F}}),
+             boot_up = can::data_frame(CanId(0x720), {std::uint8_t{0}});
+  CHECK(text_of(judged_frames(talk, What::surplus, heartbeat, {})).empty());
+  CHECK(text_of(judged_frames(talk, What::missing, {}, heartbeat)) == "LSS-CN-04 tolerated");
+  CHECK(text_of(judged_frames(talk, What::missing, {}, boot_up)) == "LSS-CN-04 violated");
+  // A COB-ID that stays with the old node-ID does not follow; one that is wrong anyway does not either.
+  const auto cob_id = [](std::uint8_t low) {
+    return can::data_frame(CanId(0x5A0), {0x43, 0, 0x14, 1, low, 2, 0, 0});
+  };
+  CHECK(text_of(judged_frames(talk, What::other_data, cob_id(0x05), cob_id(0x20))) == "LSS-CN-04 violated");
+  CHECK(text_of(judged_frames(talk, What::other_data, cob_id(0), cob_id(0x20))).empty());
+  // With the old node-ID it says nothing any more.
+  CHECK(text_of(judged_frames(talk, What::surplus,
+                              can::data_frame(CanId(0x585), {0x43, 0, 0x14, 1, 0, 2, 0, 0}), {})) ==
+        "LSS-CN-04 violated");
 }
