@@ -170,6 +170,9 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
   search.offer = right.offer;
   search.repeats = 1;
   search.on_finding = [&](const explore::Finding& finding) {
+    // What only strains the rule of a monitor may be a monitor that was led astray.
+    const bool by_monitor = finding.played.difference->what == explore::Difference::What::rule;
+    if (by_monitor && !finding.is_violation()) return false;
     if (!out.found) {
       out.actions = finding.actions_until;
       out.shortest = finding.conversation.size();
