@@ -15,6 +15,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/explore_command.hpp"
 #include "cli/exploring/live_search.hpp"
+#include "cli/exploring/written_findings.hpp"
 #include "cli/proof/explored.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/stop_signal.hpp"
@@ -137,6 +138,20 @@ void print_summary(const explore::SearchResult& result, const FoundCounts& verdi
       verdicts.open));
 }
 
+/// What was found in simulation is played once more there.
+Result<void> write(const ExploreCommand& options, const explore::SearchResult& result,
+                   const explore::Vocabulary& words, const device::Profile& profile,
+                   const NodeSwitches& switches, const scenario::Catalogue& catalogue) {
+  const auto how = again(options, result.actions);
+  if (!options.simulate)
+    return write_file_atomically(options.write, explore::scenario_file(result.findings, words, how));
+  const auto written =
+      write_findings(options.write, result.findings, words, how, switches, profile, catalogue);
+  if (!written) return std::unexpected(written.error());
+  print(fmt::format("{}: {}\n", options.write, written->text()));
+  return {};
+}
+
 }  // namespace
 
 int explore_command(const ExploreCommand& options) {
@@ -180,6 +195,7 @@ int explore_command(const ExploreCommand& options) {
   };
 
   explore::SearchResult result;
+  NodeSwitches switches;
   int code = 0;
   if (live) {
     auto found =
@@ -196,8 +212,8 @@ int explore_command(const ExploreCommand& options) {
     code = tell_of_device(*found);
     if (result.ended_by && stop_signal == 0) code = report_error(*result.ended_by, exit_environment);
   } else {
-    auto device = explorable_of(known->profile, {options.defects, options.variants, known->description},
-                                options.variants);
+    switches = {options.defects, options.variants, known->description};
+    auto device = explorable_of(known->profile, switches, options.variants);
     if (!device) return report_error(device.error(), exit_usage);
     words = device->words;
     search.offer = device->offer;
@@ -208,8 +224,7 @@ int explore_command(const ExploreCommand& options) {
   const auto verdicts = count_words(result, suites->catalogue);
   print_summary(result, verdicts, std::chrono::steady_clock::now() - begin);
   if (!options.write.empty() && !result.findings.empty()) {
-    const auto text = explore::scenario_file(result.findings, words, again(options, result.actions));
-    if (auto written = write_file_atomically(options.write, text); !written)
+    if (auto written = write(options, result, words, known->profile, switches, suites->catalogue); !written)
       return report_error(written.error(), exit_environment);
   }
   if (stop_signal != 0) return 128 + stop_signal;
