@@ -145,3 +145,70 @@ TEST_CASE("what a device does wrong with the node-ID from LSS it does as wrong w
                               can::data_frame(CanId(0x585), {0x43, 0, 0x14, 1, 0, 2, 0, 0}), {})) ==
         "LSS-CN-04 violated");
 }
+
+TEST_CASE("an EMCY that another node has sent is no EMCY of the device") {
+  using What = Difference::What;
+  const auto of_other = can::data_frame(CanId(0x083), {0, 0x10, 1, 0, 0, 0xAC, 0, 0});
+  auto of_device = of_other;
+  of_device.id = 0x085;
+  CHECK(text_of(judged_frames({frame(of_other)}, What::surplus, of_device, {})) == "EMCY-CON-02 violated");
+  CHECK(text_of(judged_frames({frame(of_other)}, What::other_data, of_device,
+                              can::data_frame(CanId(0x085), {0, 0, 0, 0, 2, 0, 0, 0}))) ==
+        "EMCY-CON-02 violated");
+  CHECK(text_of(judged_frames({wait(std::chrono::milliseconds(1))}, What::surplus, of_device, {})) ==
+        "EMCY-SEQ-03 violated");
+}
+
+TEST_CASE("an error code with its bytes in the other order is a matter of form, whatever it says") {
+  using What = Difference::What;
+  const auto code = [](std::uint8_t low, std::uint8_t high) {
+    return can::data_frame(CanId(0x085), {low, high, 0x11, 0, 0, 0, 0, 0});
+  };
+  const Conversation talk{wait(std::chrono::milliseconds(200))};
+  CHECK(text_of(judged_frames(talk, What::other_data, code(0x81, 0x30), code(0x30, 0x81))) ==
+        "EMCY-FMT-01 violated");
+  CHECK(text_of(judged_frames(talk, What::other_data, code(0, 0x10), code(0x30, 0x81))) ==
+        "EC-HBC-03 violated");
+}
+
+TEST_CASE("to begin a block upload is no sub-command without one") {
+  const auto ask = [](std::uint8_t command, std::uint8_t blksize) {
+    return Conversation{request(can::data_frame(CanId(0x605), {command, 0, 0x10, 0, blksize, 0, 0, 0}))};
+  };
+  Answer served;
+  served.kind = Answer::Kind::replied;
+  served.data = {0xC6, 0, 0x10, 0, 4, 0, 0, 0};
+  const auto refused = aborted(canopen::abort::general);
+  CHECK(text_of(judged(ask(0xA4, 0), served, refused)) == "SDO-BUP-09 violated");
+  CHECK(text_of(judged(ask(0xA0, 128), served, refused)) == "SDO-BUP-10 violated");
+  CHECK(text_of(judged(ask(0xA4, 5), served, refused)) == "SDO-BUP-01 tolerated");
+  CHECK(text_of(judged(ask(0xA3, 0), served, refused)) == "SDO-BUP-21 violated");
+}
+
+TEST_CASE("a start behind what was asked is no second boot-up message of power-on") {
+  const auto words = words_of_the_standard();
+  const Conversation talk{request(can::data_frame(CanId(0x605), {0x40, 0, 0x10, 0, 0}))};
+  const auto named = [&](int at) {
+    Played played;
+    played.difference.emplace();
+    played.difference->what = Difference::What::surplus;
+    played.difference->came = can::data_frame(CanId(0x705), {std::uint8_t{0}});
+    played.difference->time = BusTime(std::chrono::milliseconds(at));
+    played.begins = {BusTime(std::chrono::milliseconds(70))};
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named(90) == "NMT-BOOT-10 violated");
+  CHECK(named(40) == "NMT-BOOT-01 violated");
+}
+
+TEST_CASE("only who was asked by its own CAN-ID was asked by a remote frame") {
+  using What = Difference::What;
+  const auto tpdo = can::data_frame(CanId(0x185), {0, 0, 0, 0});
+  const auto named = [&](std::uint32_t id) {
+    return text_of(judged_frames(
+        {nmt(NodeId(5), 1), wait(std::chrono::milliseconds(200)), frame(can::remote_frame(CanId(id), 8))},
+        What::surplus, tpdo, {}));
+  };
+  CHECK(named(0x185) == "OD-1800-14 violated");
+  CHECK(named(0x710) == "PDO-TX-08 tolerated");
+}
