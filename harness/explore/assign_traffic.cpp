@@ -225,8 +225,14 @@ std::optional<Assigned> assign_rpdo(const Evidence& evidence) {
     return violates(count > 1 ? "PDO-RX-04" : setting.type == 1U ? "PDO-RX-03" : "PDO-RX-05");
   const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
   if (evidence.wrote(mapping, 0)) return violates("OD-1600-15");
-  if (const auto size = mapped_bytes(evidence, mapping); size && rpdo->frame.dlc != *size)
-    return violates(rpdo->frame.dlc < *size ? "PDO-RX-06" : "PDO-RX-07");
+  if (const auto size = mapped_bytes(evidence, mapping); size && count == 1) {
+    // It must be as if it had the right length, or as if it had not come.
+    const auto is_empty = [](const can::Frame& frame) {
+      return std::ranges::all_of(frame.bytes(), [](std::uint8_t byte) { return byte == 0; });
+    };
+    if (rpdo->frame.dlc > *size && is_empty(evidence.difference().came)) return violates("PDO-RX-07");
+    if (rpdo->frame.dlc < *size && is_empty(evidence.difference().due)) return violates("PDO-RX-06");
+  }
   return violates("PDO-RX-01");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explore/assign.hpp"
 
+#include <algorithm>
 #include "catch.hpp"
 
 #include "canopen/abort_code.hpp"
@@ -211,4 +212,32 @@ TEST_CASE("only who was asked by its own CAN-ID was asked by a remote frame") {
   };
   CHECK(named(0x185) == "OD-1800-14 violated");
   CHECK(named(0x710) == "PDO-TX-08 tolerated");
+}
+
+TEST_CASE("an RPDO of another length is blamed for its length where it is dropped or taken by that") {
+  auto words = words_of_the_standard();
+  const auto put = [&](std::uint8_t sub, Bytes value) {
+    device::Entry entry;
+    entry.mux = {Index(0x1600), SubIndex(sub)};
+    entry.default_value = std::move(value);
+    words.entries.push_back(entry);
+  };
+  put(0, {1});
+  put(1, {0x10, 1, 0, 0x62});
+  std::ranges::sort(words.entries, {}, &device::Entry::mux);
+  const auto named = [&](std::initializer_list<std::uint8_t> rpdo, std::uint8_t came, std::uint8_t due) {
+    const Conversation talk{nmt(NodeId(5), 1), wait(std::chrono::milliseconds(200)),
+                            frame(can::data_frame(CanId(0x205), rpdo))};
+    Played played;
+    played.difference.emplace();
+    played.difference->what = Difference::What::other_data;
+    played.difference->action = 2;
+    played.difference->came = can::data_frame(CanId(0x185), {came});
+    played.difference->due = can::data_frame(CanId(0x185), {due});
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named({7, 0, 1}, 0, 7) == "PDO-RX-07 violated");
+  CHECK(named({7, 0, 1}, 9, 7) == "PDO-RX-01 violated");
+  CHECK(named({7}, 7, 0) == "PDO-RX-06 violated");
+  CHECK(named({7, 0}, 0, 7) == "PDO-RX-01 violated");
 }
