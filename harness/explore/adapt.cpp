@@ -77,6 +77,7 @@ Choices Adapter::with(const Choices& chosen, std::size_t choice) const {
 Bench Adapter::bench_with(const Choices& chosen) const {
   auto out = bench_;
   out.model = offer_.model_of(chosen);
+  out.model_may_be_slower = false;
   return out;
 }
 

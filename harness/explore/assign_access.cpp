@@ -280,7 +280,16 @@ std::optional<Assigned> assign_request(const Evidence& evidence) {
   switch (command >> 5U) {
     case 0: rule = "SDO-SDN-16"; break;
     case 3: rule = "SDO-SUP-08"; break;
-    case 5: rule = "SDO-BUP-21"; break;
+    case 5:
+      // To begin one is no sub-command without one.
+      if ((command & 3U) != 0) {
+        rule = "SDO-BUP-21";
+      } else if (const auto blksize = frame.data[4]; blksize == 0 || blksize > 127) {
+        rule = blksize == 0 ? "SDO-BUP-09" : "SDO-BUP-10";
+      } else {
+        return strains("SDO-BUP-01");
+      }
+      break;
     case 6: rule = "SDO-BDN-22"; break;
     case 7: rule = command == 0xE0 ? "SDO-ERR-01" : "SDO-ERR-02"; break;
     case 2:

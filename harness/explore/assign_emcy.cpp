@@ -46,6 +46,14 @@ std::optional<Assigned> surplus_loss(const Evidence& evidence) {
   return beat->frame.data[0] == 0 ? strains("EC-HBC-12") : violates("EC-HBC-04");
 }
 
+/// Another node has said the same.
+bool is_passed_on(const Evidence& evidence, const can::Frame& came) {
+  return evidence.some([&](const Action& each) {
+    return each.kind == Action::Kind::frame && !each.frame.remote && each.frame.id > 0x080 &&
+           each.frame.id < 0x100 && came.dlc == 8 && each.frame.dlc == 8 && each.frame.data == came.data;
+  });
+}
+
 }  // namespace
 
 const can::Frame& frame_of(const Evidence& evidence) {
@@ -62,8 +70,15 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   const auto& about = frame_of(evidence);
   const auto code = about.size() < 2 ? 0U : static_cast<unsigned>(about.data[0] | (about.data[1] << 8U));
+  if (difference.what != What::missing && is_passed_on(evidence, difference.came))
+    return violates("EMCY-CON-02");
   if (difference.what == What::other_data) {
     if (difference.came.dlc != 8) return violates("EMCY-FMT-01");
+    // The bytes of the code in the other order, whatever it says.
+    if (difference.came.data[0] == difference.due.data[1] &&
+        difference.came.data[1] == difference.due.data[0] &&
+        difference.came.data[0] != difference.came.data[1])
+      return violates("EMCY-FMT-01");
     if (difference.came.data[0] != difference.due.data[0] ||
         difference.came.data[1] != difference.due.data[1]) {
       const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));

@@ -275,9 +275,35 @@ std::optional<Assigned> surplus_answer(const Evidence& evidence, const Course& c
   return course.in == "LSS-SS-04" || course.in == "LSS-GEN-05" ? strains(course.in) : violates(course.in);
 }
 
-/// The node-ID that the device should have, or should not.
-std::optional<Assigned> other_node_id(const Course& course, What what) {
+/// A COB-ID that was read goes with the node-ID that the device had, and should go with the new one.
+bool keeps_old_id(const Evidence& evidence, std::uint8_t node) {
+  const auto& came = evidence.difference().came;
+  const auto& due = evidence.difference().due;
+  const auto low = [](const can::Frame& frame) { return frame.data[4] & 0x7FU; };
+  return came.dlc == 8 && due.dlc == 8 && low(came) == evidence.words.node.value() && low(due) == node;
+}
+
+/// What it says, or should say, with the node-ID that it was to have from the reset on; but not its boot-up
+/// message, which is what shows that it has it.
+bool is_at_new_id(const Evidence& evidence, const Course& course) {
+  const auto& frame = frame_of(evidence);
   const auto node = *course.node_id;
+  const bool active = course.taken && (course.reset == 0x82 || (course.reset != 0 && course.stored));
+  const bool boot_up = frame.id > 0x700 && frame.id < 0x780 && frame.dlc == 1 && frame.data[0] == 0;
+  return active && !boot_up && node >= 1 && node <= 127 && frame.id > 0x080 && (frame.id & 0x7FU) == node;
+}
+
+/// The node-ID that the device should have, or should not.
+std::optional<Assigned> other_node_id(const Evidence& evidence, const Course& course) {
+  const auto what = evidence.difference().what;
+  const auto node = *course.node_id;
+  if (is_at_new_id(evidence, course)) {
+    // It has started there: what it does is as wrong with the node-ID that it had.
+    if (what == What::surplus) return std::nullopt;
+    if (what == What::other_data && !keeps_old_id(evidence, node)) return std::nullopt;
+    const auto* rule = course.reset == 0x82 ? "LSS-CN-04" : "LSS-ST-02";
+    return what == What::missing ? strains(rule) : violates(rule);
+  }
   if (!course.taken) return violates("LSS-INQ-06");
   if (node == 0 || (node > 127 && node != canopen::lss_no_node_id)) return violates("LSS-CN-02");
   if (course.reset == 0) return what == What::missing ? violates("LSS-CN-06") : strains("LSS-CN-04");
@@ -317,7 +343,7 @@ std::optional<Assigned> assign_beside_lss(const Evidence& evidence) {
   if (answers && (difference.came.dlc != 8 || difference.came.data[0] != difference.due.data[0]))
     return assign_single_upload(evidence, difference.came.bytes(), difference.due.bytes());
   const Course course(evidence);
-  return course.node_id ? other_node_id(course, evidence.difference().what) : violates("LSS-GEN-04");
+  return course.node_id ? other_node_id(evidence, course) : violates("LSS-GEN-04");
 }
 
 }  // namespace conform::explore

@@ -159,6 +159,7 @@ std::string missing_sub_index(const Evidence& evidence, bool reading) {
   if ((area == "OD-1400" || area == "OD-1800") && sub == 4) return area + "-19";
   if (area == "OD-1400" && sub == 6) return area + "-21";
   if ((area == "OD-1600" || area == "OD-1A00") && sub > 0x40) return area + "-14";
+  if ((area == "OD-1010" || area == "OD-1011") && sub >= 0x80 && sub < 0xFF) return area + "-06";
   if (!reading && sub == 0xFF) return "OD-OBJ-05";
   if (!is_array_or_record(evidence.words, mux.index)) return reading ? "OD-GEN-09" : "OD-GEN-08";
   return reading ? "OD-GEN-07" : "OD-GEN-08";

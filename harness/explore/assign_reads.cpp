@@ -59,7 +59,19 @@ std::optional<Assigned> after_a_write(const Evidence& evidence) {
   return std::nullopt;
 }
 
+/// Nothing before the difference can have changed a value: time went by, entries were read, the device
+/// started or changed its state.
+bool is_untouched(const Evidence& evidence) {
+  return std::ranges::all_of(evidence.before(), [&](const Action& each) {
+    using Act = Action::Kind;
+    return each.kind == Act::wait || each.kind == Act::power || each.kind == Act::upload ||
+           each.nmt_command(evidence.words.node) != 0;
+  });
+}
+
 std::optional<Assigned> after_a_reset(const Evidence& evidence) {
+  // What nobody has changed no reset can bring back.
+  if (is_untouched(evidence)) return std::nullopt;
   const auto index = evidence.last().object.index.value();
   const bool communication = index < 0x2000;
   bool reset = false, node = false, stored = false, loaded = false;
@@ -154,10 +166,9 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
       return violates("OD-ACC-06");
   }
   // What was there from power-on is another value than described.
-  const bool untouched = evidence.before().empty();
   // The model agrees with the description; where it does not, it is no measure.
   const bool is_measure = entry->default_value && *entry->default_value == evidence.difference().model.data;
-  if (!untouched || !is_measure) return std::nullopt;
+  if (!is_untouched(evidence) || !is_measure) return std::nullopt;
   if (entry->size().value_or(8) > 4) return violates("SDO-SUP-01");
   if (auto rule = rule_of(About::value, mux); !rule.empty()) return violates(std::move(rule));
   const auto area = area_of(mux.index.value());

@@ -61,6 +61,14 @@ LastReset last_reset(const Evidence& evidence) {
   return out;
 }
 
+/// It came behind what was asked or sent last, and not by itself.
+bool follows_last(const Evidence& evidence) {
+  const auto& difference = evidence.difference();
+  const auto& begins = evidence.played.begins;
+  return evidence.last().kind != Action::Kind::wait && difference.action < begins.size() &&
+         difference.time > begins[difference.action];
+}
+
 std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
   const auto odd = odd_nmt(evidence);
   const auto what = evidence.difference().what;
@@ -77,7 +85,8 @@ std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
   if (!odd.empty() && odd != "NMT-FSA-14") return violates(odd);
   if (!reset.found) {
     const bool commanded = evidence.commanded();
-    if (evidence.conversation.size() <= 1 && !commanded) return violates("NMT-BOOT-01");
+    if (evidence.conversation.size() <= 1 && !commanded && !follows_last(evidence))
+      return violates("NMT-BOOT-01");
     return violates(commanded ? "NMT-BOOT-06" : "NMT-BOOT-10");
   }
   return violates(reset.command == 0x82   ? "NMT-BOOT-03"
@@ -169,6 +178,33 @@ bool is_rpdo(const Action& action, const Evidence& evidence) {
   return base == 0x200 || base == 0x300 || base == 0x400 || base == 0x500;
 }
 
+/// Some RPDO takes effect with a SYNC.
+bool waits_for_sync(const Evidence& evidence) {
+  for (std::uint16_t number = 0; number < 4; ++number) {
+    const auto type = evidence.wrote(static_cast<std::uint16_t>(0x1400 + number), 2);
+    if (type && *type <= 240) return true;
+  }
+  return false;
+}
+
+/// How many bytes are mapped by default, of an RPDO whose mapping nobody has changed.
+std::optional<std::size_t> mapped_bytes(const Evidence& evidence, std::uint16_t index) {
+  const auto value_of = [&](std::uint8_t sub) -> std::optional<std::uint64_t> {
+    const auto* entry = evidence.words.find({Index(index), SubIndex(sub)});
+    if (entry == nullptr || !entry->default_value || evidence.wrote(index, sub)) return std::nullopt;
+    return load_le(*entry->default_value);
+  };
+  const auto count = value_of(0);
+  if (!count || *count == 0 || *count > 64) return std::nullopt;
+  std::size_t bits = 0;
+  for (std::uint8_t sub = 1; sub <= *count; ++sub) {
+    const auto mapped = value_of(sub);
+    if (!mapped) return std::nullopt;
+    bits += *mapped & 0xFFU;
+  }
+  return (bits + 7) / 8;
+}
+
 /// The content comes out of an RPDO that was not taken as it should be.
 std::optional<Assigned> assign_rpdo(const Evidence& evidence) {
   const Action* rpdo = nullptr;
@@ -187,8 +223,24 @@ std::optional<Assigned> assign_rpdo(const Evidence& evidence) {
     return violates((*setting.cob_id & canopen::cob_id::bit31) != 0 ? "OD-1400-09" : "OD-1400-11");
   if (setting.type.value_or(255) <= 240)
     return violates(count > 1 ? "PDO-RX-04" : setting.type == 1U ? "PDO-RX-03" : "PDO-RX-05");
-  if (evidence.wrote(static_cast<std::uint16_t>(0x1600 + number), 0)) return violates("OD-1600-15");
+  const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
+  if (evidence.wrote(mapping, 0)) return violates("OD-1600-15");
+  if (const auto size = mapped_bytes(evidence, mapping); size && count == 1) {
+    // It must be as if it had the right length, or as if it had not come.
+    const auto is_empty = [](const can::Frame& frame) {
+      return std::ranges::all_of(frame.bytes(), [](std::uint8_t byte) { return byte == 0; });
+    };
+    if (rpdo->frame.dlc > *size && is_empty(evidence.difference().came)) return violates("PDO-RX-07");
+    if (rpdo->frame.dlc < *size && is_empty(evidence.difference().due)) return violates("PDO-RX-06");
+  }
   return violates("PDO-RX-01");
+}
+
+/// The TPDO, by a remote frame.
+bool is_asked_for(const Evidence& evidence) {
+  return evidence.some([&](const Action& each) {
+    return each.kind == Action::Kind::frame && each.frame.remote && each.frame.id == frame_of(evidence).id;
+  });
 }
 
 std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting& setting) {
@@ -196,8 +248,7 @@ std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting&
   const bool synced = evidence.some([](const Action& each) {
     return each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id);
   });
-  const bool asked =
-      evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
+  const bool asked = is_asked_for(evidence);
   if (setting.sync_start.value_or(0) != 0 && type <= 240)
     return violates(evidence.wrote(0x1019, 0).value_or(0) == 0 ? "PDO-TX-15" : "PDO-TX-14");
   if (type == 0) return violates("PDO-TX-07");
@@ -209,8 +260,9 @@ std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting&
   if (setting.timer.value_or(0) != 0) return violates("PDO-TX-09");
   if (asked) return violates("OD-1800-14");
   if (synced && evidence.wrote(0x1006, 0)) return violates("SYNC-PRO-08");
-  // An RPDO that did not arrive is no change.
-  if (auto rpdo = assign_rpdo(evidence); rpdo && !setting.type) return strains("PDO-TX-08");
+  // An RPDO that did not arrive, or has yet to take effect, is no change.
+  if (auto rpdo = assign_rpdo(evidence); rpdo && !setting.type)
+    return strains(waits_for_sync(evidence) ? std::move(rpdo->requirement) : "PDO-TX-08");
   return violates("PDO-TX-08");
 }
 
@@ -222,8 +274,7 @@ std::optional<Assigned> surplus_tpdo(const Evidence& evidence, const PdoSetting&
   // With no entry in force it has nothing to send.
   if (evidence.wrote(static_cast<std::uint16_t>(setting.index + 0x200), 0) == 0U)
     return violates("PDO-MAP-20");
-  const bool asked =
-      evidence.some([](const Action& each) { return each.kind == Action::Kind::frame && each.frame.remote; });
+  const bool asked = is_asked_for(evidence);
   if (asked && type >= 0xFE) return violates("OD-1800-14");
   if (type == 0) return violates("PDO-TX-07");
   if (type <= 240 && setting.timer.value_or(0) != 0) return violates("PDO-TX-11");

@@ -56,6 +56,7 @@ class Duel {
         model_(std::make_unique<SimulatedPlace>(std::move(model), bench.bus_seed), bench.facts, {}),
         silent_patience_(bench.answer_time),
         jitter_(bench.jitter),
+        may_be_slower_(bench.model_may_be_slower),
         affairs_(bench.is_own_affair, bench.facts.node, bench.own_cob_ids) {
     // How long they take to boot is not compared, only what they say then: both clocks begin behind it.
     device_zero_ = device_.now();
@@ -85,7 +86,7 @@ class Duel {
       out.emplace();
       out->what = What::answer;
     } else if (!out && !both_silent && answer_of_device.kind == answer_of_model.kind &&
-               answer_of_device.taken > answer_of_model.taken + late_answer + jitter_) {
+               is_late(answer_of_device.taken - answer_of_model.taken)) {
       out.emplace();
       out->what = What::late;
     }
@@ -145,6 +146,12 @@ class Duel {
     }
     if (auto rule = broken_rule()) return rule;
     return match();
+  }
+
+  /// By how much the device answered later than the model.
+  [[nodiscard]] bool is_late(Duration by) const {
+    const auto most = late_answer + jitter_;
+    return by > most || (!may_be_slower_ && -by > most);
   }
 
   [[nodiscard]] Duration allowance() const { return tolerance + jitter_ + drift_; }
@@ -257,6 +264,7 @@ class Duel {
   World model_;
   BusTime device_zero_{}, model_zero_{};
   Duration silent_patience_, jitter_;
+  bool may_be_slower_;
   OwnAffairs affairs_;
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
@@ -314,9 +322,8 @@ Result<Played> play(const Bench& bench, std::span<const Action> conversation, Si
     if (keep) out.begins.push_back(device.now());
     out.difference = duel.perform(conversation[i], i);
     ++out.actions;
-    if (!keep) continue;
     out.answers.push_back(duel.answer());
-    out.due.push_back(duel.due());
+    if (keep) out.due.push_back(duel.due());
   }
   if (!out.difference) {
     out.difference = end ? duel.finish_at(*end) : duel.finish();

@@ -58,6 +58,9 @@ struct Bench {
   /// How long an answer may be on its way. Where the model says nothing, the device is waited for so long:
   /// what comes later would be taken for the answer to the next request.
   Duration answer_time = std::chrono::milliseconds(20);
+  /// A model that answers later than the device is as good as any. Not one that is to explain what another
+  /// cannot: all that a device does too early would be late answers of it.
+  bool model_may_be_slower = true;
   /// How much later or earlier than on a simulated bus anything may be seen.
   Duration jitter{};
   /// Entries whose value is the device's own affair: process data, counters. Empty: none. Where there are
@@ -80,7 +83,8 @@ struct Played {
   std::optional<Answer> holds;
 };
 
-/// Plays a conversation from power-on until something differs. `keep`: with trace, times and answers.
+/// Plays a conversation from power-on until something differs. `keep`: with trace, times, what the model
+/// answered, and a recording.
 /// Error: the device or its model cannot be made, or the bus failed.
 [[nodiscard]] Result<Played> play(const Bench& bench, std::span<const Action> conversation,
                                   bool keep = false);

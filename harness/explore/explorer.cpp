@@ -9,6 +9,8 @@
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "explore/adapt.hpp"
+#include "explore/coverage.hpp"
+#include "explore/guide.hpp"
 #include "explore/shrink.hpp"
 
 namespace conform::explore {
@@ -65,7 +67,8 @@ class Search {
         adapter_(bench_, options.offer),
         words_(words),
         options_(options),
-        seeds_(options.seed) {}
+        seeds_(options.seed),
+        chances_(options.seed) {}
 
   Result<SearchResult> run() {
     if (auto done = introduce(); !done) return ended_by(done.error());
@@ -83,6 +86,8 @@ class Search {
       }
       if (!played->difference) {
         adapter_.agreed(conversation, *played);
+        guide_.note(conversation, states_of(conversation, played->answers, words_.node));
+        if (out_.episodes <= options_.corpus.size()) of_corpus_ = guide_.kept().size();
         continue;
       }
       auto ends = look_at(conversation, *played);
@@ -110,6 +115,8 @@ class Search {
 
   SearchResult taken() {
     for (const auto choice : adapter_.chosen()) out_.chosen.push_back(options_.offer.choices[choice].name);
+    out_.kept.assign(guide_.kept().begin() + static_cast<std::ptrdiff_t>(of_corpus_), guide_.kept().end());
+    out_.states = guide_.states();
     return std::move(out_);
   }
 
@@ -121,12 +128,20 @@ class Search {
   }
 
   Conversation next_conversation() {
-    auto out = draw(words_, next_random(seeds_), options_.episode_length);
-    if (out_.episodes % all_the_same != 0) {
+    auto out = thought_of();
+    if (!avoided_.empty() && out_.episodes % all_the_same != 0) {
       std::erase_if(out, [&](const Action& action) { return avoided_.contains(key_of(action)); });
     }
     std::erase_if(out, [&](const Action& action) { return options_.may && !options_.may(action); });
     return out;
+  }
+
+  /// One of an earlier search, one that is like those which came somewhere, or one that is drawn.
+  Conversation thought_of() {
+    if (from_corpus_ < options_.corpus.size()) return options_.corpus[from_corpus_++];
+    auto drawn = draw(words_, next_random(seeds_), options_.episode_length);
+    if (is_real() || guide_.empty() || !chances_.chance(options_.guided)) return drawn;
+    return guide_.like_kept(chances_, std::move(drawn), 2 * options_.episode_length);
   }
 
   [[nodiscard]] bool is_real() const { return static_cast<bool>(bench_.place); }
@@ -266,6 +281,10 @@ class Search {
   const Vocabulary& words_;
   const SearchOptions& options_;
   std::uint64_t seeds_;
+  Random chances_;  ///< of the guidance: beside the seeds, so that what is drawn is the same without it
+  Guide guide_;
+  std::size_t from_corpus_ = 0;  ///< conversations played
+  std::size_t of_corpus_ = 0;    ///< ... and kept by the guide: they are no new ones
   SearchResult out_;
   std::set<std::string> known_;         ///< signatures
   std::map<std::string, Grade> rules_;  ///< requirements that findings have named

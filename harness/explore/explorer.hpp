@@ -39,6 +39,11 @@ struct SearchOptions {
   std::size_t episode_length = 80;
   std::size_t most_tries = 600;  ///< conversations played to make one shorter
   unsigned repeats = 3;
+  /// Conversations of earlier searches with such a device: they are played first.
+  std::vector<Conversation> corpus{};
+  /// Of a hundred conversations, those that are made from others which came to a new state; the rest is drawn
+  /// anew. Of a device on an interface none: each must be drawn with its caution.
+  unsigned guided = 0;
   Offer offer{};  ///< legal choices that the model does not have yet
   /// What may be done to the device; empty: everything.
   std::function<bool(const Action&)> may{};
@@ -55,6 +60,8 @@ struct SearchResult {
   std::size_t distrusted = 0;         ///< episodes in which the host lost frames or was late
   std::size_t passed_by = 0;          ///< differences of a real device that did not show again
   std::size_t known = 0;              ///< episodes that ended with what was known already
+  std::size_t states = 0;             ///< abstract states that were reached
+  std::vector<Conversation> kept{};   ///< conversations that reached one where none had been
   std::optional<Error> ended_by{};    ///< the bus or the device was gone: what was found until then is here
   std::vector<std::string> chosen{};  ///< legal choices of the device that its model was told of on the way
 };

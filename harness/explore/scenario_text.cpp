@@ -206,13 +206,15 @@ std::string due_text(const Finding& finding, const Vocabulary& words) {
   return "";
 }
 
-std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words, std::string_view how) {
+std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words, std::string_view how,
+                          std::span<const std::string> remarks) {
   std::string out =
       fmt::format("# Found by: {}\nformat: 1\ntitle: Found by exploration\n\nscenarios:\n", how);
   std::size_t number = 0;
   for (const auto& finding : findings) {
     const auto came = came_text(finding, words), due = due_text(finding, words);
     const auto title = due.empty() ? came : fmt::format("{} instead of {}", came, due);
+    if (number < remarks.size() && !remarks[number].empty()) out += fmt::format("  # {}\n", remarks[number]);
     out += fmt::format("  - id: finding-{}\n    title: {}\n    risk: motion\n    steps:\n", ++number,
                        quoted(printable(title)));
     out += Writer(finding, words).steps();

@@ -10,9 +10,9 @@
 namespace conform::explore {
 
 /// A file of scenarios, one for each finding, "finding-1" on. What has no rule judges nothing: it plays the
-/// conversation and says what differed.
+/// conversation and says what differed. `remarks`: a comment before each, where it is not empty.
 [[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words,
-                                        std::string_view how);
+                                        std::string_view how, std::span<const std::string> remarks = {});
 
 /// What the device did and what was due, in one line each.
 [[nodiscard]] std::string came_text(const Finding& finding, const Vocabulary& words);

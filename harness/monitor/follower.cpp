@@ -7,6 +7,7 @@
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/lss.hpp"
+#include "monitor/own_ids.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -48,13 +49,7 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
     } else if (!frame.remote) {
       response(default_, true);
     }
-  } else if (!more_.empty() && std::ranges::any_of(more_, [&](Server& server) {
-               if (((server.request | server.response) & not_valid) != 0) return false;
-               if (key == server.request) return request(server), true;
-               if (key == server.response && from_device && !frame.remote)
-                 return response(server, false), true;
-               return false;
-             })) {
+  } else if (!more_.empty() && of_more_channels(key, from_device)) {
     // Taken.
   } else if (frame.id == 0) {
     now_.subject = Subject::nmt;
@@ -93,6 +88,24 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   return now_;
 }
 
+/// Of an additional SDO server, in either direction.
+bool Follower::of_more_channels(Key key, bool from_device) {
+  for (std::size_t i = 0; i < more_.size(); ++i) {
+    auto& server = more_[i];
+    if (((server.request | server.response) & not_valid) != 0) continue;
+    if (key == server.request) return request(server), true;
+    if (key != server.response || !from_device || now_.captured->frame.remote) continue;
+    // A CAN-ID with two uses: nobody knows whose frame it is.
+    const auto index = static_cast<std::uint16_t>(0x1201 + i);
+    if (other_holder(holders(*this, key), index, index)) {
+      server.channel.lose_track();
+      return false;
+    }
+    return response(server, false), true;
+  }
+  return false;
+}
+
 /// A node that is not the device shows itself by what only another one sends: also by asking the device.
 void Follower::look_at_sender() {
   const auto& frame = now_.frame();
@@ -110,6 +123,13 @@ void Follower::look_at_sender() {
     others_ = others_ ||
               (nmt_.booting() && !nmt_.overdue(now_.time()) && nmt_.is_newer(now_.time(), nmt_.reset_at()));
   }
+}
+
+/// A boot-up message with a node-ID that LSS has given: what was to reset the device has done so.
+bool Follower::boots_elsewhere() const {
+  const auto& frame = now_.frame();
+  return now_.received() && !frame.extended && frame.id > 0x700 && frame.id < 0x780 &&
+         names_.test(frame.id & 0x7FU) && frame.dlc == 1 && frame.data[0] == 0;
 }
 
 bool Follower::may_be_own(Entries::Key can_id) const {
@@ -169,6 +189,9 @@ void Follower::settle() {
       break;
     case Subject::sdo_response:
     case Subject::emcy: heard_ = now_.time(); break;
+    case Subject::data:
+      if (boots_elsewhere()) nmt_.moved();
+      break;
     default: break;
   }
 }

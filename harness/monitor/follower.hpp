@@ -104,6 +104,8 @@ class Follower {
   void request(Server& server);
   void response(Server& server, bool default_channel);
   void lay_bait(SdoAnswer::Cause cause);
+  [[nodiscard]] bool of_more_channels(Key key, bool from_device);
+  [[nodiscard]] bool boots_elsewhere() const;
   [[nodiscard]] bool is_taken(Key key, bool default_channel) const;
   void written(const SdoChannel::Value& write);
   void note_download(const can::Frame& frame, BusTime time);

@@ -21,6 +21,8 @@ void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index)
   commanded_.reset();
   if (!command) return;
   if (canopen::is_reset(*command)) {
+    // Perhaps it has another node-ID now, and obeys only what is told to all.
+    if (moved_ && node != 0) return;
     // What came long ago is settled: only resets close together may share a boot-up message.
     resets_ = time > reset_at_ + facts_.boot_time ? 1 : resets_ + 1;
     booting_ = true;
@@ -40,13 +42,20 @@ void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index)
 
 void NmtState::boot_up(BusTime time) {
   if (resets_ > 0) --resets_;
-  booting_ = readdressed_ = false;
+  booting_ = readdressed_ = moved_ = false;
   booted_at_ = time;
   commanded_.reset();
 }
 
 void NmtState::readdressed() {
   readdressed_ = true;
+  commanded_.reset();
+}
+
+void NmtState::moved() {
+  if (resets_ > 0) --resets_;
+  booting_ = false;
+  moved_ = readdressed_ = true;
   commanded_.reset();
 }
 

@@ -26,6 +26,8 @@ class NmtState {
   void boot_up(BusTime time);
   /// A node-ID is configured by LSS (CiA 305): a device that starts with it hears no command to the old one.
   void readdressed();
+  /// A boot-up message with a node-ID that LSS gave it: it has started there.
+  void moved();
   /// The device spoke T_BOOT after a reset and had sent no boot-up message: it was not reset.
   void reset_had_no_effect();
   /// Frames were lost.
@@ -71,6 +73,7 @@ class NmtState {
   std::optional<BusTime> booted_at_, ordered_at_;
   bool booting_ = false;
   bool readdressed_ = false;  ///< until the next boot-up message with the node-ID that it is known by
+  bool moved_ = false;        ///< ... and it has started with the other one
   std::size_t resets_ = 0;
   std::optional<canopen::NmtCommand> last_reset_;
   BusTime reset_at_{};

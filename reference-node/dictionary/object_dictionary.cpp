@@ -122,7 +122,7 @@ Entry& ObjectDictionary::add_variable(std::uint16_t index, Entry entry) {
   CONFORM_CHECK(!objects_.contains(index));
   Object& object = objects_[index];
   object.name = entry.name;
-  return object.entries[0] = std::move(entry);
+  return object.entries.try_emplace(0, std::move(entry)).first->second;
 }
 
 Object& ObjectDictionary::add_complex(std::uint16_t index, std::string name, ObjectKind kind) {
@@ -130,18 +130,21 @@ Object& ObjectDictionary::add_complex(std::uint16_t index, std::string name, Obj
   Object& object = objects_[index];
   object.name = std::move(name);
   object.kind = kind;
-  object.entries[0] = integer_entry("Highest sub-index supported", DataType::unsigned8, Access::constant, 0);
+  object.entries.try_emplace(
+      0, integer_entry("Highest sub-index supported", DataType::unsigned8, Access::constant, 0));
   return object;
 }
 
 Entry& ObjectDictionary::add_sub(std::uint16_t index, std::uint8_t sub, Entry entry) {
-  CONFORM_CHECK(objects_.contains(index));
-  Object& object = objects_[index];
-  Entry* highest = this->entry(index, 0);
-  if (highest != nullptr && highest->access == Access::constant && highest->number() < sub) {
-    highest->value = highest->default_value = Bytes{sub};
+  const auto object = objects_.find(index);
+  CONFORM_CHECK(object != objects_.end());
+  auto& entries = object->second.entries;
+  if (const auto first = entries.find(0); first != entries.end()) {
+    auto& highest = first->second;
+    if (highest.access == Access::constant && highest.number() < sub)
+      highest.value = highest.default_value = Bytes{sub};
   }
-  return object.entries[sub] = std::move(entry);
+  return entries.insert_or_assign(entries.end(), sub, std::move(entry))->second;
 }
 
 void ObjectDictionary::remove_sub(std::uint16_t index, std::uint8_t sub) {

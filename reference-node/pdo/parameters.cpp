@@ -176,6 +176,7 @@ std::vector<Mapped> PdoParameters::mapping() const {
   std::vector<Mapped> all;
   if (multiplexed_) return all;
   const std::uint64_t count = device_->dictionary.number(mapping_, 0);
+  all.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(count, mapping_entries_)));
   for (std::uint8_t sub = 1; sub <= count && sub <= mapping_entries_; ++sub) {
     all.push_back(Mapped::unpack(device_->dictionary.number(mapping_, sub)));
   }

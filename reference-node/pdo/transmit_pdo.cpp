@@ -36,8 +36,9 @@ TransmitPdo::TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uin
 }
 
 bool TransmitPdo::enabled() const {
-  const bool something = parameters_.mapped_size() > 0 || terms_->choices.sent_empty;
-  return device_->works_now(Service::tpdo) && terms_->rules.valid(parameters_) && something;
+  // What is mapped comes last: to gather it takes the longest, and every SYNC asks.
+  return device_->works_now(Service::tpdo) && terms_->rules.valid(parameters_) &&
+         (terms_->choices.sent_empty || parameters_.mapped_size() > 0);
 }
 
 bool TransmitPdo::timed() const {

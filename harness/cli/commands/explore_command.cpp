@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/files.hpp"
 #include "base/shell_word.hpp"
@@ -15,15 +16,21 @@
 #include "cli/commands/commands.hpp"
 #include "cli/commands/explore_command.hpp"
 #include "cli/exploring/live_search.hpp"
+#include "cli/exploring/written_findings.hpp"
 #include "cli/proof/explored.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/stop_signal.hpp"
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
+#include "explore/corpus.hpp"
 #include "explore/scenario_text.hpp"
 
 namespace conform::cli {
 namespace {
+
+/// Of a hundred conversations, those that are made from kept ones. More of them find less than drawn ones do
+/// (docs/exploration.md).
+constexpr unsigned guided_by_corpus = 25;
 
 /// The command that finds it again, whatever the machine is worth.
 std::string again(const ExploreCommand& options, std::size_t actions) {
@@ -39,6 +46,7 @@ std::string again(const ExploreCommand& options, std::size_t actions) {
   if (!options.eds.empty()) add("--eds", options.eds);
   if (!options.device.empty()) add("--device", options.device);
   if (options.node) add("--node", std::to_string(*options.node));
+  if (!options.corpus.empty()) add("--corpus", options.corpus);
   return out + fmt::format(" --seed {} --actions {}", options.seed, actions);
 }
 
@@ -137,6 +145,32 @@ void print_summary(const explore::SearchResult& result, const FoundCounts& verdi
       verdicts.open));
 }
 
+/// How many conversations are new in the corpus. The next search begins with those that found something, so
+/// that it says at once what became of it.
+Result<std::size_t> keep(const std::string& folder, const explore::SearchResult& result, NodeId node) {
+  std::vector<explore::Conversation> found;
+  for (const auto& finding : result.findings) found.push_back(finding.conversation);
+  const auto first = explore::add_to_corpus(folder, found, node, true);
+  if (!first) return std::unexpected(first.error());
+  const auto others = explore::add_to_corpus(folder, result.kept, node);
+  if (!others) return std::unexpected(others.error());
+  return *first + *others;
+}
+
+/// What was found in simulation is played once more there.
+Result<void> write(const ExploreCommand& options, const explore::SearchResult& result,
+                   const explore::Vocabulary& words, const device::Profile& profile,
+                   const NodeSwitches& switches, const scenario::Catalogue& catalogue) {
+  const auto how = again(options, result.actions);
+  if (!options.simulate)
+    return write_file_atomically(options.write, explore::scenario_file(result.findings, words, how));
+  const auto written =
+      write_findings(options.write, result.findings, words, how, switches, profile, catalogue);
+  if (!written) return std::unexpected(written.error());
+  print(fmt::format("{}: {}\n", options.write, written->text()));
+  return {};
+}
+
 }  // namespace
 
 int explore_command(const ExploreCommand& options) {
@@ -180,6 +214,7 @@ int explore_command(const ExploreCommand& options) {
   };
 
   explore::SearchResult result;
+  NodeSwitches switches;
   int code = 0;
   if (live) {
     auto found =
@@ -196,20 +231,31 @@ int explore_command(const ExploreCommand& options) {
     code = tell_of_device(*found);
     if (result.ended_by && stop_signal == 0) code = report_error(*result.ended_by, exit_environment);
   } else {
-    auto device = explorable_of(known->profile, {options.defects, options.variants, known->description},
-                                options.variants);
+    switches = {options.defects, options.variants, known->description};
+    auto device = explorable_of(known->profile, switches, options.variants);
     if (!device) return report_error(device.error(), exit_usage);
     words = device->words;
     search.offer = device->offer;
+    if (!options.corpus.empty()) {
+      auto corpus = explore::read_corpus(options.corpus, words.node);
+      if (!corpus) return report_error(corpus.error(), exit_usage);
+      search.corpus = std::move(*corpus);
+      search.guided = guided_by_corpus;
+    }
     auto found = explore::search(device->bench, device->words, search);
     if (!found) return report_error(found.error(), exit_environment);
     result = std::move(*found);
   }
   const auto verdicts = count_words(result, suites->catalogue);
   print_summary(result, verdicts, std::chrono::steady_clock::now() - begin);
+  if (!options.corpus.empty()) {
+    const auto added = keep(options.corpus, result, words.node);
+    if (!added) return report_error(added.error(), exit_environment);
+    print(fmt::format("{}: {} conversations read, {} added; {} states reached\n", options.corpus,
+                      search.corpus.size(), *added, result.states));
+  }
   if (!options.write.empty() && !result.findings.empty()) {
-    const auto text = explore::scenario_file(result.findings, words, again(options, result.actions));
-    if (auto written = write_file_atomically(options.write, text); !written)
+    if (auto written = write(options, result, words, known->profile, switches, suites->catalogue); !written)
       return report_error(written.error(), exit_environment);
   }
   if (stop_signal != 0) return 128 + stop_signal;

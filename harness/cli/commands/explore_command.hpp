@@ -25,6 +25,7 @@ struct ExploreCommand {
   std::optional<std::size_t> actions;  ///< how many
   std::size_t most_findings = 20;      ///< after which the search ends
   std::string write;                   ///< file for the findings as scenarios; empty: none
+  std::string corpus;                  ///< folder of conversations that are kept; empty: none
   bool strict = false;                 ///< findings without a known rule are not passed over
   bool quiet = false;                  ///< print only the summary
   bool prove = false;  ///< against every defect and legal variant of the reference node, or `defects`

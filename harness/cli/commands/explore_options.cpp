@@ -10,8 +10,9 @@ CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
       sub->add_option("-i,--interface", command.interface,
                       "CAN interface the device is alone on with this program, for example can0")
           ->type_name("NAME");
-  sub->add_flag("--simulate", command.simulate, "Explore the reference node on a simulated bus")
-      ->excludes(interface);
+  auto* simulate =
+      sub->add_flag("--simulate", command.simulate, "Explore the reference node on a simulated bus")
+          ->excludes(interface);
   sub->add_option(
          "--allow", command.allow,
          "Highest risk to take: config, nvm or motion (default: config on real interfaces, motion on virtual ones)")
@@ -47,6 +48,10 @@ CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
   sub->add_option("--findings", command.most_findings, "End after so many findings (default 20)")
       ->type_name("NUMBER");
   sub->add_option("--write", command.write, "Write the findings as scenarios")->type_name("FILE");
+  sub->add_option("--corpus", command.corpus,
+                  "Begin with the conversations kept here, and keep those that come to a new state")
+      ->needs(simulate)
+      ->type_name("FOLDER");
   sub->add_flag("--strict", command.strict, "Exit with 3 for what is tolerated or has no known rule, too");
   sub->add_flag("-q,--quiet", command.quiet, "Print only the summary");
   auto* prove = sub->add_flag(

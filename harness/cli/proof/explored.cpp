@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <utility>
@@ -87,23 +88,55 @@ NodeSwitches as_told(const device::Profile& profile, NodeSwitches model) {
   return model;
 }
 
+/// Which legal variants contradict what the profile tells. A node is made to find out, so that it is only
+/// asked about when a device differs, and once.
+class Contradicting {
+ public:
+  Contradicting(device::Profile profile, NodeSwitches model)
+      : profile_(std::move(profile)), model_(std::move(model)), known_(refnode::variants().size()) {}
+
+  /// By its place in the table. From any thread.
+  [[nodiscard]] bool operator()(std::size_t variant) {
+    const std::scoped_lock lock(mutex_);
+    if (!known_[variant]) known_[variant] = look_at(refnode::variants()[variant].id);
+    return *known_[variant];
+  }
+
+ private:
+  [[nodiscard]] bool look_at(std::string_view id) {
+    if (!asked_) of_model_ = contradictions(profile_, model_);
+    asked_ = true;
+    const auto then = contradictions(profile_, with(model_, id));
+    return !of_model_ || !then || !std::ranges::includes(*of_model_, *then);
+  }
+
+  device::Profile profile_;
+  NodeSwitches model_;
+  std::mutex mutex_;
+  bool asked_ = false;
+  std::optional<Words> of_model_;
+  std::vector<std::optional<bool>> known_;
+};
+
 /// The legal variants as choices of the model, and the models that have chosen.
 explore::Offer offer_of(const device::Profile& profile, const NodeSwitches& model) {
   explore::Offer out;
-  std::vector<std::string> ids;
-  const auto known = contradictions(profile, model);
-  for (const auto& variant : refnode::variants()) {
-    // A choice that contradicts what the profile tells is none.
-    const auto then = contradictions(profile, with(model, variant.id));
-    if (!known || !then || !std::ranges::includes(*known, *then)) continue;
-    ids.emplace_back(variant.id);
+  for (const auto& variant : refnode::variants())
     out.choices.push_back({.name = std::string(variant.id),
                            .group = std::string(variant.group),
                            .warns = std::string(variant.warns.empty() ? "" : variant.warns.front())});
-  }
-  out.model_of = [ids = std::move(ids), model, node = profile.node](const explore::Choices& chosen) {
+  const auto contradicts = std::make_shared<Contradicting>(profile, model);
+  out.model_of = [contradicts, model, node = profile.node](const explore::Choices& chosen) {
     auto switches = model;
-    for (const auto choice : chosen) switches = with(std::move(switches), ids[choice]);
+    for (const auto choice : chosen) {
+      // A choice that contradicts what the profile tells is none.
+      if ((*contradicts)(choice)) {
+        return explore::MakeDevice([]() -> Result<std::unique_ptr<can::Participant>> {
+          return fail("the profile tells of another device");
+        });
+      }
+      switches = with(std::move(switches), refnode::variants()[choice].id);
+    }
     return maker_of(switches, node);
   };
   return out;
@@ -137,6 +170,9 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
   search.offer = right.offer;
   search.repeats = 1;
   search.on_finding = [&](const explore::Finding& finding) {
+    // What only strains the rule of a monitor may be a monitor that was led astray.
+    const bool by_monitor = finding.played.difference->what == explore::Difference::What::rule;
+    if (by_monitor && !finding.is_violation()) return false;
     if (!out.found) {
       out.actions = finding.actions_until;
       out.shortest = finding.conversation.size();

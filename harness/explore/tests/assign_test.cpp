@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explore/assign.hpp"
 
+#include <algorithm>
 #include "catch.hpp"
 
 #include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
 #include "explore/tests/device.hpp"
 
 using namespace conform;
@@ -40,6 +42,24 @@ std::optional<Assigned> judged(const Conversation& talk, const Answer& device, c
   played.answers.assign(talk.size(), confirmed());
   played.due.assign(talk.size(), confirmed());
   return assign({words, talk, played});
+}
+
+/// In `talk` this came, and with the model that.
+std::optional<Assigned> judged_frames(const Conversation& talk, Difference::What what, const can::Frame& came,
+                                      const can::Frame& due) {
+  const auto words = words_of_the_standard();
+  Played played;
+  played.difference.emplace();
+  played.difference->what = what;
+  played.difference->action = talk.size() - 1;
+  played.difference->came = came;
+  played.difference->due = due;
+  return assign({words, talk, played});
+}
+
+std::string text_of(const std::optional<Assigned>& assigned) {
+  if (!assigned) return "";
+  return assigned->requirement + (assigned->grade == Grade::violated ? " violated" : " tolerated");
 }
 
 const Multiplexer device_type{Index(0x1000), SubIndex(0)};
@@ -87,4 +107,137 @@ TEST_CASE("the phrase of a fault tells its rule") {
   CHECK(rule_of_fault(action) == "SDO-BUP-11");
   action.fault = "";
   CHECK(rule_of_fault(action).empty());
+}
+
+TEST_CASE("a value of power-on that nobody has changed is no matter of a reset") {
+  const Multiplexer heartbeat_time{Index(0x1017), SubIndex(0)};
+  const auto device = confirmed({0xF4, 1}), model = confirmed({0, 0});
+  const auto named = [&](Conversation talk) {
+    talk.push_back(upload(heartbeat_time));
+    return text_of(judged(talk, device, model));
+  };
+  const auto at_once = named({});
+  CHECK(named({{.kind = Action::Kind::power}, wait(std::chrono::milliseconds(900))}) == at_once);
+  CHECK(named({nmt(NodeId(5), 0x82), wait(std::chrono::milliseconds(300))}) == at_once);
+  CHECK(named({download(heartbeat_time, {0xF4, 1}), nmt(NodeId(5), 0x82)}) == "NMT-FSA-24 violated");
+}
+
+TEST_CASE("what a device does wrong with the node-ID from LSS it does as wrong with another one") {
+  const auto lss = [](std::initializer_list<std::uint8_t> bytes) {
+    return frame(can::data_frame(canopen::lss_request_can_id, bytes));
+  };
+  const Conversation talk{lss({4, 1, 0, 0, 0, 0, 0, 0}), lss({0x11, 0x20, 0, 0, 0, 0, 0, 0}),
+                          nmt(NodeId(5), 0x82), wait(std::chrono::milliseconds(200)),
+                          frame(can::data_frame(CanId(0x620), {0x40, 0, 0x14, 1, 0, 0, 0, 0}))};
+  using What = Difference::What;
+  const auto heartbeat = can::data_frame(CanId(0x720), {std::uint8_t{0x7F}}),
+             boot_up = can::data_frame(CanId(0x720), {std::uint8_t{0}});
+  CHECK(text_of(judged_frames(talk, What::surplus, heartbeat, {})).empty());
+  CHECK(text_of(judged_frames(talk, What::missing, {}, heartbeat)) == "LSS-CN-04 tolerated");
+  CHECK(text_of(judged_frames(talk, What::missing, {}, boot_up)) == "LSS-CN-04 violated");
+  // A COB-ID that stays with the old node-ID does not follow; one that is wrong anyway does not either.
+  const auto cob_id = [](std::uint8_t low) {
+    return can::data_frame(CanId(0x5A0), {0x43, 0, 0x14, 1, low, 2, 0, 0});
+  };
+  CHECK(text_of(judged_frames(talk, What::other_data, cob_id(0x05), cob_id(0x20))) == "LSS-CN-04 violated");
+  CHECK(text_of(judged_frames(talk, What::other_data, cob_id(0), cob_id(0x20))).empty());
+  // With the old node-ID it says nothing any more.
+  CHECK(text_of(judged_frames(talk, What::surplus,
+                              can::data_frame(CanId(0x585), {0x43, 0, 0x14, 1, 0, 2, 0, 0}), {})) ==
+        "LSS-CN-04 violated");
+}
+
+TEST_CASE("an EMCY that another node has sent is no EMCY of the device") {
+  using What = Difference::What;
+  const auto of_other = can::data_frame(CanId(0x083), {0, 0x10, 1, 0, 0, 0xAC, 0, 0});
+  auto of_device = of_other;
+  of_device.id = 0x085;
+  CHECK(text_of(judged_frames({frame(of_other)}, What::surplus, of_device, {})) == "EMCY-CON-02 violated");
+  CHECK(text_of(judged_frames({frame(of_other)}, What::other_data, of_device,
+                              can::data_frame(CanId(0x085), {0, 0, 0, 0, 2, 0, 0, 0}))) ==
+        "EMCY-CON-02 violated");
+  CHECK(text_of(judged_frames({wait(std::chrono::milliseconds(1))}, What::surplus, of_device, {})) ==
+        "EMCY-SEQ-03 violated");
+}
+
+TEST_CASE("an error code with its bytes in the other order is a matter of form, whatever it says") {
+  using What = Difference::What;
+  const auto code = [](std::uint8_t low, std::uint8_t high) {
+    return can::data_frame(CanId(0x085), {low, high, 0x11, 0, 0, 0, 0, 0});
+  };
+  const Conversation talk{wait(std::chrono::milliseconds(200))};
+  CHECK(text_of(judged_frames(talk, What::other_data, code(0x81, 0x30), code(0x30, 0x81))) ==
+        "EMCY-FMT-01 violated");
+  CHECK(text_of(judged_frames(talk, What::other_data, code(0, 0x10), code(0x30, 0x81))) ==
+        "EC-HBC-03 violated");
+}
+
+TEST_CASE("to begin a block upload is no sub-command without one") {
+  const auto ask = [](std::uint8_t command, std::uint8_t blksize) {
+    return Conversation{request(can::data_frame(CanId(0x605), {command, 0, 0x10, 0, blksize, 0, 0, 0}))};
+  };
+  Answer served;
+  served.kind = Answer::Kind::replied;
+  served.data = {0xC6, 0, 0x10, 0, 4, 0, 0, 0};
+  const auto refused = aborted(canopen::abort::general);
+  CHECK(text_of(judged(ask(0xA4, 0), served, refused)) == "SDO-BUP-09 violated");
+  CHECK(text_of(judged(ask(0xA0, 128), served, refused)) == "SDO-BUP-10 violated");
+  CHECK(text_of(judged(ask(0xA4, 5), served, refused)) == "SDO-BUP-01 tolerated");
+  CHECK(text_of(judged(ask(0xA3, 0), served, refused)) == "SDO-BUP-21 violated");
+}
+
+TEST_CASE("a start behind what was asked is no second boot-up message of power-on") {
+  const auto words = words_of_the_standard();
+  const Conversation talk{request(can::data_frame(CanId(0x605), {0x40, 0, 0x10, 0, 0}))};
+  const auto named = [&](int at) {
+    Played played;
+    played.difference.emplace();
+    played.difference->what = Difference::What::surplus;
+    played.difference->came = can::data_frame(CanId(0x705), {std::uint8_t{0}});
+    played.difference->time = BusTime(std::chrono::milliseconds(at));
+    played.begins = {BusTime(std::chrono::milliseconds(70))};
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named(90) == "NMT-BOOT-10 violated");
+  CHECK(named(40) == "NMT-BOOT-01 violated");
+}
+
+TEST_CASE("only who was asked by its own CAN-ID was asked by a remote frame") {
+  using What = Difference::What;
+  const auto tpdo = can::data_frame(CanId(0x185), {0, 0, 0, 0});
+  const auto named = [&](std::uint32_t id) {
+    return text_of(judged_frames(
+        {nmt(NodeId(5), 1), wait(std::chrono::milliseconds(200)), frame(can::remote_frame(CanId(id), 8))},
+        What::surplus, tpdo, {}));
+  };
+  CHECK(named(0x185) == "OD-1800-14 violated");
+  CHECK(named(0x710) == "PDO-TX-08 tolerated");
+}
+
+TEST_CASE("an RPDO of another length is blamed for its length where it is dropped or taken by that") {
+  auto words = words_of_the_standard();
+  const auto put = [&](std::uint8_t sub, Bytes value) {
+    device::Entry entry;
+    entry.mux = {Index(0x1600), SubIndex(sub)};
+    entry.default_value = std::move(value);
+    words.entries.push_back(entry);
+  };
+  put(0, {1});
+  put(1, {0x10, 1, 0, 0x62});
+  std::ranges::sort(words.entries, {}, &device::Entry::mux);
+  const auto named = [&](std::initializer_list<std::uint8_t> rpdo, std::uint8_t came, std::uint8_t due) {
+    const Conversation talk{nmt(NodeId(5), 1), wait(std::chrono::milliseconds(200)),
+                            frame(can::data_frame(CanId(0x205), rpdo))};
+    Played played;
+    played.difference.emplace();
+    played.difference->what = Difference::What::other_data;
+    played.difference->action = 2;
+    played.difference->came = can::data_frame(CanId(0x185), {came});
+    played.difference->due = can::data_frame(CanId(0x185), {due});
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named({7, 0, 1}, 0, 7) == "PDO-RX-07 violated");
+  CHECK(named({7, 0, 1}, 9, 7) == "PDO-RX-01 violated");
+  CHECK(named({7}, 7, 0) == "PDO-RX-06 violated");
+  CHECK(named({7, 0}, 0, 7) == "PDO-RX-01 violated");
 }

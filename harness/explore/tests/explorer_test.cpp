@@ -116,6 +116,21 @@ TEST_CASE("what a legal choice explains is no finding, and the choice is told") 
   CHECK(both.chosen.size() == 2);
 }
 
+TEST_CASE("a model that is to explain a device is no slower than it") {
+  // What a device does too early would be late answers of such a model, whatever it is.
+  auto bench = bench_of({});
+  bench.model = reference_node({}, {"sdo-turnaround-90ms"});
+  const Conversation talk{upload({Index(0x1000), SubIndex(0)})};
+  const auto patient = play(bench, talk);
+  REQUIRE(patient);
+  CHECK_FALSE(patient->difference.has_value());
+  bench.model_may_be_slower = false;
+  const auto strict = play(bench, talk);
+  REQUIRE(strict);
+  REQUIRE(strict->difference.has_value());
+  CHECK(strict->difference->what == Difference::What::late);
+}
+
 TEST_CASE("a defect is found behind the legal choices of its device") {
   auto bench = bench_of({});
   bench.device = reference_node({"sdo-served-in-stopped"}, {"boot-up-200ms"});

@@ -53,3 +53,16 @@ TEST_CASE("a frame that is missing is waited for from the last thing that was se
                        "      - frame: {id: 705h, within: 70 ms}\n"
                        "        checks: EC-HBP-01\n"));
 }
+
+TEST_CASE("a scenario that does not show what was found says so") {
+  Finding finding;
+  finding.conversation = {upload({Index(0x1000), SubIndex(0)})};
+  auto& difference = finding.played.difference.emplace();
+  difference.device.kind = Answer::Kind::silence;
+  difference.model.kind = Answer::Kind::confirmed;
+  const std::vector<Finding> two{finding, finding};
+  const std::vector<std::string> remarks{"", "It shows nothing."};
+  const auto text = scenario_file(two, words_of_the_standard(), "x", remarks);
+  CHECK(text.find("scenarios:\n  - id: finding-1\n") != std::string::npos);
+  CHECK(text.find("  # It shows nothing.\n  - id: finding-2\n") != std::string::npos);
+}

@@ -34,6 +34,20 @@ TEST_CASE("A reset without a boot-up message is found once the device speaks aga
   CHECK(told({"> 000: 81", "wait 6 s", request, answer}).empty());
 }
 
+TEST_CASE("A device that starts with a node-ID from LSS has started") {
+  // It holds the COB-ID of its EMCY as it was stored, and so is heard of on 081h.
+  const std::string as_32 = "> 7E5: 11 20 00 00 00 00 00 00", boot_up_of_32 = "< 720: 00",
+                    emcy = "< 081: 40 82 11 01 03 00 00 00", reset_all = "> 000: 81 00";
+  CHECK(told({as_32, reset_node, boot_up_of_32, "wait 6 s", emcy}).empty());
+  // What is said to the old node-ID is not said to it.
+  CHECK(told({as_32, reset_node, boot_up_of_32, reset_node, "wait 6 s", emcy}).empty());
+  CHECK(told({as_32, reset_node, "wait 6 s", emcy}) == Told{"fail NMT-BOOT-02 in frame 3"});
+  CHECK(told({as_32, reset_node, boot_up_of_32, reset_all, "wait 6 s", emcy}) ==
+        Told{"fail NMT-BOOT-02 in frame 5"});
+  CHECK(told({"> 7E5: 11 21 00 00 00 00 00 00", reset_node, boot_up_of_32, "wait 6 s", emcy}) ==
+        Told{"fail NMT-BOOT-02 in frame 4"});
+}
+
 TEST_CASE("A boot-up message that comes twice, or for another command than a reset") {
   CHECK(told({reset_communication, boot_up, boot_up}) == Told{"fail NMT-BOOT-03 in frame 3"});
   CHECK(told({boot_up, "wait 3 s", start, boot_up}) == Told{"fail NMT-BOOT-06 in frame 3"});

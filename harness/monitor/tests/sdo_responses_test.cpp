@@ -230,3 +230,17 @@ TEST_CASE("On restricted CAN-IDs, and those of other services of the device, the
       configured("A0 06 00 00", "A1 06 00 00", {"> 6A0: 40 00 10 00 00 00 00 00", "< 6A1: 43 00 10 00 91"}) ==
       Told{"fail SDO-GEN-02 in frame 10"});
 }
+
+TEST_CASE("A CAN-ID with which another service of the device may send is no place to judge SDO") {
+  // 1201h answers on 281h, the CAN-ID of the second TPDO, or on one that a TPDO is given later.
+  const auto channel = [](std::uint32_t response) {
+    return Story().write(0x1201, 1, 0x690).write(0x1201, 2, response);
+  };
+  const std::string request = "> 690: 40 00 10 00 00 00 00 00", of_pdo = "00 00 3F";
+  CHECK(channel(0x281).line(request).line("< 281: " + of_pdo).told().empty());
+  CHECK(channel(0x691).write(0x1801, 1, 0x691).line(request).line("< 691: " + of_pdo).told().empty());
+  CHECK(channel(0x691).line(request).line("< 691: " + of_pdo).told() == Told{"fail SDO-GEN-02"});
+  // A TPDO that is not valid sends nothing.
+  CHECK(channel(0x691).write(0x1801, 1, 0x8000'0691).line(request).line("< 691: " + of_pdo).told() ==
+        Told{"fail SDO-GEN-02"});
+}
