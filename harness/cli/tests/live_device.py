@@ -20,10 +20,10 @@ os.environ["XDG_STATE_HOME"] = STATE.name
 
 
 class Node:
-    """canopen-refnode on the interface, ready when its line has come."""
+    """canopen-refnode on the interface, or on another one of the same bus, ready when its line has come."""
 
-    def __init__(self, *arguments):
-        self.process = subprocess.Popen([os.path.join(FOLDER, "canopen-refnode"), "--interface", INTERFACE, "--node", "5",
+    def __init__(self, *arguments, interface=INTERFACE):
+        self.process = subprocess.Popen([os.path.join(FOLDER, "canopen-refnode"), "--interface", interface, "--node", "5",
                                          *arguments], stdout=subprocess.PIPE, text=True)
         line = self.process.stdout.readline()
         assert "node 5" in line, line
