@@ -94,9 +94,9 @@ class Recorder {
                            ///< half its period
   };
   [[nodiscard]] Lateness take_lateness() { return std::exchange(lateness_, {}); }
-  /// Frames of ours that were on the bus more than host_is_late behind the last thing that we had known before
-  /// (productions are looked after above): whoever stands still in the middle of a sub-block finds a server that has lost
-  /// patience.
+  /// Frames of ours that were on the bus more than host_is_late behind the last thing that we had known
+  /// before (productions are looked after above): whoever stands still in the middle of a sub-block finds a
+  /// server that has lost patience.
   [[nodiscard]] std::uint64_t late_sendings() const { return late_sendings_; }
 
   /// A waking that was so late that the machine must have had other work.
