@@ -241,3 +241,9 @@ TEST_CASE("an RPDO of another length is blamed for its length where it is droppe
   CHECK(named({7}, 7, 0) == "PDO-RX-06 violated");
   CHECK(named({7, 0}, 0, 7) == "PDO-RX-01 violated");
 }
+
+TEST_CASE("a value of the wrong length is wrong, also where the model has none") {
+  const auto refused = aborted(canopen::abort::no_data);
+  CHECK(text_of(judged({upload(device_type)}, confirmed({0}), refused)) == "OD-LEN-04 violated");
+  CHECK(text_of(judged({upload(device_type)}, confirmed({0, 0, 0, 0}), refused)).empty());
+}
