@@ -35,6 +35,7 @@ std::optional<Choices> Adapter::learn(const Conversation& conversation, const Pl
   // explains this one, but not what came before: that a wrong choice is taken back is half of the way.
   std::vector<std::size_t> matters;
   for (std::size_t choice = 0; choice < offer_.choices.size(); ++choice) {
+    if (refuted_.contains(choice)) continue;
     const auto candidate = with(chosen_, choice);
     const auto played = play_again(bench_with(candidate), heard);
     if (!played) continue;  // it excludes another
@@ -44,13 +45,37 @@ std::optional<Choices> Adapter::learn(const Conversation& conversation, const Pl
   }
   for (const auto first : matters) {
     for (std::size_t second = 0; second < offer_.choices.size(); ++second) {
-      if (second == first) continue;
+      if (second == first || refuted_.contains(second)) continue;
       const auto candidate = with(with(chosen_, first), second);
       const auto played = play_again(bench_with(candidate), heard);
       if (played && !played->difference && take(candidate, heard)) return Choices{first, second};
     }
   }
+  if (refute(heard)) return Choices{};
   return std::nullopt;
+}
+
+/// A choice that this conversation contradicts, and that nothing but what it once explained speaks for, was
+/// none: what it explained will be met again, and is to be explained in another way or is a finding.
+bool Adapter::refute(const Heard& heard) {
+  for (const auto choice : Choices(chosen_)) {
+    auto candidate = chosen_;
+    candidate.erase(choice);
+    auto bench = bench_with(candidate);
+    const auto agrees = [&](const Heard& each) {
+      const auto played = play_again(bench, each);
+      return played && !played->difference;
+    };
+    const auto stands = [&](const Heard& each) { return !each.always || agrees(each); };
+    if (!agrees(heard) || !std::ranges::all_of(explained_, stands) || !std::ranges::all_of(agreed_, agrees))
+      continue;
+    std::erase_if(explained_, [&](const Heard& each) { return !each.always && !agrees(each); });
+    chosen_ = std::move(candidate);
+    bench_.model = std::move(bench.model);
+    refuted_.insert(choice);
+    return true;
+  }
+  return false;
 }
 
 /// Where it agrees with all that was played before.

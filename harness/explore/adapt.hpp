@@ -44,6 +44,7 @@ class Adapter {
   /// what agrees with it by chance is found out.
   /// Where the conversation was kept with what the device did in it, that is held against the models; else
   /// the device plays it again.
+  /// None of them: the device is as the model without a choice that it was wrongly thought to have made.
   [[nodiscard]] std::optional<Choices> learn(const Conversation& conversation, const Played& played);
 
   /// In this conversation the device agreed with its model. It must do so with every later model, too: a
@@ -51,7 +52,7 @@ class Adapter {
   void agreed(const Conversation& conversation, const Played& played);
   /// The same, and it is never forgotten for later ones.
   void agrees_always(const Conversation& conversation, const Played& played) {
-    explained_.push_back({conversation, played.recording});
+    explained_.push_back({conversation, played.recording, true});
   }
 
   [[nodiscard]] const Choices& chosen() const { return chosen_; }
@@ -62,14 +63,17 @@ class Adapter {
   struct Heard {
     Conversation conversation;
     std::shared_ptr<const Recording> recording;  ///< nullptr: the device is asked again
+    bool always = false;                         ///< it is never given up
   };
   [[nodiscard]] static Result<Played> play_again(const Bench& bench, const Heard& heard);
   [[nodiscard]] bool holds_for_all(const Bench& bench) const;
   bool take(const Choices& candidate, const Heard& heard);
+  bool refute(const Heard& heard);
 
   Bench& bench_;
   const Offer& offer_;
   Choices chosen_;
+  Choices refuted_;               ///< they are never chosen again
   std::vector<Heard> explained_;  ///< and those that agree always
   std::vector<Heard> agreed_;     ///< the latest ones
   std::size_t seen_ = 0;          ///< of those that agreed

@@ -148,6 +148,7 @@ std::optional<Assigned> assign_fault(const Evidence& evidence) {
 
 std::optional<Assigned> assign(const Evidence& evidence) {
   const auto& difference = evidence.difference();
+  if (auto behind = assign_behind_a_loss(evidence)) return behind;
   switch (difference.what) {
     case Difference::What::rule:
       // The monitors know the device by the node-ID that it had.

@@ -74,6 +74,8 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
 /// An EMCY.
 [[nodiscard]] std::optional<Assigned> assign_emcy(const Evidence& evidence);
+/// What comes of the state that the loss of another node has led to.
+[[nodiscard]] std::optional<Assigned> assign_behind_a_loss(const Evidence& evidence);
 /// The frame that it is all about.
 [[nodiscard]] const can::Frame& frame_of(const Evidence& evidence);
 /// A guard request to the device.

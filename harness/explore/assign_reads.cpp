@@ -200,7 +200,10 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
       return violates("OD-1003-05");
     if (mux.index == Index(0x1003))
       return device.kind == Kind::confirmed ? violates("OD-1003-09") : strains("OD-1003-03");
-    return std::nullopt;
+    // Why the model has nothing to tell is its own matter, how long the value is it is not.
+    const auto* entry = evidence.words.find(mux);
+    const bool has_length = entry != nullptr && entry->size() && device.kind == Kind::confirmed;
+    return has_length && device.data.size() != *entry->size() ? violates("OD-LEN-04") : std::nullopt;
   }
   if (model.kind != Kind::confirmed) return std::nullopt;
   if (device.kind == Kind::confirmed) return other_value(evidence);

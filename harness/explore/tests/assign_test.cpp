@@ -241,3 +241,33 @@ TEST_CASE("an RPDO of another length is blamed for its length where it is droppe
   CHECK(named({7}, 7, 0) == "PDO-RX-06 violated");
   CHECK(named({7, 0}, 0, 7) == "PDO-RX-01 violated");
 }
+
+TEST_CASE("a value of the wrong length is wrong, also where the model has none") {
+  const auto refused = aborted(canopen::abort::no_data);
+  CHECK(text_of(judged({upload(device_type)}, confirmed({0}), refused)) == "OD-LEN-04 violated");
+  CHECK(text_of(judged({upload(device_type)}, confirmed({0, 0, 0, 0}), refused)).empty());
+}
+
+TEST_CASE("behind the loss of another node it is the error behaviour that is wrong, and no service") {
+  using namespace std::chrono_literals;
+  const auto lose = [](Conversation last) {
+    Conversation out{nmt(NodeId(5), 1), wait(200ms), download({Index(0x1016), SubIndex(1)}, {20, 0, 0x10, 0}),
+                     frame(can::data_frame(CanId(0x710), {std::uint8_t{5}})), wait(200ms)};
+    out.insert(out.end(), last.begin(), last.end());
+    return out;
+  };
+  const auto beat = [](std::uint8_t state) { return can::data_frame(CanId(0x705), {state}); };
+  using What = Difference::What;
+  CHECK(text_of(judged_frames(lose({wait(1ms)}), What::other_data, beat(4), beat(0x7F))) ==
+        "EC-EB-01 violated");
+  CHECK(text_of(judged_frames(lose({download({Index(0x1029), SubIndex(1)}, {2})}), What::other_data, beat(5),
+                              beat(4))) == "EC-EB-03 violated");
+  CHECK(text_of(judged(lose({upload(device_type)}), silent(), confirmed({0}))) == "EC-EB-01 tolerated");
+  const auto sync = can::data_frame(CanId(0x080), {});
+  CHECK(text_of(judged_frames(lose({wait(1ms)}), What::missing, {}, sync)) == "EC-EB-01 tolerated");
+  // A command behind it decides, and where nobody is monitored nobody is lost.
+  CHECK(text_of(judged(lose({nmt(NodeId(5), 1), upload(device_type)}), silent(), confirmed({0}))) ==
+        "SDO-GEN-14 violated");
+  CHECK(text_of(judged({nmt(NodeId(5), 1), wait(200ms), upload(device_type)}, silent(), confirmed({0}))) ==
+        "SDO-GEN-14 violated");
+}

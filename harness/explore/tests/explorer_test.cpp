@@ -116,6 +116,26 @@ TEST_CASE("what a legal choice explains is no finding, and the choice is told") 
   CHECK(both.chosen.size() == 2);
 }
 
+TEST_CASE("a choice that the device contradicts later was none, and is not learnt again") {
+  using namespace std::chrono_literals;
+  const Conversation talk{nmt(NodeId(5), 0x82), wait(300ms), upload({Index(0x1000), SubIndex(0)})};
+  const auto offer = offer_of({"boot-up-2s"});
+  auto bench = bench_of({});
+  Adapter adapter(bench, offer);
+  bench.device = reference_node({}, {"boot-up-2s"});
+  const auto slow = play(bench, talk, true);
+  REQUIRE(slow);
+  REQUIRE(slow->difference);
+  CHECK(adapter.learn(talk, *slow) == Choices{0});
+  bench.device = reference_node({});
+  const auto quick = play(bench, talk, true);
+  REQUIRE(quick);
+  REQUIRE(quick->difference);
+  CHECK(adapter.learn(talk, *quick) == Choices{});
+  CHECK(adapter.chosen().empty());
+  CHECK_FALSE(adapter.learn(talk, *slow).has_value());
+}
+
 TEST_CASE("a model that is to explain a device is no slower than it") {
   // What a device does too early would be late answers of such a model, whatever it is.
   auto bench = bench_of({});
