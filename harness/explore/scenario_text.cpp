@@ -54,8 +54,12 @@ class Writer {
     }
     if (difference.is_about_a_frame()) await(difference);
     if (difference.what == What::rule) {
-      // The monitors of every run judge the frames; this only lets them see the last ones.
+      // The monitors of every run judge the frames: this lets them see the last ones, and names the rule
+      // with a step that whatever comes passes.
       add(fmt::format("- wait: {}", to_string(rest_from(end) + margin)));
+      add("- upload: {object: 1000h:00}");
+      check();
+      add("  expect: [ok, abort any, silence]");
     }
     return out_;
   }
@@ -174,6 +178,18 @@ class Writer {
 
 }  // namespace
 
+namespace {
+
+std::string commented(std::string_view lines) {
+  std::string out = "  # No rule is known for this one: it is to be given a step with 'checks: ID'.\n";
+  for (const auto line : split(lines, '\n')) {
+    if (!line.empty()) out += fmt::format("  # {}\n", line.substr(2));
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string came_text(const Finding& finding, const Vocabulary& words) {
   const auto& difference = *finding.played.difference;
   switch (difference.what) {
@@ -215,9 +231,11 @@ std::string scenario_file(std::span<const Finding> findings, const Vocabulary& w
     const auto came = came_text(finding, words), due = due_text(finding, words);
     const auto title = due.empty() ? came : fmt::format("{} instead of {}", came, due);
     if (number < remarks.size() && !remarks[number].empty()) out += fmt::format("  # {}\n", remarks[number]);
-    out += fmt::format("  - id: finding-{}\n    title: {}\n    risk: motion\n    steps:\n", ++number,
-                       quoted(printable(title)));
-    out += Writer(finding, words).steps();
+    auto scenario = fmt::format("  - id: finding-{}\n    title: {}\n    risk: motion\n    steps:\n", ++number,
+                                quoted(printable(title)));
+    scenario += Writer(finding, words).steps();
+    // Who does not judge is no scenario.
+    out += finding.assigned ? scenario : commented(scenario);
   }
   return out;
 }

@@ -9,8 +9,8 @@
 
 namespace conform::explore {
 
-/// A file of scenarios, one for each finding, "finding-1" on. What has no rule judges nothing: it plays the
-/// conversation and says what differed. `remarks`: a comment before each, where it is not empty.
+/// A file of scenarios, one for each finding, "finding-1" on. What has no rule judges nothing and stands
+/// there as a comment. `remarks`: a comment before each, where it is not empty.
 [[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words,
                                         std::string_view how, std::span<const std::string> remarks = {});
 

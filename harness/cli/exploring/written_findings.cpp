@@ -56,12 +56,12 @@ Result<result::RunResult> play(const std::string& file, const NodeSwitches& swit
 }  // namespace
 
 std::string WrittenFindings::text() const {
-  const auto all = shown + silent + unjudged;
+  const auto all = shown + silent;
   auto out = fmt::format("{} {}, of which {} {} it again", all, all == 1 ? "scenario" : "scenarios", shown,
                          shown == 1 ? "shows" : "show");
   if (silent > 0) out += fmt::format("; {} {} not, as the file says", silent, silent == 1 ? "does" : "do");
   if (unjudged > 0)
-    out += fmt::format("; {} without a known rule {} nothing", unjudged, unjudged == 1 ? "judges" : "judge");
+    out += fmt::format("; {} without a known rule {} comments", unjudged, unjudged == 1 ? "is in" : "are in");
   return out;
 }
 
@@ -71,9 +71,13 @@ Result<WrittenFindings> write_findings(const std::string& file, std::span<const 
                                        const scenario::Catalogue& catalogue) {
   if (auto done = write_file_atomically(file, explore::scenario_file(findings, words, how)); !done)
     return std::unexpected(done.error());
+  WrittenFindings out;
+  if (std::ranges::none_of(findings, [](const auto& each) { return each.assigned.has_value(); })) {
+    out.unjudged = findings.size();
+    return out;
+  }
   const auto run = play(file, switches, profile, catalogue);
   if (!run) return std::unexpected(run.error());
-  WrittenFindings out;
   std::vector<std::string> remarks(findings.size());
   const auto stem = fs::path(file).stem().string();
   for (std::size_t i = 0; i < findings.size(); ++i) {

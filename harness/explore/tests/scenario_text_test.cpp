@@ -60,9 +60,27 @@ TEST_CASE("a scenario that does not show what was found says so") {
   auto& difference = finding.played.difference.emplace();
   difference.device.kind = Answer::Kind::silence;
   difference.model.kind = Answer::Kind::confirmed;
+  finding.assigned = Assigned{"SDO-GEN-01", Grade::violated};
   const std::vector<Finding> two{finding, finding};
   const std::vector<std::string> remarks{"", "It shows nothing."};
   const auto text = scenario_file(two, words_of_the_standard(), "x", remarks);
   CHECK(text.find("scenarios:\n  - id: finding-1\n") != std::string::npos);
   CHECK(text.find("  # It shows nothing.\n  - id: finding-2\n") != std::string::npos);
+}
+
+TEST_CASE("a finding of a monitor names its rule, and one without a rule is a comment") {
+  Finding finding;
+  finding.conversation = {upload({Index(0x1000), SubIndex(0)})};
+  auto& difference = finding.played.difference.emplace();
+  difference.what = Difference::What::rule;
+  difference.requirement = "SDO-GEN-02";
+  auto of_monitor = finding;
+  of_monitor.assigned = Assigned{"SDO-GEN-02", Grade::violated};
+  const std::vector<Finding> two{of_monitor, finding};
+  const auto text = scenario_file(two, words_of_the_standard(), "x");
+  CHECK(text.find("      - upload: {object: 1000h:00}\n"
+                  "        checks: SDO-GEN-02\n"
+                  "        expect: [ok, abort any, silence]\n") != std::string::npos);
+  CHECK(text.find("  # - id: finding-2\n") != std::string::npos);
+  CHECK(text.find("\n  - id: finding-2\n") == std::string::npos);
 }
