@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/fnv1a.hpp"
 #include "base/text.hpp"
 #include "reports/cause_lines.hpp"
 #include "reports/phrases.hpp"
@@ -46,13 +46,10 @@ std::string message_of(const Cause& cause) {
   return fmt::format("{}: {} ({})", log_safe(finding.requirement), headline(finding), extent(cause));
 }
 
-/// FNV-1a: short, and the same on every machine and in every version.
+/// Each part ends with a byte that is in no text.
 std::string fingerprint(const Cause& cause) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  const auto add = [&hash](std::string_view text) {
-    for (const char c : text) hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x100000001B3U;
-    hash = (hash ^ 0xFFU) * 0x100000001B3U;
-  };
+  auto hash = fnv1a_of_nothing;
+  const auto add = [&hash](std::string_view text) { hash = fnv1a("\xFF", fnv1a(text, hash)); };
   const auto& finding = *cause.primary.finding;
   add(finding.requirement);
   add(cause.about);

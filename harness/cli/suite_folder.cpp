@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/files.hpp"
+#include "base/fnv1a.hpp"
 #include "base/text.hpp"
 #include "result/pattern_file.hpp"
 #include "scenario/files.hpp"
@@ -138,10 +139,8 @@ void name_known_mistakes(result::RunResult& run, const std::string& root) {
 namespace {
 
 std::string digest_of(const std::string& folder) {
-  std::uint64_t digest = 0xCBF29CE484222325ULL;
-  const auto mix = [&digest](std::string_view text) {
-    for (const char c : text) digest = (digest ^ static_cast<std::uint8_t>(c)) * 0x100000001B3ULL;
-  };
+  auto digest = fnv1a_of_nothing;
+  const auto mix = [&digest](std::string_view text) { digest = fnv1a(text, digest); };
   auto files = scenario::yaml_files_below(folder, "");
   if (!files) return "unknown";
   for (const auto& file : *files) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/files.hpp"
+#include "base/fnv1a.hpp"
 #include "base/text.hpp"
 #include "canopen/sdo_fault.hpp"
 
@@ -173,11 +174,7 @@ Result<void> check_node(std::string_view text, NodeId node) {
 }
 
 /// The same on every machine, so that a conversation has the same name wherever it is kept.
-std::string name_of(std::string_view text) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  for (const char each : text) hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001B3U;
-  return fmt::format("{:016x}.txt", hash);
-}
+std::string name_of(std::string_view text) { return fmt::format("{:016x}.txt", fnv1a(text)); }
 
 }  // namespace
 

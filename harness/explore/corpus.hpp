@@ -20,8 +20,8 @@ namespace conform::explore {
 [[nodiscard]] Result<Conversation> parse_corpus_text(std::string_view text, const std::string& where,
                                                      NodeId node);
 
-/// All conversations of a folder (*.txt), in the order of their names. None where there is no such folder
-/// yet.
+/// All conversations of a folder (*.txt): those that found something, then the others, each in the order of
+/// their names. None where there is no such folder yet.
 [[nodiscard]] Result<std::vector<Conversation>> read_corpus(const std::string& folder, NodeId node);
 /// Adds them, each in a file that is named by its content; the folder is made. `found`: something was found
 /// by them. Returns how many were new.

@@ -176,10 +176,6 @@ class Writer {
   std::string out_;
 };
 
-}  // namespace
-
-namespace {
-
 std::string commented(std::string_view lines) {
   std::string out = "  # No rule is known for this one: it is to be given a step with 'checks: ID'.\n";
   for (const auto line : split(lines, '\n')) {
