@@ -6,13 +6,12 @@ the adapter stands still while it is to send: $CONFORM_STALLS (8)."""
 import os
 import random
 import subprocess
-import tempfile
 import threading
 import time
 import unittest
 
 from live_bus import load_module
-from live_device import INTERFACE, Node, program, verdicts
+from live_device import INTERFACE, Node, folder_for, program, verdicts
 from serial_adapter import SerialAdapter
 
 STALLS = int(os.environ.get("CONFORM_STALLS", "8"))
@@ -64,9 +63,7 @@ class Adapter(unittest.TestCase):
     maxDiff = None
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.junit = os.path.join(folder.name, "junit.xml")
+        self.junit = os.path.join(folder_for(self), "junit.xml")
         load_module("drivers/net/can/slcan/slcan")
         try:
             self.adapter = SerialAdapter(INTERFACE)

@@ -8,11 +8,10 @@ import json
 import os
 import random
 import subprocess
-import tempfile
 import time
 import unittest
 
-from live_device import FOLDER, SUITES, Node, run
+from live_device import FOLDER, SUITES, Node, folder_for, run
 
 COUNT = int(os.environ.get("CONFORM_BUDGET_DEFECTS", "10"))
 SEED = int(os.environ.get("CONFORM_BUDGET_SEED") or datetime.date.today().strftime("%Y%m%d"))
@@ -28,9 +27,7 @@ def defects():
 
 class Budget(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.json = os.path.join(folder.name, "result.json")
+        self.json = os.path.join(folder_for(self), "result.json")
 
     def play(self, *defect):
         """Exit code, seconds, and the cases that failed or warned."""

@@ -37,6 +37,13 @@ class Node:
         self.process.stdout.close()
 
 
+def folder_for(test):
+    """The name of a folder that is gone behind the test."""
+    folder = tempfile.TemporaryDirectory()
+    test.addCleanup(folder.cleanup)
+    return folder.name
+
+
 def program(*arguments):
     return [os.path.join(FOLDER, "canopen-conform"), *arguments]
 

@@ -5,11 +5,10 @@ interface is $CONFORM_TEST_CAN."""
 import os
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-from live_device import INTERFACE, SUITES, Node, program
+from live_device import INTERFACE, SUITES, Node, folder_for, program
 
 PROFILE = os.path.join(SUITES, "devices/reference-node.yaml")
 # What the device itself changes: error register, error field, clock, what the last command of its operating system gave.
@@ -26,9 +25,7 @@ def run(*arguments):
 
 class Explore(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        self.folder = folder_for(self)
         self.journal = os.path.join(self.folder, "explore.journal")
 
     def held(self, may_be_stopped=False):

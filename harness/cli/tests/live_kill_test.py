@@ -9,12 +9,11 @@ import signal
 import socket
 import struct
 import subprocess
-import tempfile
 import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from live_device import INTERFACE, SUITES, Node, command, program
+from live_device import INTERFACE, SUITES, Node, command, folder_for, program
 
 ROUNDS = int(os.environ.get("CONFORM_KILL_ROUNDS", "5"))
 SEED = os.environ.get("CONFORM_KILL_SEED", time.strftime("%Y%m%d"))
@@ -138,14 +137,12 @@ def logged(path):
 
 class Kill(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.environment = dict(os.environ, XDG_STATE_HOME=os.path.join(folder.name, "state"))
-        self.junit = os.path.join(folder.name, "j.xml")
-        self.log = os.path.join(folder.name, "run.log")
-        self.pcapng = os.path.join(folder.name, "run.pcapng")
-        self.journal = os.path.join(folder.name, f"state/canopen-conform/{INTERFACE}-5.journal")
+        self.folder = folder_for(self)
+        self.environment = dict(os.environ, XDG_STATE_HOME=os.path.join(self.folder, "state"))
+        self.junit = os.path.join(self.folder, "j.xml")
+        self.log = os.path.join(self.folder, "run.log")
+        self.pcapng = os.path.join(self.folder, "run.pcapng")
+        self.journal = os.path.join(self.folder, f"state/canopen-conform/{INTERFACE}-5.journal")
 
     def areas(self):
         self.maxDiff = 2000

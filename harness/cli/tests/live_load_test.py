@@ -9,11 +9,10 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-from live_device import FOLDER, INTERFACE, SUITES, Node, command, verdicts
+from live_device import FOLDER, INTERFACE, SUITES, Node, command, folder_for, verdicts
 
 ROUNDS = int(os.environ.get("CONFORM_LOAD_ROUNDS", "0"))
 SECONDS = int(os.environ.get("CONFORM_LOAD_SECONDS", "6"))
@@ -40,11 +39,9 @@ class Hogs:
 
 class Load(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.junit = os.path.join(folder.name, "j.xml")
-        self.capture = os.path.join(folder.name, "run.pcapng")
+        self.folder = folder_for(self)
+        self.junit = os.path.join(self.folder, "j.xml")
+        self.capture = os.path.join(self.folder, "run.pcapng")
 
     def arguments(self, *more):
         return command("--allow", "motion", "--device", DEVICE, "--junit", self.junit, *more)

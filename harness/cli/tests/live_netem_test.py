@@ -9,12 +9,11 @@ import collections
 import os
 import re
 import subprocess
-import tempfile
 import time
 import unittest
 
 from live_bus import Selected, Shaped
-from live_device import INTERFACE, Node, command, verdicts
+from live_device import INTERFACE, Node, command, folder_for, verdicts
 
 WHOLE = os.environ.get("CONFORM_NETEM_WHOLE") == "1"
 CASES = ["cia301/sdo/segmented*", "cia301/sdo/upload*", "cia301/heartbeat/producer/*"] if WHOLE else [
@@ -29,9 +28,8 @@ ONE_ANSWER = "monitor/sdo-responses "  # and its title
 
 class Netem(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.junit, self.candump = os.path.join(folder.name, "junit.xml"), os.path.join(folder.name, "run.log")
+        folder = folder_for(self)
+        self.junit, self.candump = os.path.join(folder, "junit.xml"), os.path.join(folder, "run.log")
         node = Node()
         self.addCleanup(node.__exit__)
 

@@ -6,11 +6,10 @@ and made anew: $CONFORM_OUTAGE_DELETIONS (6) times."""
 import collections
 import os
 import subprocess
-import tempfile
 import time
 import unittest
 
-from live_device import INTERFACE, Node, command, verdicts
+from live_device import INTERFACE, Node, command, folder_for, verdicts
 
 SECONDS = int(os.environ.get("CONFORM_OUTAGE_SECONDS", "8"))
 DELETIONS = int(os.environ.get("CONFORM_OUTAGE_DELETIONS", "6"))
@@ -40,9 +39,7 @@ class Outages(unittest.TestCase):
         done = ip("link", "set", INTERFACE, "up")
         if done.returncode != 0:
             self.skipTest("the interface cannot be switched here")
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.junit = os.path.join(folder.name, "junit.xml")
+        self.junit = os.path.join(folder_for(self), "junit.xml")
 
     def tearDown(self):
         if ip("link", "show", INTERFACE).returncode != 0:

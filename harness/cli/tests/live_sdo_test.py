@@ -5,11 +5,10 @@ Usage: live_sdo_test.py BIN_FOLDER SUITES."""
 import os
 import signal
 import subprocess
-import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from live_device import INTERFACE, SUITES, Node, command, program, run
+from live_device import INTERFACE, SUITES, Node, command, folder_for, program, run
 
 MEGABYTE = """\
 format: 1
@@ -61,10 +60,8 @@ def verdicts(junit):
 
 class LiveSdo(unittest.TestCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.junit = os.path.join(folder.name, "j.xml")
+        self.folder = folder_for(self)
+        self.junit = os.path.join(self.folder, "j.xml")
 
     def test_a_megabyte_goes_both_ways_by_block_transfer_with_crc(self):
         suites = os.path.join(self.folder, "suites")

@@ -7,11 +7,10 @@ import collections
 import os
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 from live_bus import Shaped
-from live_device import FOLDER, INTERFACE, Node, command, verdicts
+from live_device import FOLDER, INTERFACE, Node, command, folder_for, verdicts
 
 WHOLE = os.environ.get("CONFORM_SLOW_BUS_WHOLE") == "1"
 CASES = ["cia301/sdo", "cia301/heartbeat", "cia301/pdo"] if WHOLE else [
@@ -83,9 +82,7 @@ class SlowBus(unittest.TestCase):
     maxDiff = None
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        self.folder = folder_for(self)
 
     def path(self, name):
         return os.path.join(self.folder, name)

@@ -8,13 +8,12 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 from live_adapter_test import Run
 from live_bus import Shaped, tc
-from live_device import INTERFACE, SUITES, Node, program
+from live_device import INTERFACE, SUITES, Node, folder_for, program
 
 OTHER = "can1"
 PROFILE = ("--device", os.path.join(SUITES, "devices/reference-node.yaml"))
@@ -69,9 +68,7 @@ class Controllers(unittest.TestCase):
     maxDiff = None
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.junit = os.path.join(folder.name, "junit.xml")
+        self.junit = os.path.join(folder_for(self), "junit.xml")
         node = Node(interface=OTHER)
         self.addCleanup(node.__exit__)
 
