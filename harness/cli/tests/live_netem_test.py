@@ -22,6 +22,7 @@ SECONDS = 30 if WHOLE else 10
 # A delay makes every request take 20 ms.
 DELAYED = CASES if WHOLE else ["cia301/sdo/upload/*"]
 DELAYS = [["delay", "5ms", "2ms"], ["delay", "4ms", "reorder", "25%", "50%"]] if WHOLE else [["delay", "5ms", "2ms"]]
+BY_CHANCE = "which frames get lost is drawn, and so is what they break: only in the long form, CONFORM_NETEM_WHOLE=1"
 REQUESTS, RESPONSES, ALL_NODES = 0x600, 0x580, 0x780
 ONE_ANSWER = "monitor/sdo-responses "  # and its title
 
@@ -68,6 +69,7 @@ class Netem(unittest.TestCase):
                 self.assertEqual(different, {})
                 self.told(" ".join(fault), words, seconds)
 
+    @unittest.skipUnless(WHOLE, BY_CHANCE)
     def test_requests_that_never_reach_the_bus_are_errors_and_blame_nobody(self):
         said, found, words, seconds = self.judge(Selected(self, INTERFACE, REQUESTS, ALL_NODES, "loss", "2%"))
         self.told(f"2 of 100 requests lost for {SECONDS} s", words, seconds)
@@ -97,12 +99,13 @@ class Netem(unittest.TestCase):
         self.assertEqual(answers, passed)
         self.told(f"a tenth of the answers twice ({twice} of {answers})", words, seconds)
 
+    @unittest.skipUnless(WHOLE, BY_CHANCE)
     def test_a_device_whose_answers_get_lost_is_told_to_be_silent(self):
         with Selected(self, INTERFACE, RESPONSES, ALL_NODES, "loss", "0.5%"):
             _, found, words, seconds = self.judge()
         for case, (word, text) in found.items():
             if word == "fail":
-                self.assertRegex(text, "no answer|nothing came|silence|not answered", case)
+                self.assertRegex(text, "no answer|nothing came|silence|not answered|timed out", case)
         self.told("5 of 1000 answers lost", words, seconds)
 
 
