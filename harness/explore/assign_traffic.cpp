@@ -197,8 +197,8 @@ std::optional<std::size_t> mapped_bytes(const Evidence& evidence, std::uint16_t 
   const auto count = value_of(0);
   if (!count || *count == 0 || *count > 64) return std::nullopt;
   std::size_t bits = 0;
-  for (std::uint8_t sub = 1; sub <= *count; ++sub) {
-    const auto mapped = value_of(sub);
+  for (std::uint64_t sub = 1; sub <= *count; ++sub) {
+    const auto mapped = value_of(static_cast<std::uint8_t>(sub));
     if (!mapped) return std::nullopt;
     bits += *mapped & 0xFFU;
   }
