@@ -29,6 +29,7 @@ struct DifferenceLine {
 struct DifferenceSection {
   std::string title;
   std::vector<DifferenceLine> lines;
+  std::size_t count = lines.size();  ///< of what differs; a line may tell several that do alike
 };
 
 /// Only sections with something in them.

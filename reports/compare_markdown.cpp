@@ -16,7 +16,7 @@ std::string compare_markdown(const result::Comparison& comparison, const Compare
       fmt::format("## {}\n\n{} against {}\n", escaped(outcome_words(comparison, options.strict)),
                   code(options.new_name), code(options.old_name));
   for (const auto& section : differences(comparison)) {
-    out += fmt::format("\n### {} ({})\n\n", section.title, section.lines.size());
+    out += fmt::format("\n### {} ({})\n\n", section.title, section.count);
     const auto shown = std::min(most_lines, section.lines.size());
     for (std::size_t i = 0; i < shown; ++i) {
       const auto& line = section.lines[i];

@@ -32,7 +32,7 @@ std::string compare_text(const result::Comparison& comparison, const CompareOpti
   put(out, "old  ", options.old_name, width);
   put(out, "new  ", options.new_name, width);
   for (const auto& section : differences(comparison)) {
-    const auto title = fmt::format("{} ({})", section.title, section.lines.size());
+    const auto title = fmt::format("{} ({})", section.title, section.count);
     out += "\n" + paint(title, Ink::strong, style) + "\n";
     for (std::size_t i = 0; i < section.lines.size(); ++i) {
       if (i == most_lines) {

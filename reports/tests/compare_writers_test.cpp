@@ -111,3 +111,16 @@ TEST_CASE("a difference of times says how sure it is") {
   CHECK(holds(text, "longer in 97 % of all pairs; by chance: less than 1e-9 (200 and 200 samples)"));
   CHECK(holds(text, "\ndifferent, but not worse\n"));
 }
+
+TEST_CASE("requirements that turned alike stand in one line and are counted one by one") {
+  result::Comparison comparison;
+  for (const auto* id : {"SDO-UPL-01", "SDO-UPL-02", "SDO-UPL-03"}) {
+    comparison.lost.emplace_back();
+    comparison.lost.back().requirement = id;
+    comparison.lost.back().before = result::Verdict::pass;
+  }
+  const auto text = compare_text(comparison, names, {});
+  CHECK(holds(text, "No longer judged (3)"));
+  CHECK(std::ranges::count(text.substr(text.find("No longer judged (3)")), '\n') < 6);
+  CHECK(holds(compare_markdown(comparison, names), "No longer judged (3)"));
+}
