@@ -43,6 +43,7 @@ constexpr FaultRule of_downloads[] = {
     {"abort", "SDO-SDN-19", ""},
     {"new initiate", "SDO-SDN-17", ""},
     {"unused bytes", "SDO-SDN-27", ""},
+    {"reserved bits in initiate", "SDO-DNL-18", ""},
     {"no end", "SDO-SDN-10", ""},
     {"silence", "SDO-SDN-25", ""},
     {"short", "SDO-ERR-06", ""},
@@ -177,6 +178,14 @@ std::optional<Assigned> assign(const Evidence& evidence) {
     });
     // How long a device boots is its choice, and long behind that a model is silent only because it is slow.
     if (reset && !evidence.stopped()) return strains("SDO-GEN-16");
+    // An earlier request has got no answer, and where all are served this may be that one, late.
+    const auto& answers = evidence.played.answers;
+    const auto waited = [&](std::size_t at) {
+      return evidence.conversation[at].is_transfer() && answers[at].kind == Kind::silence;
+    };
+    for (std::size_t i = 0; i < difference.action && i < answers.size(); ++i) {
+      if (!evidence.stopped() && waited(i)) return strains("SDO-GEN-18");
+    }
     return in_its_state(evidence, "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);

@@ -130,10 +130,32 @@ std::optional<Assigned> wrong_value(const Evidence& evidence) {
                                       : violates(high ? "OD-RNG-01" : "OD-RNG-02");
 }
 
+/// By a transfer that is not the plainest one, which checks less.
+std::string refusal_by_transfer(const Action& last, AbortCode due) {
+  const bool range = is_one_of(due, {abort::invalid_value, abort::value_too_high, abort::value_too_low});
+  const bool access = is_one_of(due, {abort::read_only, abort::no_object, abort::no_sub_index});
+  switch (last.transfer) {
+    case Transfer::segmented:
+    case Transfer::segmented_unsized:
+      return range ? "SDO-SDN-23" : due == abort::read_only ? "OD-ACC-08" : access ? "SDO-SDN-22" : "";
+    case Transfer::block:
+    case Transfer::block_unsized: return range ? "SDO-BDN-24" : access ? "SDO-BDN-23" : "";
+    default: return "";
+  }
+}
+
 std::optional<Assigned> refused_download(const Evidence& evidence) {
   const auto& last = evidence.last();
   const auto code = evidence.difference().model.code;
+  if (auto rule = rule_of_presence(evidence); !rule.empty()) return violates(std::move(rule));
   const auto* entry = evidence.words.find(last.object);
+  // What takes a transfer of any kind would have been found by the plainest one.
+  const bool long_data = last.data.size() > 4;
+  if (evidence.difference().device.kind == Kind::confirmed && !long_data) {
+    const bool kept = evidence.played.holds && evidence.played.holds->data == last.data;
+    if (auto rule = refusal_by_transfer(last, code); !rule.empty())
+      return kept ? violates(std::move(rule)) : strains(std::move(rule));
+  }
   if (code == abort::no_object) return absent(evidence, false);
   if (code == abort::no_sub_index)
     return refusal(evidence, missing_sub_index(evidence, false),
@@ -177,11 +199,18 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
   const auto& last = evidence.last();
   const auto& device = evidence.difference().device;
   const auto& model = evidence.difference().model;
-  if (device.kind == Kind::aborted && !(model.kind == Kind::aborted && is_about_length(model.code))) {
+  // The client has sent the CRC of what it has sent.
+  if (device.kind == Kind::aborted && device.code == abort::crc) return violates("SDO-BDN-02");
+  const bool has_other_reason =
+      model.kind == Kind::aborted &&
+      (is_about_length(model.code) ||
+       is_one_of(model.code, {abort::value_too_high, abort::value_too_low, abort::invalid_value}));
+  if (device.kind == Kind::aborted && !has_other_reason) {
     if (auto type = wrong_type(evidence)) return type;
   }
   if (model.kind == Kind::aborted) return refused_download(evidence);
   if (model.kind != Kind::confirmed || device.kind != Kind::aborted) return std::nullopt;
+  if (auto rule = rule_of_presence(evidence); !rule.empty()) return violates(std::move(rule));
   if (last.transfer != Transfer::automatic) return strains(by_transfer(last, ""));
   const auto* entry = evidence.words.find(last.object);
   if (entry == nullptr) return std::nullopt;
@@ -231,7 +260,16 @@ std::optional<Assigned> no_answer(const Evidence& evidence) {
     return violates("SDO-SDN-22");
   if (!up && segmented && last.data.empty())
     return violates(entry != nullptr && entry->size() ? "SDO-SDN-14" : "SDO-SDN-15");
+  if (!up && last.data.size() <= 4) {
+    if (auto rule = refusal_by_transfer(last, code); !rule.empty()) return violates(std::move(rule));
+  }
   if (last.transfer != Transfer::automatic) return violates(by_transfer(last, ""));
+  // It answers, but not where there is something to be refused.
+  const bool refused = evidence.difference().model.kind == Kind::aborted && !evidence.operational();
+  if (refused &&
+      is_one_of(code, {abort::no_object, abort::no_sub_index, abort::read_only, abort::write_only})) {
+    if (auto named = up ? assign_upload(evidence) : refused_download(evidence)) return named;
+  }
   if (up && is_long) return violates("SDO-SUP-01");
   if (!up && last.data.size() > 4) return violates("SDO-SDN-01");
   if (evidence.operational()) return violates("SDO-GEN-14");
@@ -267,6 +305,9 @@ std::optional<Assigned> assign_request(const Evidence& evidence) {
   if (frame.dlc < 8) return strains("SDO-ERR-06");
   const auto command = frame.data[0];
   const bool segment = command >> 5U == 0 || command >> 5U == 3 || command >> 5U >= 5;
+  if (command >> 5U == 1 && device == Kind::replied && model == Kind::replied &&
+      differs_in_reserved(evidence.difference().device.data, evidence.difference().model.data))
+    return violates("SDO-GEN-05");
   for (const auto& earlier : evidence.before()) {
     if (!segment || !earlier.is_transfer()) continue;
     // What the client did wrong has left the transfer open or closed.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "canopen/cob_id.hpp"
-#include "explore/assign.hpp"
+#include "explore/assign_objects.hpp"
 
 namespace conform::explore {
 namespace {
@@ -85,6 +85,9 @@ std::optional<Assigned> assign_channel_frame(const Evidence& evidence) {
     return asks(evidence, evidence.last()) ? violates("SDO-MUL-01") : std::nullopt;
   if (!is_given(evidence, frame.id, 2)) return std::nullopt;
   if (difference.what == What::surplus) return surplus(evidence);
+  if (difference.what == What::other_data &&
+      differs_in_reserved(difference.came.bytes(), difference.due.bytes()))
+    return violates("SDO-GEN-05");
   if (is_interleaved(evidence)) return violates("SDO-MUL-04");
   if (difference.what == What::missing) return violates("SDO-MUL-01");
   return asks(evidence, evidence.last())

@@ -12,6 +12,22 @@ using What = Difference::What;
 
 namespace {
 
+unsigned code_of(const can::Frame& emcy) {
+  return emcy.size() < 2 ? 0U : static_cast<unsigned>(emcy.data[0] | (emcy.data[1] << 8U));
+}
+
+/// The device has sent it before, as far as the difference; `same`: with this content.
+std::size_t times_sent(const Evidence& evidence, unsigned code, const can::Frame* same = nullptr) {
+  std::size_t out = 0;
+  for (const auto& each : evidence.played.trace) {
+    if (each.time >= evidence.difference().time) break;
+    if (each.frame.id != frame_of(evidence).id || each.frame.remote) continue;
+    if (code_of(each.frame) == 0) out = code == 0 ? out : 0;
+    out += code_of(each.frame) == code && (same == nullptr || each.frame == *same);
+  }
+  return out;
+}
+
 bool guarding_runs(const Evidence& evidence) {
   return evidence.wrote(0x100C, 0).has_value() || evidence.wrote(0x100D, 0).has_value();
 }
@@ -69,7 +85,7 @@ bool guards(const Action& action, const Evidence& evidence) {
 std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   const auto& about = frame_of(evidence);
-  const auto code = about.size() < 2 ? 0U : static_cast<unsigned>(about.data[0] | (about.data[1] << 8U));
+  const auto code = code_of(about);
   if (difference.what != What::missing && is_passed_on(evidence, difference.came))
     return violates("EMCY-CON-02");
   if (difference.what == What::other_data) {
@@ -82,11 +98,13 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     if (difference.came.data[0] != difference.due.data[0] ||
         difference.came.data[1] != difference.due.data[1]) {
       const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
+      if (due == 0x8250 || code_of(difference.came) == 0x8250) return violates("PDO-RX-14");
       return due == 0x8130   ? violates("EC-HBC-03")
              : due == 0x8210 ? violates("PDO-RX-06")
              : due == 0x8240 ? violates("SYNC-CON-05")
                              : violates("EMCY-FMT-01");
     }
+    if (((difference.came.data[2] & ~difference.due.data[2]) & 0x40U) != 0) return violates("OD-1001-03");
     // Which bits of the error register a device has is its choice, but for the first.
     if (difference.came.data[2] != difference.due.data[2])
       return difference.came.data[2] != 0 && (difference.came.data[2] & 1U) == 0 ? violates("EMCY-FMT-04")
@@ -103,10 +121,21 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     return each.kind == Action::Kind::frame && each.frame.remote && each.frame.id == about.id;
   });
   if (!missing && asked) return violates("EMCY-COB-06");
+  if (!missing && code != 0 && times_sent(evidence, code, &difference.came) > 0)
+    return violates("EMCY-SEQ-01");
+  if (!missing && code == 0 && evidence.last().is_at(0x1003, 0)) return violates("OD-1003-16");
+  // SYNC that fails to come is the only error that the period of SYNC makes.
+  if (code == 0x8100 && evidence.wrote(0x1006, 0).value_or(0) != 0) return violates("SYNC-CON-10");
   if (evidence.wrote(0x1014, 0)) return violates(missing ? "OD-1014-07" : "OD-1014-08");
   if (code == 0x8130) {
     if (!guarding_runs(evidence)) return missing ? missing_loss(evidence) : surplus_loss(evidence);
-    if (missing) return violates("EC-NG-07");
+    if (missing) {
+      // Said once, and not a second time: it has not noticed that the master was there again.
+      const bool again = std::ranges::any_of(evidence.played.trace, [&](const can::CapturedFrame& each) {
+        return each.frame.id == about.id && code_of(each.frame) == 0x8130;
+      });
+      return violates(again ? "EC-NG-10" : "EC-NG-07");
+    }
     if (evidence.wrote(0x100C, 0).value_or(0) == 0 || evidence.wrote(0x100D, 0).value_or(0) == 0)
       return violates("EC-NG-09");
     const bool requested = evidence.some([&](const Action& each) { return guards(each, evidence); });
@@ -120,6 +149,8 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   if (code == 0) {
     if (evidence.wrote(0x1016, 1) || evidence.wrote(0x1016, 2)) return violates("EC-HBC-07");
     if (guarding_runs(evidence)) return violates("EC-NG-10");
+    if (evidence.wrote(0x1006, 0).value_or(0) != 0) return violates("SYNC-CON-10");
+    if (has_deadline(evidence)) return violates("PDO-RX-14");
     return violates("EMCY-SEQ-02");
   }
   const auto raises = std::ranges::count_if(

@@ -90,6 +90,12 @@ constexpr ObjectRule keeping[] = {
     {0x1600, 0, 64, 5},  {0x1800, 1, 1, 11}, {0x1800, 2, 2, 15}, {0x1800, 3, 3, 18}, {0x1800, 5, 5, 20},
     {0x1800, 6, 6, 21},  {0x1A00, 0, 64, 5}, {0x1201, 3, 3, 7},
 };
+/// An entry that has to be there. 1600h and 1A00h are told by their PDO.
+constexpr ObjectRule presences[] = {
+    {0x1000, 0, 0, 1}, {0x1001, 0, 0, 1}, {0x1003, 1, 1, 2}, {0x1005, 0, 0, 1}, {0x100C, 0, 0, 1},
+    {0x1010, 1, 1, 3}, {0x1011, 1, 1, 3}, {0x1014, 0, 0, 1}, {0x1017, 0, 0, 1}, {0x1018, 0, 0, 1},
+    {0x1018, 1, 1, 3}, {0x1029, 1, 1, 3}, {0x1201, 0, 2, 1}, {0x1400, 0, 2, 1}, {0x1800, 0, 2, 1},
+};
 /// The data type.
 constexpr ObjectRule types[] = {
     {0x0001, 0, 0, 1},  {0x1000, 0, 0, 1},   {0x1001, 0, 0, 1},  {0x1002, 0, 0, 1},  {0x1003, 0, 0, 1},
@@ -113,6 +119,7 @@ std::string rule_of(About about, Multiplexer mux) {
     case About::change: return find_rule(changes, mux);
     case About::refusal: return find_rule(refusals, mux);
     case About::keeping: return find_rule(keeping, mux);
+    case About::presence: return find_rule(presences, mux);
     case About::type: return find_rule(types, mux);
   }
   return "";
@@ -163,6 +170,34 @@ std::string missing_sub_index(const Evidence& evidence, bool reading) {
   if (!reading && sub == 0xFF) return "OD-OBJ-05";
   if (!is_array_or_record(evidence.words, mux.index)) return reading ? "OD-GEN-09" : "OD-GEN-08";
   return reading ? "OD-GEN-07" : "OD-GEN-08";
+}
+
+bool differs_in_reserved(ByteView came, ByteView due) {
+  if (came.size() != 8 || due.size() != 8 || std::ranges::equal(came, due)) return false;
+  // The multiplexer, of the answers that begin or end a transfer.
+  if (!std::equal(came.begin() + 1, came.begin() + 4, due.begin() + 1)) return false;
+  const auto command = due[0];
+  if (command == 0x60) return came[0] == 0x60;
+  if (command >> 5U != 2) return false;
+  const bool expedited = (command & 2U) != 0;
+  // A size without the bit that says there is one.
+  if (!expedited) return came[0] == (command & ~1U);
+  const auto size = (command & 1U) != 0 ? 4U - ((command >> 2U) & 3U) : 4U;
+  return came[0] == command && std::equal(came.begin() + 4, came.begin() + 4 + size, due.begin() + 4);
+}
+
+std::string rule_of_presence(const Evidence& evidence) {
+  const auto& last = evidence.last();
+  const auto& device = evidence.difference().device;
+  const auto* entry = evidence.words.find(last.object);
+  if (device.kind != Kind::aborted || entry == nullptr) return "";
+  if (device.code != abort::no_object && device.code != abort::no_sub_index) return "";
+  const auto area = area_of(last.object.index.value());
+  if (device.code == abort::no_object && area == "OD-1600") return "OD-1400-03";
+  if (device.code == abort::no_object && area == "OD-1A00") return "OD-1800-03";
+  // That the history has no first entry is said of an empty one, too.
+  if (area == "OD-1003" && last.object.sub.value() > 0 && device.code == abort::no_sub_index) return "";
+  return rule_of(About::presence, last.object);
 }
 
 std::optional<Assigned> absent(const Evidence& evidence, bool reading) {

@@ -15,12 +15,13 @@ namespace conform::explore {
 [[nodiscard]] std::string area_of(std::uint16_t index);
 /// What the rules of an object are about; an empty id: there is none for this entry.
 enum class About : std::uint8_t {
-  fixed,    ///< it cannot be written
-  value,    ///< the value it has from power-on
-  change,   ///< a write that must be possible
-  refusal,  ///< a write that must be refused though the entry can be written
-  keeping,  ///< what was written and confirmed is there
-  type,     ///< its data type
+  fixed,     ///< it cannot be written
+  value,     ///< the value it has from power-on
+  change,    ///< a write that must be possible
+  refusal,   ///< a write that must be refused though the entry can be written
+  keeping,   ///< what was written and confirmed is there
+  presence,  ///< that it is there
+  type,      ///< its data type
 };
 [[nodiscard]] std::string rule_of(About about, Multiplexer mux);
 
@@ -33,6 +34,11 @@ enum class About : std::uint8_t {
 [[nodiscard]] std::string by_transfer(const Action& action, std::string otherwise);
 [[nodiscard]] bool is_array_or_record(const Vocabulary& words, Index index);
 [[nodiscard]] std::string missing_sub_index(const Evidence& evidence, bool reading);
+/// An entry that is described, and that the device says it does not have.
+[[nodiscard]] std::string rule_of_presence(const Evidence& evidence);
+/// The last byte that means nothing is another one: `came` is the answer that is due but for bytes that are
+/// reserved.
+[[nodiscard]] bool differs_in_reserved(ByteView came, ByteView due);
 /// An object that the model does not have.
 [[nodiscard]] std::optional<Assigned> absent(const Evidence& evidence, bool reading);
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
 #include "explore/assign_objects.hpp"
 
 namespace conform::explore {
@@ -104,13 +105,51 @@ std::string wrong_text(const Evidence& evidence, const device::Entry& entry) {
   return visible || index < 0x1008 || index > 0x100A ? "" : id_of(area_of(index), 1);
 }
 
-/// Of 1023h and 1025h.
-std::string reserved_status(const Evidence& evidence) {
+/// Bits and values that no device may have.
+std::string reserved_value(const Evidence& evidence) {
   const auto mux = evidence.last().object;
   const auto& data = evidence.difference().device.data;
+  const auto value = load_le(data);
+  if (mux.index == Index(0x1010) && mux.sub != SubIndex(0) && data.size() == 4 && (value & ~3ULL) != 0)
+    return "OD-1010-04";
+  if (mux.index == Index(0x1011) && mux.sub != SubIndex(0) && data.size() == 4 && (value & ~1ULL) != 0)
+    return "OD-1011-04";
+  if (mux.index == Index(0x1022) && data.size() == 2)
+    return value > 0xFF ? "OD-1022-01" : value > 0 && value < 0x80 ? "OD-1022-02" : "";
   if (mux.sub != SubIndex(2) || data.size() != 1 || data[0] == 0xFF) return "";
   if (mux.index == Index(0x1023) && data[0] > 3) return "OD-1023-02";
   return mux.index == Index(0x1025) && data[0] > 1 ? "OD-1025-02" : "";
+}
+
+/// The last write to the number of errors was refused, and not to be taken.
+bool was_kept(const Evidence& evidence) {
+  for (auto i = evidence.before().size(); i-- > 0;) {
+    const auto& each = evidence.before()[i];
+    if (each.kind == Action::Kind::download && each.is_at(0x1003, 0))
+      return load_le(each.data) != 0 && evidence.played.due[i].kind == Kind::aborted &&
+             evidence.played.answers[i].kind == Kind::aborted;
+  }
+  return false;
+}
+
+/// 1003h holds other errors than with the model.
+std::optional<Assigned> other_history(const Evidence& evidence) {
+  const auto sub = evidence.last().object.sub.value();
+  const auto& device = evidence.difference().device;
+  const bool holds = device.kind == Kind::confirmed;
+  if (was_kept(evidence)) return violates("OD-1003-07");
+  // Error code 0000h is that of "error reset", where one came.
+  const auto emcy = canopen::connection_set(evidence.words.node).emcy;
+  const bool reset = std::ranges::any_of(evidence.played.trace, [&](const can::CapturedFrame& each) {
+    return each.frame.is_data(emcy) &&
+           load_le(each.frame.bytes().first(std::min<std::size_t>(2, each.frame.size()))) == 0;
+  });
+  if (reset && holds && sub > 0 && device.data.size() == 4 && (load_le(device.data) & 0xFFFFU) == 0)
+    return violates("OD-1003-15");
+  // From power-on; the device may have an error then that nobody knows of.
+  const bool has_some = holds && (sub > 0 || load_le(device.data) != 0);
+  if (has_some && is_untouched(evidence)) return strains("OD-1003-04");
+  return std::nullopt;
 }
 
 /// The errors were deleted, and none came since then.
@@ -132,6 +171,21 @@ std::optional<Assigned> other_time(const Evidence& evidence) {
   return measured && since(evidence.difference().device) > 2 * soon ? violates("OD-1013-03") : std::nullopt;
 }
 
+/// A value that cannot be written was another one when it was read before, without a reset in between.
+std::string changed_by_itself(const Evidence& evidence, const device::Entry& entry) {
+  if (entry.access != device::Access::constant || entry.may_change) return "";
+  for (auto i = evidence.before().size(); i-- > 0;) {
+    const auto& each = evidence.before()[i];
+    if (each.kind == Action::Kind::power || each.nmt_command(evidence.words.node) > 0x80) return "";
+    if (each.kind != Action::Kind::upload || each.object != entry.mux || !each.fault.empty()) continue;
+    const auto& answer = evidence.played.answers[i];
+    if (answer.kind != Kind::confirmed || answer.data == evidence.difference().device.data) continue;
+    const auto index = entry.mux.index.value();
+    return index >= 0x1008 && index <= 0x100A ? id_of(area_of(index), 3) : "OD-ACC-06";
+  }
+  return "";
+}
+
 std::optional<Assigned> other_value(const Evidence& evidence) {
   const auto& read = evidence.last();
   const auto mux = read.object;
@@ -141,9 +195,10 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
   if (entry->size() && device.data.size() != *entry->size())
     return violates(mux.sub.value() == 0 && is_array_or_record(evidence.words, mux.index) ? "OD-GEN-10"
                                                                                           : "OD-LEN-04");
+  if (auto rule = changed_by_itself(evidence, *entry); !rule.empty()) return violates(std::move(rule));
   if (read.transfer == Transfer::block && device.data.size() > 4) return violates("SDO-BUP-01");
   if (auto rule = wrong_text(evidence, *entry); !rule.empty()) return violates(std::move(rule));
-  if (auto rule = reserved_status(evidence); !rule.empty()) return violates(std::move(rule));
+  if (auto rule = reserved_value(evidence); !rule.empty()) return violates(std::move(rule));
   if (mux.index == Index(0x1013)) return other_time(evidence);
   if (mux.index == Index(0x1001)) {
     if (!device.data.empty() && device.data[0] != 0 && (device.data[0] & 1U) == 0)
@@ -153,6 +208,9 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
   }
   if (mux.index == Index(0x1003) && was_cleared(evidence)) return violates("OD-1003-05");
   // How many errors the history holds is the device's choice.
+  if (mux.index == Index(0x1003)) {
+    if (auto history = other_history(evidence)) return history;
+  }
   if (mux.index == Index(0x1003))
     return mux.sub.value() == 0   ? strains("OD-1003-10")
            : mux.sub.value() == 1 ? violates("OD-1003-11")
@@ -176,7 +234,12 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
     const auto number = mux.index.value() & 0x1FFU;
     return violates(id_of(area, number < 4 ? 4 + static_cast<int>(number) : 8));
   }
-  return strains("OD-RST-05");
+  const auto beyond = [&](const std::optional<Bytes>& limit, bool above) {
+    if (!limit || canopen::is_signed(entry->type)) return false;
+    return above ? load_le(device.data) > load_le(*limit) : load_le(device.data) < load_le(*limit);
+  };
+  if (beyond(entry->low, false) || beyond(entry->high, true)) return violates("OD-DSC-04");
+  return strains(evidence.before().empty() ? "OD-DSC-03" : "OD-RST-05");
 }
 
 }  // namespace
@@ -191,6 +254,10 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
                ? strains("SDO-BUP-09")
                : violates(evidence.last().blksize == 0 ? "SDO-BUP-09" : "SDO-BUP-10");
   if (model.kind == Kind::aborted) {
+    if (evidence.last().transfer == Transfer::block &&
+        is_one_of(model.code, {abort::no_object, abort::no_sub_index, abort::write_only}))
+      return refusal(evidence, "SDO-BUP-23",
+                     {abort::general, abort::no_data, abort::no_sub_index, abort::unsupported_access});
     if (model.code == abort::no_object) return absent(evidence, true);
     if (model.code == abort::no_sub_index)
       return refusal(evidence, missing_sub_index(evidence, true), {abort::general, abort::no_data});
@@ -198,6 +265,9 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
       return refusal(evidence, "OD-ACC-03", {abort::unsupported_access, abort::general});
     if (mux.index == Index(0x1003) && device.kind == Kind::confirmed && was_cleared(evidence))
       return violates("OD-1003-05");
+    if (mux.index == Index(0x1003)) {
+      if (auto history = other_history(evidence)) return history;
+    }
     if (mux.index == Index(0x1003))
       return device.kind == Kind::confirmed ? violates("OD-1003-09") : strains("OD-1003-03");
     // Why the model has nothing to tell is its own matter, how long the value is it is not.
@@ -209,7 +279,11 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
   if (device.kind == Kind::confirmed) return other_value(evidence);
   if (device.kind != Kind::aborted) return std::nullopt;
   if (evidence.last().transfer == Transfer::block) return strains("SDO-BUP-01");
-  if (mux.index == Index(0x1003)) return violates("OD-1003-10");
+  if (mux.index == Index(0x1003)) {
+    if (auto history = other_history(evidence)) return history;
+    return violates(mux.sub.value() > 1 ? "OD-1003-12" : "OD-1003-10");
+  }
+  if (auto rule = rule_of_presence(evidence); !rule.empty()) return violates(std::move(rule));
   const auto* entry = evidence.words.find(mux);
   if (entry == nullptr || entry->command || entry->type == canopen::DataType::domain) return std::nullopt;
   const auto area = area_of(mux.index.value());
@@ -238,7 +312,8 @@ std::optional<Answer> answer_in(ByteView bytes) {
 std::optional<Assigned> assign_single_upload(const Evidence& evidence, ByteView came, ByteView due) {
   const auto& last = evidence.last();
   const auto& bytes = last.frame.data;
-  if (last.is_transfer() || last.frame.dlc != 8 || bytes[0] != 0x40) return std::nullopt;
+  if (last.is_transfer() || last.frame.dlc != 8 || bytes[0] >> 5U != 2) return std::nullopt;
+  if (differs_in_reserved(came, due)) return violates("SDO-GEN-05");
   auto device = answer_in(came), model = answer_in(due);
   if (!device || !model || device->same_as(*model)) return std::nullopt;
   Conversation conversation(evidence.conversation.begin(), evidence.conversation.end());

@@ -61,6 +61,18 @@ LastReset last_reset(const Evidence& evidence) {
   return out;
 }
 
+/// The last reset was commanded at once behind another one.
+bool follows_another_reset(const Evidence& evidence) {
+  bool just = false, out = false;
+  for (const auto& each : evidence.conversation) {
+    if (each.kind == Action::Kind::wait) just = false;
+    if (each.nmt_command(evidence.words.node) <= 0x80) continue;
+    out = just;
+    just = true;
+  }
+  return out;
+}
+
 /// It came behind what was asked or sent last, and not by itself.
 bool follows_last(const Evidence& evidence) {
   const auto& difference = evidence.difference();
@@ -77,6 +89,7 @@ std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
   if (what == What::missing) {
     if (!odd.empty()) return violates(odd);
     if (!reset.found || reset.command == 0) return violates("NMT-BOOT-01");
+    if (follows_another_reset(evidence)) return violates("NMT-BOOT-09");
     const bool node = reset.command == 0x81;
     if (reset.state == start) return violates(node ? "NMT-FSA-09" : "NMT-FSA-10");
     if (reset.state == stop) return violates(node ? "NMT-FSA-11" : "NMT-FSA-12");
@@ -85,6 +98,8 @@ std::optional<Assigned> assign_boot_up(const Evidence& evidence) {
   if (!odd.empty() && odd != "NMT-FSA-14") return violates(odd);
   if (!reset.found) {
     const bool commanded = evidence.commanded();
+    const auto [last, before] = evidence.commands();
+    if (commanded && last == before) return violates("NMT-FSA-13");
     if (evidence.conversation.size() <= 1 && !commanded && !follows_last(evidence))
       return violates("NMT-BOOT-01");
     return violates(commanded ? "NMT-BOOT-06" : "NMT-BOOT-10");
@@ -243,12 +258,19 @@ bool is_asked_for(const Evidence& evidence) {
   });
 }
 
+/// It was told to.
+bool produces_sync(const Evidence& evidence) {
+  return (evidence.wrote(0x1005, 0).value_or(0) & canopen::cob_id::bit30) != 0 &&
+         evidence.wrote(0x1006, 0).value_or(0) != 0;
+}
+
 std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting& setting) {
   const auto type = setting.type.value_or(255);
   const bool synced = evidence.some([](const Action& each) {
     return each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id);
   });
   const bool asked = is_asked_for(evidence);
+  if (!synced && type <= 240 && produces_sync(evidence)) return violates("SYNC-PRO-08");
   if (setting.sync_start.value_or(0) != 0 && type <= 240)
     return violates(evidence.wrote(0x1019, 0).value_or(0) == 0 ? "PDO-TX-15" : "PDO-TX-14");
   if (type == 0) return violates("PDO-TX-07");
@@ -316,12 +338,24 @@ std::optional<Assigned> assign_sync(const Evidence& evidence) {
     if (evidence.stopped()) return violates("SYNC-PRO-06");
     const bool off = (evidence.wrote(0x1005, 0).value_or(0) & canopen::cob_id::bit30) == 0;
     if (off || evidence.wrote(0x1006, 0).value_or(1) == 0) return violates("SYNC-PRO-03");
+    // The period is the one that it has from power-on, with the model none.
+    if (!evidence.wrote(0x1006, 0)) return violates("OD-1006-02");
   }
   const bool stored = evidence.some([](const Action& each) {
     return each.kind == Action::Kind::download && each.object.index == Index(0x1010);
   });
   if (difference.what == What::missing && stored && last_reset(evidence).found)
     return violates("SYNC-PRO-07");
+  if (difference.what == What::missing && produces_sync(evidence) && !evidence.commanded()) {
+    const auto periods = std::ranges::count_if(evidence.conversation, [](const Action& each) {
+      return each.kind == Action::Kind::download && each.is_at(0x1006, 0) && load_le(each.data) != 0;
+    });
+    if (periods > 1) return violates("OD-1006-05");
+    const auto& trace = evidence.played.trace;
+    const bool one_came = std::ranges::any_of(
+        trace, [&](const can::CapturedFrame& each) { return each.frame.id == difference.due.id; });
+    if (!trace.empty() && !one_came) return violates("SYNC-PRO-02");
+  }
   if (evidence.operational()) return violates("NMT-SVC-01");
   return violates("SYNC-PRO-01");
 }

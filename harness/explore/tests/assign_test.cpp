@@ -1,66 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "explore/assign.hpp"
-
 #include <algorithm>
 #include "catch.hpp"
 
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
-#include "explore/tests/device.hpp"
+#include "explore/tests/judged.hpp"
 
 using namespace conform;
 using namespace conform::explore;
 
 namespace {
-
-Answer confirmed(Bytes data = {}) {
-  Answer out;
-  out.kind = Answer::Kind::confirmed;
-  out.data = std::move(data);
-  return out;
-}
-Answer aborted(AbortCode code) {
-  Answer out;
-  out.kind = Answer::Kind::aborted;
-  out.code = code;
-  return out;
-}
-Answer silent() {
-  Answer out;
-  out.kind = Answer::Kind::silence;
-  return out;
-}
-
-/// The last action of `talk` was answered by the device and by the model like this.
-std::optional<Assigned> judged(const Conversation& talk, const Answer& device, const Answer& model) {
-  const auto words = words_of_the_standard();
-  Played played;
-  played.difference.emplace();
-  played.difference->action = talk.size() - 1;
-  played.difference->device = device;
-  played.difference->model = model;
-  played.answers.assign(talk.size(), confirmed());
-  played.due.assign(talk.size(), confirmed());
-  return assign({words, talk, played});
-}
-
-/// In `talk` this came, and with the model that.
-std::optional<Assigned> judged_frames(const Conversation& talk, Difference::What what, const can::Frame& came,
-                                      const can::Frame& due) {
-  const auto words = words_of_the_standard();
-  Played played;
-  played.difference.emplace();
-  played.difference->what = what;
-  played.difference->action = talk.size() - 1;
-  played.difference->came = came;
-  played.difference->due = due;
-  return assign({words, talk, played});
-}
-
-std::string text_of(const std::optional<Assigned>& assigned) {
-  if (!assigned) return "";
-  return assigned->requirement + (assigned->grade == Grade::violated ? " violated" : " tolerated");
-}
 
 const Multiplexer device_type{Index(0x1000), SubIndex(0)};
 
