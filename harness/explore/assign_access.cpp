@@ -234,6 +234,10 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
 std::optional<Assigned> no_answer(const Evidence& evidence) {
   const auto& last = evidence.last();
   const bool up = last.kind == Action::Kind::upload;
+  // An abort, but about another object. When the time is over it may be the transfer before.
+  const auto& device = evidence.difference().device;
+  const bool aborts = device.kind == Kind::violation && device.code != AbortCode{};
+  if (aborts && device.code != abort::timed_out) return violates("SDO-ERR-04");
   // What went wrong before has left its mark.
   for (const auto& earlier : evidence.before()) {
     if (auto rule = rule_of_fault(earlier); !rule.empty()) return violates(std::move(rule));
@@ -276,6 +280,16 @@ std::optional<Assigned> no_answer(const Evidence& evidence) {
   return violates("SDO-GEN-01");
 }
 
+/// The same abort code, with another multiplexer. Which one belongs to a request that begins nothing is not
+/// laid down.
+bool aborts_another_object(const Difference& difference) {
+  const auto& device = difference.device;
+  const auto& model = difference.model;
+  return device.kind == Kind::aborted && model.kind == Kind::aborted && device.code == model.code &&
+         device.data.size() == 8 && model.data.size() == 8 &&
+         !std::equal(device.data.begin() + 1, device.data.begin() + 4, model.data.begin() + 1);
+}
+
 }  // namespace
 
 std::optional<Assigned> assign_answer(const Evidence& evidence) {
@@ -303,6 +317,7 @@ std::optional<Assigned> assign_request(const Evidence& evidence) {
     return std::nullopt;
   }
   if (frame.dlc < 8) return strains("SDO-ERR-06");
+  if (aborts_another_object(evidence.difference())) return strains("SDO-ERR-04");
   const auto command = frame.data[0];
   const bool segment = command >> 5U == 0 || command >> 5U == 3 || command >> 5U >= 5;
   if (command >> 5U == 1 && device == Kind::replied && model == Kind::replied &&

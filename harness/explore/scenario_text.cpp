@@ -19,6 +19,8 @@ using What = Difference::What;
 
 /// A scenario waits this much longer than the frame took here: its steps take their time, too.
 constexpr Duration margin = 50ms;
+/// ... and where a later frame of the kind may come anyway.
+constexpr Duration close_margin = 10ms;
 
 std::string quoted(std::string_view text) {
   std::string out = "\"";
@@ -37,6 +39,8 @@ std::string outcome(const Answer& answer, bool upload) {
       return upload ? fmt::format("{{bytes: {}}}", quoted(hex_bytes(answer.data))) : "ok";
     case Answer::Kind::aborted: return "abort " + to_string(answer.code);
     case Answer::Kind::silence: return "silence";
+    // The model itself aborts about another object.
+    case Answer::Kind::violation: return "[abort any, silence]";
     default: return "ok";
   }
 }
@@ -84,6 +88,16 @@ class Writer {
     return out;
   }
 
+  /// Of a frame that is due: as long as it takes with the model, because what comes later is another one.
+  [[nodiscard]] Duration due_within(Duration most) const {
+    const auto end = last_that_acts();
+    const auto& begins = finding_.played.begins;
+    if (end == 0 || end > begins.size()) return most;
+    const auto due =
+        std::chrono::ceil<std::chrono::milliseconds>(finding_.played.difference->time - begins[end - 1]);
+    return due.count() <= 0 ? most : std::min<Duration>(most, due + close_margin);
+  }
+
   void act(const Action& action, std::size_t number, bool judges) {
     switch (action.kind) {
       case Action::Kind::upload:
@@ -111,6 +125,10 @@ class Writer {
       add(fmt::format("  expect: {}", outcome(finding_.played.difference->model, up)));
       if (finding_.played.difference->model.kind == Answer::Kind::aborted) add("  warn: [abort any]");
     } else if (number < answers.size() && answers[number].kind != Answer::Kind::confirmed) {
+      // What a monitor saw may be what ends the transfer.
+      const bool seen =
+          finding_.played.difference->what == What::rule && number + 1 == finding_.conversation.size();
+      if (seen) check();
       add("  expect: [ok, abort any, silence]");
     }
   }
@@ -130,7 +148,11 @@ class Writer {
     add(fmt::format("    > 600+N: {}", hex_bytes(frame.bytes())));
     if (judges) {
       const auto& due = finding_.played.difference->model;
-      if (due.kind == Answer::Kind::aborted)
+      const auto& came = finding_.played.difference->device;
+      const bool same_code = came.kind == due.kind && came.code == due.code;
+      if (due.kind == Answer::Kind::aborted && same_code && due.data.size() == 8)
+        add(fmt::format("    < 580+N: {} {{warn any}}", hex_bytes(due.data)));
+      else if (due.kind == Answer::Kind::aborted)
         add(fmt::format("    < 580+N: 80 xx xx xx {{abort: {}; warn any}}", to_string(due.code)));
       else if (due.kind == Answer::Kind::replied)
         add(fmt::format("    < 580+N: {}", hex_bytes(due.data)));
@@ -160,7 +182,7 @@ class Writer {
     const auto& frame = difference.what == What::surplus ? difference.came : difference.due;
     const auto window = rest_from(last_that_acts()) + margin;
     if (difference.what == What::missing) {
-      add(fmt::format("- frame: {{id: {}, within: {}}}", can_id(frame.id), to_string(window)));
+      add(fmt::format("- frame: {{id: {}, within: {}}}", can_id(frame.id), to_string(due_within(window))));
     } else if (difference.what == What::surplus) {
       add(fmt::format("- silence: {{of: {}, for: {}}}", can_id(frame.id), to_string(window)));
     } else {

@@ -203,3 +203,21 @@ TEST_CASE("a producer of SYNC is late with the first, late with a new period, or
   CHECK(text_of(judged_frames(with_tpdo, What::missing, {}, can::data_frame(CanId(0x185), {0}))) ==
         "SYNC-PRO-08 violated");
 }
+
+TEST_CASE("an abort about another object is what is wrong, unless it ends the transfer before") {
+  Answer other;
+  other.kind = Answer::Kind::violation;
+  other.code = abort::length_too_low;
+  const auto due = aborted(abort::length_too_low);
+  CHECK(text_of(judged({download(at(0x1017), {1})}, other, due)) == "SDO-ERR-04 violated");
+  other.code = abort::timed_out;
+  CHECK(text_of(judged({download(at(0x1017), {1})}, other, due)) != "SDO-ERR-04 violated");
+  // Of a request that begins nothing nobody knows what it is about.
+  const auto unknown = [](std::uint8_t low) {
+    auto out = aborted(abort::command_specifier);
+    out.data = {0x80, low, 0x10, 0, 1, 0, 4, 5};
+    return out;
+  };
+  CHECK(text_of(judged({sdo(0x605, {0xE0, 0, 0x10, 0, 0, 0, 0, 0})}, unknown(1), unknown(0))) ==
+        "SDO-ERR-04 tolerated");
+}

@@ -52,6 +52,38 @@ TEST_CASE("a frame that is missing is waited for from the last thing that was se
   CHECK(text.ends_with("      - nmt: start\n"
                        "      - frame: {id: 705h, within: 70 ms}\n"
                        "        checks: EC-HBP-01\n"));
+  // The next one of its kind is another one: when it came with the model is known.
+  finding.played.begins = {BusTime(100ms), BusTime(100ms)};
+  difference.time = BusTime(105ms);
+  CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x").find("within: 15 ms") !=
+        std::string::npos);
+}
+
+TEST_CASE("an abort that names another object is held against all of its bytes") {
+  Finding finding;
+  finding.conversation = {request(can::data_frame(CanId(0x605), {0x60, 0, 0, 0, 0, 0, 0, 0}))};
+  finding.assigned = Assigned{"SDO-ERR-04", Grade::tolerated};
+  auto& difference = finding.played.difference.emplace();
+  difference.model = {.kind = Answer::Kind::aborted,
+                      .code = canopen::abort::command_specifier,
+                      .data = {0x80, 0, 0, 0, 1, 0, 4, 5}};
+  difference.device = difference.model;
+  difference.device.data[1] = 7;
+  CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x")
+            .find("< 580+N: 80 00 00 00 01 00 04 05 {warn any}") != std::string::npos);
+}
+
+TEST_CASE("a transfer that does not end well because of what a monitor saw is judged itself") {
+  Finding finding;
+  finding.conversation = {upload({Index(0x1008), SubIndex(0)})};
+  auto& difference = finding.played.difference.emplace();
+  difference.what = Difference::What::rule;
+  difference.requirement = "SDO-SUP-02";
+  finding.played.answers = {{.kind = Answer::Kind::violation}};
+  finding.assigned = Assigned{"SDO-SUP-02", Grade::violated};
+  CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x")
+            .find("      - upload: {object: 1008h:00}\n        checks: SDO-SUP-02\n        expect:") !=
+        std::string::npos);
 }
 
 TEST_CASE("a scenario that does not show what was found says so") {
