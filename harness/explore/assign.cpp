@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explore/assign.hpp"
 
+#include "canopen/abort_code.hpp"
+
 #include <fmt/format.h>
 
 #include <charconv>
@@ -144,6 +146,9 @@ std::optional<Assigned> assign_fault(const Evidence& evidence) {
   // on as if nothing had been wrong, or to deliver something else.
   const bool goes_on = device == Kind::confirmed && model == Kind::aborted;
   const bool other_data = device == Kind::confirmed && model == Kind::confirmed;
+  // Fewer bytes than were announced.
+  if (goes_on && rule == "SDO-SDN-27" && evidence.difference().model.code == canopen::abort::length_too_low)
+    rule = "SDO-SDN-08";
   return goes_on || other_data ? violates(std::move(rule)) : strains(std::move(rule));
 }
 

@@ -195,6 +195,19 @@ bool is_written_again(const Evidence& evidence) {
   });
 }
 
+/// A COB-ID that may be refused, but not for what shows here.
+std::string refused_cob_id(const Action& last) {
+  const auto kind = canopen::cob_id_kind(last.object);
+  if (!kind || last.data.size() != 4) return "";
+  const auto value = static_cast<std::uint32_t>(load_le(last.data));
+  if (*kind == CobIdKind::sync && (value & canopen::cob_id::bit31) != 0) return "OD-1005-11";
+  if (*kind == CobIdKind::rpdo && (value & canopen::cob_id::bit30) != 0) return "OD-1400-14";
+  const auto id = value & canopen::cob_id::base_id_mask;
+  const bool beside =
+      canopen::is_restricted(CanId(id + 1)) || (id > 0 && canopen::is_restricted(CanId(id - 1)));
+  return beside && !canopen::is_restricted(CanId(id)) ? "CAN-RID-07" : "";
+}
+
 std::optional<Assigned> assign_download(const Evidence& evidence) {
   const auto& last = evidence.last();
   const auto& device = evidence.difference().device;
@@ -218,6 +231,9 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
   if (limit) return violates("OD-RNG-03");
   const auto rule = rule_of(About::change, last.object);
   if (is_written_again(evidence)) return violates("OD-1016-08");
+  if (last.object.index == Index(0x1016) && last.object.sub != SubIndex(0) && last.data.size() == 4)
+    return strains((load_le(last.data) & 0xFFFFU) == 0 ? "OD-1016-07" : "OD-1016-05");
+  if (auto cob_id = refused_cob_id(last); !cob_id.empty()) return strains(std::move(cob_id));
   // It is described as one that can be written.
   if (device.code == abort::read_only && entry->writable() && !entry->access_open)
     return violates(rule.empty() ? "OD-ACC-04" : rule);
@@ -266,6 +282,10 @@ std::optional<Assigned> no_answer(const Evidence& evidence) {
     return violates(entry != nullptr && entry->size() ? "SDO-SDN-14" : "SDO-SDN-15");
   if (!up && last.data.size() <= 4) {
     if (auto rule = refusal_by_transfer(last, code); !rule.empty()) return violates(std::move(rule));
+  }
+  const bool commands = !up && last.transfer == Transfer::automatic && entry != nullptr && entry->command;
+  if (commands && evidence.difference().model.kind == Kind::confirmed) {
+    if (auto rule = rule_of(About::change, last.object); !rule.empty()) return violates(std::move(rule));
   }
   if (last.transfer != Transfer::automatic) return violates(by_transfer(last, ""));
   // It answers, but not where there is something to be refused.
@@ -320,6 +340,14 @@ std::optional<Assigned> assign_request(const Evidence& evidence) {
   if (aborts_another_object(evidence.difference())) return strains("SDO-ERR-04");
   const auto command = frame.data[0];
   const bool segment = command >> 5U == 0 || command >> 5U == 3 || command >> 5U >= 5;
+  // A transfer that was begun by a request, and that the server has given up before its time.
+  const bool early = device == Kind::aborted && evidence.difference().device.code == abort::timed_out;
+  if (early && segment && !(model == Kind::aborted && evidence.difference().model.code == abort::timed_out)) {
+    const auto begun = std::ranges::find_if(evidence.before(), [](const Action& each) {
+      return each.kind == Action::Kind::request && each.frame.data[0] >> 5U == 2;
+    });
+    if (begun != evidence.before().end()) return strains("SDO-SUP-17");
+  }
   if (command >> 5U == 1 && device == Kind::replied && model == Kind::replied &&
       differs_in_reserved(evidence.difference().device.data, evidence.difference().model.data))
     return violates("SDO-GEN-05");

@@ -44,7 +44,8 @@ bool has_deadline(const Evidence& evidence) {
 std::optional<Assigned> missing_loss(const Evidence& evidence) {
   std::size_t entries = 0;
   for (std::uint8_t sub = 1; sub <= 4; ++sub) entries += evidence.wrote(0x1016, sub).has_value();
-  return violates(entries > 1 ? "EC-HBC-13" : "EC-HBC-03");
+  // Not the first one, alone, is as much one of several.
+  return violates(entries > 1 || !evidence.wrote(0x1016, 1) ? "EC-HBC-13" : "EC-HBC-03");
 }
 
 /// A node is said to be lost that is there, or was not heard since it is monitored.

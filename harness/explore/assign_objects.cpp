@@ -186,6 +186,29 @@ bool differs_in_reserved(ByteView came, ByteView due) {
   return came[0] == command && std::equal(came.begin() + 4, came.begin() + 4 + size, due.begin() + 4);
 }
 
+std::string wrong_structure(Multiplexer mux, ByteView value) {
+  if (value.size() != 4) return "OD-OBJ-01";
+  const auto word = load_le(value);
+  const auto code = word & 0xFFU, type = (word >> 8U) & 0xFFFFU;
+  constexpr std::uint64_t domain = 2, type_definition = 5, record = 9;
+  if (word >> 24U != 0 || (code != domain && (code < type_definition || code > record))) return "OD-OBJ-02";
+  struct Row {
+    std::uint16_t first, last;
+    std::uint8_t code;
+    std::uint16_t type;
+  };
+  constexpr Row rows[] = {{0x1003, 0x1003, 8, 7},    {0x1010, 0x1011, 8, 7},    {0x1016, 0x1016, 8, 7},
+                          {0x1018, 0x1018, 9, 0x23}, {0x1028, 0x1028, 8, 7},    {0x1029, 0x1029, 8, 5},
+                          {0x1200, 0x12FF, 9, 0x22}, {0x1400, 0x15FF, 9, 0x20}, {0x1600, 0x17FF, 9, 0x21},
+                          {0x1800, 0x19FF, 9, 0x20}, {0x1A00, 0x1BFF, 9, 0x21}};
+  for (const auto& row : rows) {
+    if (mux.index.value() < row.first || mux.index.value() > row.last) continue;
+    if (code != row.code) return "OD-OBJ-03";
+    if (type != row.type) return "OD-OBJ-04";
+  }
+  return "";
+}
+
 std::string rule_of_presence(const Evidence& evidence) {
   const auto& last = evidence.last();
   const auto& device = evidence.difference().device;
@@ -193,6 +216,12 @@ std::string rule_of_presence(const Evidence& evidence) {
   if (device.kind != Kind::aborted || entry == nullptr) return "";
   if (device.code != abort::no_object && device.code != abort::no_sub_index) return "";
   const auto area = area_of(last.object.index.value());
+  // The communication object, and the mapping is there.
+  const Multiplexer mapping{Index(static_cast<std::uint16_t>(last.object.index.value() + 0x200)),
+                            SubIndex(0)};
+  const bool is_pdo = area == "OD-1400" || area == "OD-1800";
+  if (device.code == abort::no_object && is_pdo && evidence.words.find(mapping) != nullptr)
+    return area + "-03";
   if (device.code == abort::no_object && area == "OD-1600") return "OD-1400-03";
   if (device.code == abort::no_object && area == "OD-1A00") return "OD-1800-03";
   // That the history has no first entry is said of an empty one, too.

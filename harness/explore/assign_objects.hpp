@@ -36,6 +36,8 @@ enum class About : std::uint8_t {
 [[nodiscard]] std::string missing_sub_index(const Evidence& evidence, bool reading);
 /// An entry that is described, and that the device says it does not have.
 [[nodiscard]] std::string rule_of_presence(const Evidence& evidence);
+/// What sub-index FFh says of its object, where that is not as it should be.
+[[nodiscard]] std::string wrong_structure(Multiplexer mux, ByteView value);
 /// The last byte that means nothing is another one: `came` is the answer that is due but for bytes that are
 /// reserved.
 [[nodiscard]] bool differs_in_reserved(ByteView came, ByteView due);

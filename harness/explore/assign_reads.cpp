@@ -76,12 +76,19 @@ std::optional<Assigned> after_a_reset(const Evidence& evidence) {
   const auto index = evidence.last().object.index.value();
   const bool communication = index < 0x2000;
   bool reset = false, node = false, stored = false, loaded = false;
+  std::string refused;
   std::uint8_t stored_sub = 0;
-  for (const auto& each : evidence.before()) {
+  for (std::size_t i = 0; i < evidence.before().size(); ++i) {
+    const auto& each = evidence.before()[i];
     const auto command = each.nmt_command(evidence.words.node);
     reset = reset || command > 0x80 || each.kind == Action::Kind::power;
     node = node || command == 0x81 || each.kind == Action::Kind::power;
     if (each.kind != Action::Kind::download) continue;
+    const bool commands = each.object.index == Index(0x1010) || each.object.index == Index(0x1011);
+    if (commands && evidence.played.due[i].kind == Kind::aborted) {
+      refused = area_of(each.object.index.value()) + "-09";
+      continue;
+    }
     if (each.object.index.value() == 0x1010) {
       stored = true;
       stored_sub = each.object.sub.value();
@@ -89,6 +96,10 @@ std::optional<Assigned> after_a_reset(const Evidence& evidence) {
     loaded = loaded || each.object.index.value() == 0x1011;
   }
   if (!reset) return std::nullopt;
+  // What was refused has done nothing, and what has done nothing else is left.
+  if (!refused.empty() && !stored && !loaded) return violates(std::move(refused));
+  if (index == 0x1020 && loaded) return violates("STO-1020-04");
+  if (index == 0x1020 && stored) return violates("OD-1020-04");
   if (loaded) return violates(communication ? "OD-1011-12" : "OD-1011-13");
   if (stored) return violates(stored_sub == 2 ? "OD-1010-11" : stored_sub == 3 ? "OD-1010-12" : "OD-1010-10");
   if (communication) return violates("NMT-FSA-24");
@@ -192,6 +203,8 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
   const auto* entry = evidence.words.find(mux);
   const auto& device = evidence.difference().device;
   if (entry == nullptr) return std::nullopt;
+  if (entry->size().value_or(0) > 4 && !device.data.empty() && device.data.size() <= 4)
+    return violates("SDO-UPL-05");
   if (entry->size() && device.data.size() != *entry->size())
     return violates(mux.sub.value() == 0 && is_array_or_record(evidence.words, mux.index) ? "OD-GEN-10"
                                                                                           : "OD-LEN-04");
@@ -259,6 +272,11 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
       return refusal(evidence, "SDO-BUP-23",
                      {abort::general, abort::no_data, abort::no_sub_index, abort::unsupported_access});
     if (model.code == abort::no_object) return absent(evidence, true);
+    // Every object may have this one.
+    if (mux.sub == SubIndex(0xFF) && device.kind == Kind::confirmed) {
+      auto rule = wrong_structure(mux, device.data);
+      return rule.empty() ? std::nullopt : violates(std::move(rule));
+    }
     if (model.code == abort::no_sub_index)
       return refusal(evidence, missing_sub_index(evidence, true), {abort::general, abort::no_data});
     if (model.code == abort::write_only)
@@ -289,6 +307,7 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
   const auto area = area_of(mux.index.value());
   if (entry->mux.sub.value() == 2 && (area == "OD-1400" || area == "OD-1800")) return violates(area + "-01");
   if (area == "OD-1280" && device.code == abort::no_sub_index) return violates("OD-1280-01");
+  if (entry->size().value_or(0) > 4 && device.code == abort::timed_out) return violates("SDO-SUP-01");
   return violates("OD-GEN-17");
 }
 

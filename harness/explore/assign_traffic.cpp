@@ -123,6 +123,7 @@ std::optional<Assigned> assign_heartbeat(const Evidence& evidence) {
   for (const auto& each : evidence.conversation)
     writes += each.kind == Action::Kind::download && each.is_at(0x1017, 0);
   const auto period = evidence.wrote(0x1017, 0).value_or(0);
+  if (period > 0x7FFF) return violates("EC-HBP-11");
   if (difference.what == What::surplus && period == 0)
     return writes > 0 ? violates("EC-HBP-04") : strains("EC-HBP-13");
   if (evidence.stopped()) return violates("NMT-SVC-04");
@@ -264,15 +265,27 @@ bool produces_sync(const Evidence& evidence) {
          evidence.wrote(0x1006, 0).value_or(0) != 0;
 }
 
+/// The last SYNC had a counter with a value that 1019h does not count to.
+bool counts_oddly(const Evidence& evidence) {
+  const Action* sync = nullptr;
+  for (const auto& each : evidence.conversation) {
+    if (each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id)) sync = &each;
+  }
+  const auto overflow = evidence.wrote(0x1019, 0).value_or(0);
+  return sync != nullptr && sync->frame.dlc == 1 && overflow != 0 &&
+         (sync->frame.data[0] == 0 || sync->frame.data[0] > overflow);
+}
+
 std::optional<Assigned> missing_tpdo(const Evidence& evidence, const PdoSetting& setting) {
   const auto type = setting.type.value_or(255);
   const bool synced = evidence.some([](const Action& each) {
     return each.kind == Action::Kind::frame && each.frame.is_data(canopen::sync_can_id);
   });
   const bool asked = is_asked_for(evidence);
-  if (!synced && type <= 240 && produces_sync(evidence)) return violates("SYNC-PRO-08");
   if (setting.sync_start.value_or(0) != 0 && type <= 240)
     return violates(evidence.wrote(0x1019, 0).value_or(0) == 0 ? "PDO-TX-15" : "PDO-TX-14");
+  if (!synced && type <= 240 && produces_sync(evidence)) return violates("SYNC-PRO-08");
+  if (type <= 240 && counts_oddly(evidence)) return violates("SYNC-CON-06");
   if (type == 0) return violates("PDO-TX-07");
   if (type == 1) return violates("PDO-TX-05");
   if (type <= 240) return violates("PDO-TX-06");

@@ -221,3 +221,116 @@ TEST_CASE("an abort about another object is what is wrong, unless it ends the tr
   CHECK(text_of(judged({sdo(0x605, {0xE0, 0, 0x10, 0, 0, 0, 0, 0})}, unknown(1), unknown(0))) ==
         "SDO-ERR-04 tolerated");
 }
+
+TEST_CASE("the communication object of a PDO that has a mapping is missed as one of a pair") {
+  auto words = words_of_the_standard();
+  device::Entry mapping;
+  mapping.mux = at(0x1600);
+  words.entries.push_back(mapping);
+  std::ranges::sort(words.entries, {}, &device::Entry::mux);
+  const auto named = [&](std::uint16_t index, AbortCode code) {
+    const Conversation talk{upload(at(index, 1))};
+    Played played;
+    played.difference.emplace();
+    played.difference->device = aborted(code);
+    played.difference->model = confirmed({5, 2, 0, 0});
+    played.answers = {played.difference->device};
+    played.due = {played.difference->model};
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named(0x1400, abort::no_object) == "OD-1400-03 violated");
+  CHECK(named(0x1400, abort::no_sub_index) == "OD-1400-01 violated");
+}
+
+TEST_CASE("sub-index FFh may be there, and says what its object is") {
+  const auto named = [](std::uint16_t index, Bytes value) {
+    return text_of(
+        judged({upload(at(index, 0xFF))}, confirmed(std::move(value)), aborted(abort::no_sub_index)));
+  };
+  CHECK(named(0x1018, {9, 0x23, 0, 0}).empty());
+  CHECK(named(0x1018, {9, 0x23}) == "OD-OBJ-01 violated");
+  CHECK(named(0x1018, {9, 0x23, 0, 1}) == "OD-OBJ-02 violated");
+  CHECK(named(0x1018, {8, 0x23, 0, 0}) == "OD-OBJ-03 violated");
+  CHECK(named(0x1018, {9, 0x22, 0, 0}) == "OD-OBJ-04 violated");
+  // Of an object of the manufacturer everything can be true that is a code of an object.
+  CHECK(named(0x2000, {8, 5, 0, 0}).empty());
+}
+
+TEST_CASE("a signature that was refused has neither stored nor restored") {
+  const auto words = words_of_the_standard();
+  const auto named = [&](std::uint16_t index, const Answer& due) {
+    const Conversation talk{download(at(0x1017), {100, 0}), download(at(index, 1), {1, 2, 3, 4}),
+                            nmt(NodeId(5), 0x82), upload(at(0x1017))};
+    Played played;
+    played.difference.emplace();
+    played.difference->action = 3;
+    played.difference->device = confirmed({100, 0});
+    played.difference->model = confirmed({0, 0});
+    played.answers.assign(4, confirmed());
+    played.due = {confirmed(), due, {}, played.difference->model};
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named(0x1010, aborted(abort::general)) == "OD-1010-09 violated");
+  CHECK(named(0x1011, aborted(abort::general)) == "OD-1011-09 violated");
+  CHECK(named(0x1011, confirmed()) == "OD-1011-12 violated");
+}
+
+TEST_CASE("a COB-ID that is refused for what means nothing in it, or for its neighbours, is told so") {
+  const auto refused = [](std::uint16_t index, std::uint8_t sub, std::uint32_t value) {
+    return text_of(
+        judged({download(at(index, sub), to_le(value, 4))}, aborted(abort::invalid_value), confirmed()));
+  };
+  CHECK(refused(0x1005, 0, 0x8000'0080) == "OD-1005-11 tolerated");
+  CHECK(refused(0x1400, 1, 0xC000'0205) == "OD-1400-14 tolerated");
+  CHECK(refused(0x1400, 1, 0x181) == "CAN-RID-07 tolerated");
+  CHECK(refused(0x1400, 1, 0x6DF) == "CAN-RID-07 tolerated");
+  CHECK(refused(0x1400, 1, 0x300) == "OD-1400-11 tolerated");
+  CHECK(refused(0x1016, 1, 0x10'0000) == "OD-1016-07 tolerated");
+}
+
+TEST_CASE("what is longer than four bytes is never sent in one") {
+  CHECK(text_of(judged({upload(at(0x1008))}, confirmed({'a', 'b'}), confirmed({'a', 'b', 'c', 'd', 'e'}))) !=
+        "SDO-UPL-05 violated");  // a text may be short
+  auto words = words_of_the_standard();
+  device::Entry number;
+  number.mux = at(0x2000);
+  number.type = canopen::DataType::unsigned64;
+  words.entries.push_back(number);
+  const Conversation talk{upload(at(0x2000))};
+  Played played;
+  played.difference.emplace();
+  played.difference->device = confirmed({1, 2, 3, 4});
+  played.difference->model = confirmed({1, 2, 3, 4, 5, 6, 7, 8});
+  CHECK(text_of(assign({words, talk, played})) == "SDO-UPL-05 violated");
+}
+
+TEST_CASE("a server that gives up a transfer before its time is told so") {
+  const Conversation talk{sdo(0x605, {0x40, 0x08, 0x10, 0, 0, 0, 0, 0}), wait(200ms),
+                          sdo(0x605, {0x60, 0, 0, 0, 0, 0, 0, 0})};
+  CHECK(text_of(judged(talk, aborted(abort::timed_out), replied({1, 'a', 'b', 'c', 'd', 'e', 'f', 'g'}))) ==
+        "SDO-SUP-17 tolerated");
+}
+
+TEST_CASE(
+    "what depends on the counter of SYNC, on an entry of 1016h, or on 16 bits of a time has its own rule") {
+  const auto tpdo = can::data_frame(CanId(0x185), {0});
+  const auto sync = [](std::uint8_t counter) {
+    return frame(can::data_frame(canopen::sync_can_id, {counter}));
+  };
+  const auto counted = [&](std::uint8_t counter) {
+    return text_of(judged_frames({nmt(NodeId(5), 1), wait(200ms), download(at(0x1019), {10}),
+                                  download(at(0x1800, 2), {1}), sync(counter)},
+                                 What::missing, {}, tpdo));
+  };
+  CHECK(counted(11) == "SYNC-CON-06 violated");
+  CHECK(counted(10) == "PDO-TX-05 violated");
+  const auto lost = [&](std::uint8_t sub) {
+    return text_of(judged_frames({download(at(0x1016, sub), {100, 0, 0x10, 0}), wait(200ms)}, What::missing,
+                                 {}, emcy(0x8130)));
+  };
+  CHECK(lost(1) == "EC-HBC-03 violated");
+  CHECK(lost(2) == "EC-HBC-13 violated");
+  const auto heartbeat = can::data_frame(CanId(0x705), {std::uint8_t{0x7F}});
+  CHECK(text_of(judged_frames({download(at(0x1017), {0, 0x80}), wait(200ms)}, What::surplus, heartbeat,
+                              {})) == "EC-HBP-11 violated");
+}
