@@ -2,10 +2,13 @@
 #include "explore/assign.hpp"
 
 #include "canopen/abort_code.hpp"
+#include "canopen/cob_id.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <string>
 
 namespace conform::explore {
@@ -116,11 +119,45 @@ Evidence::Commands Evidence::commands() const {
 bool Evidence::settled() const {
   using namespace std::chrono_literals;
   Duration since{};
-  for (const auto& each : before()) {
-    if (each.nmt_command(words.node) != 0) since = {};
+  bool in_time = true;
+  std::optional<std::size_t> reset;
+  for (std::size_t i = 0; i < before().size(); ++i) {
+    const auto& each = before()[i];
+    const auto command = each.nmt_command(words.node);
+    if (each.kind == Action::Kind::power || command > 0x80) {
+      reset = i;
+    } else if (command != 0) {
+      in_time = !reset || was_up_between(*reset, i);
+    }
+    if (command != 0) since = {};
     if (each.kind == Action::Kind::wait) since += each.time;
   }
-  return since >= 150ms;
+  return in_time && since >= 150ms;
+}
+
+bool Evidence::was_up_between(std::size_t reset, std::size_t command) const {
+  using namespace std::chrono_literals;
+  if (command < played.begins.size()) {
+    const auto boots = [&](const can::CapturedFrame& each) {
+      return each.frame.is_data(canopen::connection_set(words.node).error_control) && each.frame.dlc == 1 &&
+             each.frame.data[0] == 0 && each.time > played.begins[reset] &&
+             each.time < played.begins[command];
+    };
+    return std::ranges::any_of(played.trace, boots);
+  }
+  Duration since{};
+  for (auto i = reset; i < command; ++i) {
+    if (conversation[i].kind == Action::Kind::wait) since += conversation[i].time;
+  }
+  return since >= 1s;
+}
+
+bool Evidence::floods() const {
+  constexpr std::uint64_t few_frames = 1000;  // us
+  return some([&](const Action& each) {
+    const auto period = load_le(each.data);
+    return each.kind == Action::Kind::download && each.is_at(0x1006, 0) && period != 0 && period < few_frames;
+  });
 }
 
 bool Evidence::commanded() const {
@@ -152,7 +189,9 @@ std::optional<Assigned> assign_fault(const Evidence& evidence) {
   return goes_on || other_data ? violates(std::move(rule)) : strains(std::move(rule));
 }
 
-std::optional<Assigned> assign(const Evidence& evidence) {
+namespace {
+
+std::optional<Assigned> assign_plainly(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   if (auto behind = assign_behind_a_loss(evidence)) return behind;
   switch (difference.what) {
@@ -185,15 +224,25 @@ std::optional<Assigned> assign(const Evidence& evidence) {
     if (reset && !evidence.stopped()) return strains("SDO-GEN-16");
     // An earlier request has got no answer, and where all are served this may be that one, late.
     const auto& answers = evidence.played.answers;
-    const auto waited = [&](std::size_t at) {
-      return evidence.conversation[at].is_transfer() && answers[at].kind == Kind::silence;
-    };
+    bool stopped = false;
     for (std::size_t i = 0; i < difference.action && i < answers.size(); ++i) {
-      if (!evidence.stopped() && waited(i)) return strains("SDO-GEN-18");
+      const auto& each = evidence.conversation[i];
+      const auto command = each.nmt_command(evidence.words.node);
+      if (command != 0 || each.kind == Action::Kind::power) stopped = command == 2;
+      if (!stopped && each.is_transfer() && answers[i].kind == Kind::silence) return strains("SDO-GEN-18");
     }
     return in_its_state(evidence, "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);
+}
+
+}  // namespace
+
+std::optional<Assigned> assign(const Evidence& evidence) {
+  auto out = assign_plainly(evidence);
+  // Where the device fills the bus, everything else on it is late.
+  if (out && evidence.floods()) out->grade = Grade::tolerated;
+  return out;
 }
 
 }  // namespace conform::explore

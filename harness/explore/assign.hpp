@@ -33,8 +33,14 @@ struct Evidence {
   [[nodiscard]] Commands commands() const;
   [[nodiscard]] bool stopped() const { return commands().last == 2; }
   [[nodiscard]] bool operational() const { return commands().last == 1; }
-  /// Time was let pass behind the last NMT command, so that the device has obeyed it (T_NMT).
+  /// The device was up when the last NMT command came, and time was let pass behind it, so that it has obeyed
+  /// (T_NMT).
   [[nodiscard]] bool settled() const;
+  /// Between the reset and the command, by their places, the device has started; where nobody knows, a second
+  /// went by.
+  [[nodiscard]] bool was_up_between(std::size_t reset, std::size_t command) const;
+  /// It was to produce SYNC with a period of a few frames.
+  [[nodiscard]] bool floods() const;
   /// Some NMT command, or a power cycle, came.
   [[nodiscard]] bool commanded() const;
   /// What was written to the entry last, up to the difference, whether the device took it or not.

@@ -31,6 +31,8 @@ bool is_given(const Evidence& evidence, std::uint32_t id, std::uint8_t sub) {
 /// Requests on the channel, and near it: who does not look at all bits hears those, too.
 bool asks(const Evidence& evidence, const Action& action) {
   if (action.kind != Action::Kind::frame || action.frame.extended || action.frame.remote) return false;
+  // No channel is among NMT, SYNC, EMCY and TIME; one that is switched off may name any CAN-ID.
+  if (action.frame.id <= canopen::time_can_id.value()) return false;
   return evidence.some([&](const Action& each) {
     const auto id = cob_id_of(each) & canopen::cob_id::base_id_mask;
     return is_channel(each, 1) && ((id ^ action.frame.id) & ~0xFU) == 0;

@@ -8,10 +8,11 @@ using namespace variant;
 
 namespace {
 
-/// After boot-up, one EMCY 0000h.
+/// After boot-up, one EMCY 0000h, unless there is an error.
 void announce_no_error(Parts& parts) {
-  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
-    if (context.service != Service::boot_up || frames.empty()) return;
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::boot_up || frames.empty() || parts.emergency.error_register() != 0)
+      return;
     frames.push_back({conform::can::data_frame(conform::CanId(0x80U + context.node_id),
                                                {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}),
                       std::chrono::milliseconds(2)});
@@ -89,7 +90,7 @@ VariantTable emergency_variants() {
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},
       {.id = "emcy-no-error-at-boot-up",
-       .summary = "EMCY 0000h after boot-up",
+       .summary = "EMCY 0000h after boot-up where there is no error",
        .legal = "EMCY-SEQ-03, tolerated",
        .how = announce_no_error,
        .excludes = {"emcy", "1014-not-valid"},

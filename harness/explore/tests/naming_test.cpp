@@ -334,3 +334,50 @@ TEST_CASE(
   CHECK(text_of(judged_frames({download(at(0x1017), {0, 0x80}), wait(200ms)}, What::surplus, heartbeat,
                               {})) == "EC-HBP-11 violated");
 }
+
+TEST_CASE("a command that came while the device was starting may have been missed") {
+  const auto words = words_of_the_standard();
+  const Conversation talk{nmt(NodeId(5), 0x82), nmt(NodeId(5), 2), wait(200ms), upload(at(0x1000))};
+  const auto named = [&](int boot_up) {
+    Played played;
+    played.difference.emplace();
+    played.difference->action = 3;
+    played.difference->device = confirmed({0, 0, 0, 0});
+    played.difference->model = silent();
+    played.answers.assign(4, {});
+    played.due.assign(4, {});
+    played.begins = {BusTime(100ms), BusTime(120ms), BusTime(121ms), BusTime(321ms)};
+    can::CapturedFrame boots;
+    boots.frame = can::data_frame(CanId(0x705), {std::uint8_t{0}});
+    boots.time = BusTime(std::chrono::milliseconds(boot_up));
+    played.trace = {boots};
+    return text_of(assign({words, talk, played}));
+  };
+  CHECK(named(110) == "SDO-GEN-15 violated");
+  CHECK(named(190) == "SDO-GEN-15 tolerated");
+}
+
+TEST_CASE("an answer in Stopped to what was asked before it is a late one") {
+  const auto words = words_of_the_standard();
+  const Conversation talk{upload(at(0x1006)), nmt(NodeId(5), 2), wait(200ms), upload(at(0x1000))};
+  Played played;
+  played.difference.emplace();
+  played.difference->action = 3;
+  played.difference->device = confirmed();
+  played.difference->model = silent();
+  played.answers = {silent(), {}, {}, confirmed()};
+  played.due = {confirmed(), {}, {}, silent()};
+  CHECK(text_of(assign({words, talk, played})) == "SDO-GEN-18 tolerated");
+}
+
+TEST_CASE("a channel that is switched off takes no NMT command for a request") {
+  const Conversation talk{nmt(NodeId(5), 2), wait(200ms), download(at(0x1202, 1), {0, 0, 0, 0x80})};
+  CHECK(text_of(judged(talk, confirmed(), silent())) == "SDO-GEN-15 violated");
+}
+
+TEST_CASE("on a bus that the device fills everything is late, and nothing but strained") {
+  const Conversation talk{download(at(0x1006), {47, 0, 0, 0}), upload(at(0x1000))};
+  CHECK(text_of(judged(talk, silent(), confirmed({0, 0, 0, 0}))).ends_with(" tolerated"));
+  const Conversation slower{download(at(0x1006), {0x10, 0x27, 0, 0}), upload(at(0x1000))};
+  CHECK(text_of(judged(slower, silent(), confirmed({0, 0, 0, 0}))).ends_with(" violated"));
+}

@@ -111,3 +111,14 @@ TEST_CASE("A SYNC with data is reported until one without data comes") {
   CHECK(bench.send("080: 01").empty());
   CHECK(bench.send("080:") == Frames{"085: 00 00 00 00 03 00 00 00"});
 }
+
+TEST_CASE("A node that tells of no error after its boot-up message is silent while it has one") {
+  Bench bench(Bench::Wanted{{.node_id = 5, .variants = {"emcy-no-error-at-boot-up"}}});
+  bench.wait(100ms);
+  bench.send("000: 82 05");
+  CHECK(bench.wait(100ms) == Frames{"705: 00", "085: 00 00 00 00 00 00 00 00"});
+  bench.send("605: 2B 00 2F 01 00 70 00 00");
+  bench.send("000: 82 05");
+  CHECK(bench.wait(100ms) == Frames{"705: 00"});
+  CHECK(bench.sdo("40 01 10 00 00 00 00 00") == "4F 01 10 00 01 00 00 00");
+}
