@@ -152,6 +152,17 @@ bool Evidence::was_up_between(std::size_t reset, std::size_t command) const {
   return since >= 1s;
 }
 
+bool Evidence::may_be_late() const {
+  bool stopped = false;
+  for (std::size_t i = 0; i < difference().action && i < played.answers.size(); ++i) {
+    const auto& each = conversation[i];
+    const auto command = each.nmt_command(words.node);
+    if (command != 0 || each.kind == Action::Kind::power) stopped = command == 2;
+    if (!stopped && each.is_transfer() && played.answers[i].kind == Answer::Kind::silence) return true;
+  }
+  return false;
+}
+
 bool Evidence::floods() const {
   constexpr std::uint64_t few_frames = 1000;  // us
   return some([&](const Action& each) {
@@ -222,15 +233,7 @@ std::optional<Assigned> assign_plainly(const Evidence& evidence) {
     });
     // How long a device boots is its choice, and long behind that a model is silent only because it is slow.
     if (reset && !evidence.stopped()) return strains("SDO-GEN-16");
-    // An earlier request has got no answer, and where all are served this may be that one, late.
-    const auto& answers = evidence.played.answers;
-    bool stopped = false;
-    for (std::size_t i = 0; i < difference.action && i < answers.size(); ++i) {
-      const auto& each = evidence.conversation[i];
-      const auto command = each.nmt_command(evidence.words.node);
-      if (command != 0 || each.kind == Action::Kind::power) stopped = command == 2;
-      if (!stopped && each.is_transfer() && answers[i].kind == Kind::silence) return strains("SDO-GEN-18");
-    }
+    if (evidence.may_be_late()) return strains("SDO-GEN-18");
     return in_its_state(evidence, "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);

@@ -39,6 +39,8 @@ struct Evidence {
   /// Between the reset and the command, by their places, the device has started; where nobody knows, a second
   /// went by.
   [[nodiscard]] bool was_up_between(std::size_t reset, std::size_t command) const;
+  /// A transfer before it has got no answer where all are served: what comes now may be that one.
+  [[nodiscard]] bool may_be_late() const;
   /// It was to produce SYNC with a period of a few frames.
   [[nodiscard]] bool floods() const;
   /// Some NMT command, or a power cycle, came.

@@ -326,6 +326,7 @@ std::optional<Assigned> assign_request(const Evidence& evidence) {
   const auto model = evidence.difference().model.kind;
   const auto own = canopen::connection_set(evidence.words.node);
   if (model == Kind::silence) {
+    if (evidence.may_be_late()) return strains("SDO-GEN-18");
     if (evidence.stopped()) return in_its_state(evidence, "SDO-GEN-15");
     if (frame.remote) return violates("SDO-GEN-10");
     if (frame.extended) return violates("SDO-GEN-11");

@@ -23,7 +23,11 @@ class SdoStates final : public Monitor {
   void on_frame(const Observation& seen, const Follower& follower) override {
     const auto& nmt = follower.nmt();
     const bool in_stopped = nmt.commanded(seen.time()) == canopen::NmtState::stopped;
-    if (!in_stopped) asked_in_stopped_ = false;
+    if (!in_stopped) {
+      asked_in_stopped_ = false;
+      if (seen.subject == Subject::sdo_request) unanswered_ = true;
+      if (seen.subject == Subject::sdo_response) unanswered_ = false;
+    }
     if (seen.boot_up()) {
       if (nmt.booting()) {
         if (early_ && early_reset_ == nmt.reset_index() && bad(before_boot_up)) {
@@ -38,7 +42,8 @@ class SdoStates final : public Monitor {
       quiet(stopped);
     } else if (seen.subject == Subject::sdo_response) {
       // The answer to a request from before may be on its way already.
-      const bool older = !asked_in_stopped_ && seen.answer.to != SdoAnswer::To::stream;
+      const bool older = (!asked_in_stopped_ || unanswered_) && seen.answer.to != SdoAnswer::To::stream;
+      if (in_stopped) unanswered_ = false;
       const bool made_in_stopped = nmt.commanded_to_sender(seen.time()) == canopen::NmtState::stopped;
       if (made_in_stopped && !older && bad(stopped)) {
         tell(stopped, seen, "an SDO response", "silence", "the device was stopped and SDO is off in Stopped");
@@ -56,10 +61,14 @@ class SdoStates final : public Monitor {
                          "a reset was commanded and the boot-up message had not been sent"};
     }
   }
-  void on_loss() override { early_.reset(); }
+  void on_loss() override {
+    early_.reset();
+    unanswered_ = true;
+  }
 
  private:
   bool asked_in_stopped_ = false;
+  bool unanswered_ = false;  ///< the last request that came before Stopped
   std::optional<Violation> early_;
   std::size_t early_reset_ = 0;
 };

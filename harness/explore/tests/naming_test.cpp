@@ -368,6 +368,10 @@ TEST_CASE("an answer in Stopped to what was asked before it is a late one") {
   played.answers = {silent(), {}, {}, confirmed()};
   played.due = {confirmed(), {}, {}, silent()};
   CHECK(text_of(assign({words, talk, played})) == "SDO-GEN-18 tolerated");
+  // Behind a single request as well.
+  auto single = talk;
+  single.back() = request(can::remote_frame(CanId(0x605), 8));
+  CHECK(text_of(assign({words, single, played})) == "SDO-GEN-18 tolerated");
 }
 
 TEST_CASE("a channel that is switched off takes no NMT command for a request") {
