@@ -158,7 +158,8 @@ bool Evidence::may_be_late() const {
     const auto& each = conversation[i];
     const auto command = each.nmt_command(words.node);
     if (command != 0 || each.kind == Action::Kind::power) stopped = command == 2;
-    if (!stopped && each.is_transfer() && played.answers[i].kind == Answer::Kind::silence) return true;
+    const bool asks = each.is_transfer() || each.kind == Action::Kind::request;
+    if (!stopped && asks && played.answers[i].kind == Answer::Kind::silence) return true;
   }
   return false;
 }
@@ -209,8 +210,11 @@ std::optional<Assigned> assign_plainly(const Evidence& evidence) {
     case Difference::What::rule:
       // The monitors know the device by the node-ID that it had.
       // A CAN-ID of an additional SDO server may have been given to another service, too.
-      return gives_node_id(evidence) || is_on_channel(evidence) ? strains(difference.requirement)
-                                                                : violates(difference.requirement);
+      // An answer that is late is one to an earlier request.
+      return gives_node_id(evidence) || is_on_channel(evidence) ||
+                     (difference.requirement == "SDO-GEN-15" && evidence.may_be_late())
+                 ? strains(difference.requirement)
+                 : violates(difference.requirement);
     case Difference::What::broken: return std::nullopt;
     case Difference::What::gone: return violates("NMT-BOOT-02");
     case Difference::What::late: return strains("SDO-GEN-18");
@@ -233,7 +237,11 @@ std::optional<Assigned> assign_plainly(const Evidence& evidence) {
     });
     // How long a device boots is its choice, and long behind that a model is silent only because it is slow.
     if (reset && !evidence.stopped()) return strains("SDO-GEN-16");
-    if (evidence.may_be_late()) return strains("SDO-GEN-18");
+    // Nobody has stopped it, nor told it that an error does: the model is silent because it is slow.
+    const bool may_stop = evidence.some([](const Action& each) {
+      return each.kind == Action::Kind::download && each.object.index == Index(0x1029);
+    });
+    if (evidence.may_be_late() || (!evidence.stopped() && !may_stop)) return strains("SDO-GEN-18");
     return in_its_state(evidence, "SDO-GEN-15");
   }
   return last.fault.empty() ? assign_answer(evidence) : assign_fault(evidence);

@@ -154,6 +154,10 @@ TEST_CASE("an answer where the model has none may be a late one, unless nobody w
   CHECK(named({download(at(0x1017), {1}), upload(at(0x1017))}, silent()) == "SDO-GEN-18 tolerated");
   CHECK(named({nmt(NodeId(5), 2), wait(200ms), upload(at(0x1017)), upload(at(0x1017))}, silent()) ==
         "SDO-GEN-15 violated");
+  // What nobody has stopped is not in Stopped, unless an error leads there.
+  CHECK(named({wait(200ms), upload(at(0x1017))}, {}) == "SDO-GEN-18 tolerated");
+  CHECK(named({download(at(0x1029, 1), {2}), wait(200ms), upload(at(0x1017))}, confirmed()) ==
+        "SDO-GEN-15 violated");
 }
 
 TEST_CASE("an error is told once, and an RPDO that is late by its own code") {

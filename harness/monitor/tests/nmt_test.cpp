@@ -74,7 +74,7 @@ TEST_CASE("In Stopped the server is silent") {
   CHECK(told({request, stop, "wait 200 ms", request, answer}).empty());
   CHECK(told({request, answer, stop, "wait 200 ms", request, answer}) == Told{"fail SDO-GEN-15 in frame 5"});
   CHECK(told({request, stop, "wait 200 ms", request, answer, request, answer}) ==
-        Told{"fail SDO-GEN-15 in frame 5"});
+        Told{"fail SDO-GEN-15 in frame 6"});
   // Perhaps still booting when the command came.
   CHECK(told({reset_node, stop, boot_up, "wait 200 ms", request, answer}).empty());
   const auto cases =
