@@ -82,6 +82,8 @@ struct Assigned {
 [[nodiscard]] std::optional<Assigned> assign_frame(const Evidence& evidence);
 /// An EMCY.
 [[nodiscard]] std::optional<Assigned> assign_emcy(const Evidence& evidence);
+/// The error code of an EMCY; 0000h also of a frame that is too short for one.
+[[nodiscard]] unsigned emcy_code(const can::Frame& emcy);
 /// What comes of the state that the loss of another node has led to.
 [[nodiscard]] std::optional<Assigned> assign_behind_a_loss(const Evidence& evidence);
 /// The frame that it is all about.

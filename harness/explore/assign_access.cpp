@@ -132,7 +132,7 @@ std::optional<Assigned> wrong_value(const Evidence& evidence) {
 
 /// By a transfer that is not the plainest one, which checks less.
 std::string refusal_by_transfer(const Action& last, AbortCode due) {
-  const bool range = is_one_of(due, {abort::invalid_value, abort::value_too_high, abort::value_too_low});
+  const bool range = is_about_value(due);
   const bool access = is_one_of(due, {abort::read_only, abort::no_object, abort::no_sub_index});
   switch (last.transfer) {
     case Transfer::segmented:
@@ -215,9 +215,7 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
   // The client has sent the CRC of what it has sent.
   if (device.kind == Kind::aborted && device.code == abort::crc) return violates("SDO-BDN-02");
   const bool has_other_reason =
-      model.kind == Kind::aborted &&
-      (is_about_length(model.code) ||
-       is_one_of(model.code, {abort::value_too_high, abort::value_too_low, abort::invalid_value}));
+      model.kind == Kind::aborted && (is_about_length(model.code) || is_about_value(model.code));
   if (device.kind == Kind::aborted && !has_other_reason) {
     if (auto type = wrong_type(evidence)) return type;
   }

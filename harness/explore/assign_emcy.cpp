@@ -12,18 +12,14 @@ using What = Difference::What;
 
 namespace {
 
-unsigned code_of(const can::Frame& emcy) {
-  return emcy.size() < 2 ? 0U : static_cast<unsigned>(emcy.data[0] | (emcy.data[1] << 8U));
-}
-
-/// The device has sent it before, as far as the difference; `same`: with this content.
-std::size_t times_sent(const Evidence& evidence, unsigned code, const can::Frame* same = nullptr) {
-  std::size_t out = 0;
+/// The device has said the same before, and that no error is left has not come since.
+bool is_repeated(const Evidence& evidence) {
+  const auto& came = evidence.difference().came;
+  bool out = false;
   for (const auto& each : evidence.played.trace) {
     if (each.time >= evidence.difference().time) break;
-    if (each.frame.id != frame_of(evidence).id || each.frame.remote) continue;
-    if (code_of(each.frame) == 0) out = code == 0 ? out : 0;
-    out += code_of(each.frame) == code && (same == nullptr || each.frame == *same);
+    if (each.frame.id != came.id || each.frame.remote) continue;
+    out = each.frame == came || (out && emcy_code(each.frame) != 0);
   }
   return out;
 }
@@ -73,6 +69,10 @@ bool is_passed_on(const Evidence& evidence, const can::Frame& came) {
 
 }  // namespace
 
+unsigned emcy_code(const can::Frame& emcy) {
+  return emcy.size() < 2 ? 0U : static_cast<unsigned>(emcy.data[0] | (emcy.data[1] << 8U));
+}
+
 const can::Frame& frame_of(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   return difference.what == What::missing ? difference.due : difference.came;
@@ -86,7 +86,7 @@ bool guards(const Action& action, const Evidence& evidence) {
 std::optional<Assigned> assign_emcy(const Evidence& evidence) {
   const auto& difference = evidence.difference();
   const auto& about = frame_of(evidence);
-  const auto code = code_of(about);
+  const auto code = emcy_code(about);
   if (difference.what != What::missing && is_passed_on(evidence, difference.came))
     return violates("EMCY-CON-02");
   if (difference.what == What::other_data) {
@@ -99,7 +99,7 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     if (difference.came.data[0] != difference.due.data[0] ||
         difference.came.data[1] != difference.due.data[1]) {
       const auto due = static_cast<unsigned>(difference.due.data[0] | (difference.due.data[1] << 8U));
-      if (due == 0x8250 || code_of(difference.came) == 0x8250) return violates("PDO-RX-14");
+      if (due == 0x8250 || emcy_code(difference.came) == 0x8250) return violates("PDO-RX-14");
       return due == 0x8130   ? violates("EC-HBC-03")
              : due == 0x8210 ? violates("PDO-RX-06")
              : due == 0x8240 ? violates("SYNC-CON-05")
@@ -122,8 +122,7 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     return each.kind == Action::Kind::frame && each.frame.remote && each.frame.id == about.id;
   });
   if (!missing && asked) return violates("EMCY-COB-06");
-  if (!missing && code != 0 && times_sent(evidence, code, &difference.came) > 0)
-    return violates("EMCY-SEQ-01");
+  if (!missing && code != 0 && is_repeated(evidence)) return violates("EMCY-SEQ-01");
   if (!missing && code == 0 && evidence.last().is_at(0x1003, 0)) return violates("OD-1003-16");
   // SYNC that fails to come is the only error that the period of SYNC makes.
   if (code == 0x8100 && evidence.wrote(0x1006, 0).value_or(0) != 0) return violates("SYNC-CON-10");
@@ -133,7 +132,7 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     if (missing) {
       // Said once, and not a second time: it has not noticed that the master was there again.
       const bool again = std::ranges::any_of(evidence.played.trace, [&](const can::CapturedFrame& each) {
-        return each.frame.id == about.id && code_of(each.frame) == 0x8130;
+        return each.frame.id == about.id && emcy_code(each.frame) == 0x8130;
       });
       return violates(again ? "EC-NG-10" : "EC-NG-07");
     }

@@ -129,6 +129,10 @@ bool is_about_length(AbortCode code) {
   return is_one_of(code, {abort::length_mismatch, abort::length_too_high, abort::length_too_low});
 }
 
+bool is_about_value(AbortCode code) {
+  return is_one_of(code, {abort::invalid_value, abort::value_too_high, abort::value_too_low});
+}
+
 bool is_one_of(AbortCode code, std::initializer_list<AbortCode> codes) {
   return std::ranges::find(codes, code) != codes.end();
 }

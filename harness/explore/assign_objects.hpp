@@ -28,6 +28,8 @@ enum class About : std::uint8_t {
 [[nodiscard]] bool is_one_of(AbortCode code, std::initializer_list<AbortCode> codes);
 /// Of a length that does not fit.
 [[nodiscard]] bool is_about_length(AbortCode code);
+/// Of a value that is not among those the entry takes.
+[[nodiscard]] bool is_about_value(AbortCode code);
 /// Confirmed where it should be refused, or refused with a code; `tolerated` ones only strain the rule.
 [[nodiscard]] std::optional<Assigned> refusal(const Evidence& evidence, std::string rule,
                                               std::initializer_list<AbortCode> tolerated);

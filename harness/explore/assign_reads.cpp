@@ -152,8 +152,7 @@ std::optional<Assigned> other_history(const Evidence& evidence) {
   // Error code 0000h is that of "error reset", where one came.
   const auto emcy = canopen::connection_set(evidence.words.node).emcy;
   const bool reset = std::ranges::any_of(evidence.played.trace, [&](const can::CapturedFrame& each) {
-    return each.frame.is_data(emcy) &&
-           load_le(each.frame.bytes().first(std::min<std::size_t>(2, each.frame.size()))) == 0;
+    return each.frame.is_data(emcy) && emcy_code(each.frame) == 0;
   });
   if (reset && holds && sub > 0 && device.data.size() == 4 && (load_le(device.data) & 0xFFFFU) == 0)
     return violates("OD-1003-15");
@@ -220,14 +219,13 @@ std::optional<Assigned> other_value(const Evidence& evidence) {
     return violates(raised ? "OD-1001-05" : "OD-1001-06");
   }
   if (mux.index == Index(0x1003) && was_cleared(evidence)) return violates("OD-1003-05");
-  // How many errors the history holds is the device's choice.
   if (mux.index == Index(0x1003)) {
     if (auto history = other_history(evidence)) return history;
-  }
-  if (mux.index == Index(0x1003))
+    // How many errors the history holds is the device's choice.
     return mux.sub.value() == 0   ? strains("OD-1003-10")
            : mux.sub.value() == 1 ? violates("OD-1003-11")
                                   : strains("OD-1003-12");
+  }
   if (auto reset = after_a_reset(evidence)) return reset;
   if (auto written = after_a_write(evidence)) return written;
   if (entry->access == device::Access::constant || !entry->writable()) {
@@ -281,13 +279,12 @@ std::optional<Assigned> assign_upload(const Evidence& evidence) {
       return refusal(evidence, missing_sub_index(evidence, true), {abort::general, abort::no_data});
     if (model.code == abort::write_only)
       return refusal(evidence, "OD-ACC-03", {abort::unsupported_access, abort::general});
-    if (mux.index == Index(0x1003) && device.kind == Kind::confirmed && was_cleared(evidence))
-      return violates("OD-1003-05");
     if (mux.index == Index(0x1003)) {
+      const bool confirmed = device.kind == Kind::confirmed;
+      if (confirmed && was_cleared(evidence)) return violates("OD-1003-05");
       if (auto history = other_history(evidence)) return history;
+      return confirmed ? violates("OD-1003-09") : strains("OD-1003-03");
     }
-    if (mux.index == Index(0x1003))
-      return device.kind == Kind::confirmed ? violates("OD-1003-09") : strains("OD-1003-03");
     // Why the model has nothing to tell is its own matter, how long the value is it is not.
     const auto* entry = evidence.words.find(mux);
     const bool has_length = entry != nullptr && entry->size() && device.kind == Kind::confirmed;
