@@ -4,8 +4,13 @@ import ctypes
 import os
 import re
 import shutil
+import socket
+import struct
 import subprocess
 
+FRAME = struct.Struct("=IB3x8s")  # CAN-ID, length, data
+SO_TIMESTAMPNS = 35
+SO_RCVBUFFORCE = 33
 FINIT_MODULE = 313  # x86-64, the only machine with user-mode-linux
 
 
@@ -82,3 +87,29 @@ class Selected:
 
     def __exit__(self, *_):
         tc("qdisc", "del", "dev", self.interface, "root")
+
+
+class Witness:
+    """Hears every frame of the interface beside the harness, with the kernel's stamp."""
+
+    def __init__(self, interface):
+        self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+        self.socket.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 64 << 20)
+        self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
+        self.socket.bind((interface,))
+        self.socket.setblocking(False)
+
+    def close(self):
+        self.socket.close()
+
+    def frames(self):
+        """(nanoseconds, CAN-ID, data) of all that came."""
+        out = []
+        while True:
+            try:
+                data, ancillary, _, _ = self.socket.recvmsg(16, 64)
+            except BlockingIOError:
+                return out
+            seconds, nanoseconds = struct.unpack("=qq", ancillary[0][2][:16])
+            can_id, length, payload = FRAME.unpack(data)
+            out.append((seconds * 10**9 + nanoseconds, can_id & 0x1FFFFFFF, payload[:length]))

@@ -13,13 +13,11 @@ import time
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+from live_bus import FRAME, Witness
 from live_device import INTERFACE, SUITES, Node, command, folder_for, program
 
 ROUNDS = int(os.environ.get("CONFORM_KILL_ROUNDS", "5"))
 SEED = os.environ.get("CONFORM_KILL_SEED", time.strftime("%Y%m%d"))
-FRAME = struct.Struct("=IB3x8s")
-SO_TIMESTAMPNS = 35
-SO_RCVBUFFORCE = 33
 # What the device itself changes: error register, error field, clock, what the last command of its operating system gave.
 ITS_OWN = {0x1001, 0x1003, 0x1013, 0x1023}
 SEARCHED = [range(0x1000, 0x1030), range(0x1200, 0x1204), range(0x1280, 0x1283), range(0x1400, 0x1410), range(0x1600, 0x1610),
@@ -99,32 +97,6 @@ class Client:
         self.command(0x81)
         time.sleep(0.5)
         self.until_there()
-
-
-class Witness:
-    """Hears every frame beside the harness, with the kernel's stamp."""
-
-    def __init__(self):
-        self.socket = socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
-        self.socket.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 64 << 20)
-        self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
-        self.socket.bind((INTERFACE,))
-        self.socket.setblocking(False)
-
-    def close(self):
-        self.socket.close()
-
-    def frames(self):
-        """(nanoseconds, CAN-ID, data) of all that came."""
-        out = []
-        while True:
-            try:
-                data, ancillary, _, _ = self.socket.recvmsg(16, 64)
-            except BlockingIOError:
-                return out
-            seconds, nanoseconds = struct.unpack("=qq", ancillary[0][2][:16])
-            can_id, length, payload = FRAME.unpack(data)
-            out.append((seconds * 10**9 + nanoseconds, can_id & 0x1FFFFFFF, payload[:length]))
 
 
 LINE = re.compile(r"\((\d+)\.(\d{6})\) \S+ ([0-9A-F]+)#([0-9A-FR]*)$")
@@ -214,7 +186,7 @@ class Kill(unittest.TestCase):
                     for path in (self.junit, self.log, self.pcapng):
                         if os.path.exists(path):
                             os.remove(path)
-                    witness = Witness()
+                    witness = Witness(INTERFACE)
                     process = self.start(*chosen)
                     try:
                         process.wait(delay)
