@@ -19,34 +19,70 @@ FILES = ["r.html", "j.xml", "r.json", "c.pcapng", "c.log", "s.md"]
 # What the kernel says of each when a disk is full, a file system broken, too much open.
 FAULTS = {"write": "ENOSPC", "openat": "EMFILE", "read": "EIO", "close": "EIO", "fsync": "EIO", "rename": "EACCES"}
 OLD = "the report of an earlier run"
-# malloc, calloc and realloc: one call, number $FAIL_AT, finds no memory; how many there were goes to $COUNT_TO.
+# malloc, calloc, realloc and new: one call, number $FAIL_AT, finds no memory; how many there were goes to $COUNT_TO. All of the C library,
+# whatever allocator the program has.
 SHIM = r"""
-#define _GNU_SOURCE
-#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-extern void* __libc_malloc(size_t);
-extern void* __libc_calloc(size_t, size_t);
-extern void* __libc_realloc(void*, size_t);
+
+#include <new>
+
+extern "C" {
+void* __libc_malloc(size_t);
+void* __libc_calloc(size_t, size_t);
+void* __libc_realloc(void*, size_t);
+void* __libc_memalign(size_t, size_t);
+void __libc_free(void*);
+}
 static long calls, at = -1;
-static int fails(void) {
+static bool fails() {
   if (at < 0) {
     const char* text = getenv("FAIL_AT");
     at = text ? atol(text) : 0;
   }
   /* One alone: what the program allocates to tell of it is there. */
-  if (__atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED) != at) return 0;
+  if (__atomic_add_fetch(&calls, 1, __ATOMIC_RELAXED) != at) return false;
   errno = ENOMEM;
-  return 1;
+  return true;
 }
-void* malloc(size_t size) { return fails() ? NULL : __libc_malloc(size); }
-void* calloc(size_t count, size_t size) { return fails() ? NULL : __libc_calloc(count, size); }
-void* realloc(void* old, size_t size) { return fails() ? NULL : __libc_realloc(old, size); }
-__attribute__((destructor)) static void tell(void) {
+extern "C" {
+void* malloc(size_t size) noexcept { return fails() ? nullptr : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) noexcept { return fails() ? nullptr : __libc_calloc(count, size); }
+void* realloc(void* old, size_t size) noexcept { return fails() ? nullptr : __libc_realloc(old, size); }
+void free(void* old) noexcept { __libc_free(old); }
+void* aligned_alloc(size_t to, size_t size) noexcept { return fails() ? nullptr : __libc_memalign(to, size); }
+int posix_memalign(void** out, size_t to, size_t size) noexcept {
+  *out = fails() ? nullptr : __libc_memalign(to, size);
+  return *out ? 0 : ENOMEM;
+}
+}
+static void* made(size_t size) {
+  void* const out = malloc(size);
+  if (!out) throw std::bad_alloc();
+  return out;
+}
+void* operator new(size_t size) { return made(size); }
+void* operator new[](size_t size) { return made(size); }
+void* operator new(size_t size, const std::nothrow_t&) noexcept { return malloc(size); }
+void* operator new[](size_t size, const std::nothrow_t&) noexcept { return malloc(size); }
+void* operator new(size_t size, std::align_val_t to) {
+  void* const out = fails() ? nullptr : __libc_memalign(static_cast<size_t>(to), size);
+  if (!out) throw std::bad_alloc();
+  return out;
+}
+void operator delete(void* old) noexcept { __libc_free(old); }
+void operator delete[](void* old) noexcept { __libc_free(old); }
+void operator delete(void* old, size_t) noexcept { __libc_free(old); }
+void operator delete[](void* old, size_t) noexcept { __libc_free(old); }
+void operator delete(void* old, const std::nothrow_t&) noexcept { __libc_free(old); }
+void operator delete[](void* old, const std::nothrow_t&) noexcept { __libc_free(old); }
+void operator delete(void* old, std::align_val_t) noexcept { __libc_free(old); }
+void operator delete(void* old, size_t, std::align_val_t) noexcept { __libc_free(old); }
+__attribute__((destructor)) static void tell() {
   const char* path = getenv("COUNT_TO");
   if (!path) return;
   char text[32];
@@ -164,12 +200,12 @@ class FailingCalls(unittest.TestCase):
         print(f"{played} system calls failed, one at a time; {told} of the runs ended with an error of their own")
 
     def test_each_allocation_may_fail(self):
-        compiler = shutil.which("cc") or shutil.which("gcc")
+        compiler = shutil.which("c++") or shutil.which("g++")
         if compiler is None:
-            self.skipTest("no C compiler")
-        with open(self.path("shim.c"), "w", encoding="ascii") as file:
+            self.skipTest("no C++ compiler")
+        with open(self.path("shim.cpp"), "w", encoding="ascii") as file:
             file.write(SHIM)
-        subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", self.path("shim.so"), self.path("shim.c")], check=True)
+        subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", self.path("shim.so"), self.path("shim.cpp")], check=True)
         self.measure()
         done = self.run_with(LD_PRELOAD=self.path("shim.so"), COUNT_TO=self.path("count"))
         if not os.path.exists(self.path("count")):
