@@ -17,7 +17,9 @@
 #include "cli/commands/explore_command.hpp"
 #include "cli/exploring/live_search.hpp"
 #include "cli/exploring/written_findings.hpp"
+#include "cli/proof/explained.hpp"
 #include "cli/proof/explored.hpp"
+#include "cli/proof/explored_mutants.hpp"
 #include "cli/run/device_under_test.hpp"
 #include "cli/run/stop_signal.hpp"
 #include "cli/run/terminal.hpp"
@@ -88,10 +90,36 @@ void print_finding(const explore::Finding& finding, const explore::Vocabulary& w
   print(fmt::format("  | again   {}\n\n", again(options, finding.actions_until)));
 }
 
+/// What it finds of the mistakes in the node that `--mutant` names.
+int prove_by_mutants(const ExploreCommand& options, const device::Profile& profile,
+                     const scenario::Catalogue& catalogue) {
+  const auto build = mutants_of_program();
+  if (!build) return report_error(build.error(), exit_usage);
+  const auto explanations = explanations_of(**build);
+  if (!explanations) return report_error(explanations.error(), exit_usage);
+  auto only = options.mutants;
+  const bool gaps = std::erase(only, "open") > 0;
+  std::vector<const Mutant*> mutants;
+  for (const auto& mutant : (*build)->mutants) {
+    const auto explains = [&mutant](const Explanation& each) { return each.is_gap() && each.is_of(mutant); };
+    if ((gaps && std::ranges::any_of(*explanations, explains)) || (!only.empty() && is_named(mutant, only)))
+      mutants.push_back(&mutant);
+  }
+  if (mutants.empty())
+    return report_error({"no mutant is named so", {}, "selftest --mutants -v lists them"}, exit_usage);
+  const auto found = explore_mutants(
+      **build, mutants, profile, catalogue,
+      {.seed = options.seed, .actions = options.actions.value_or(20'000), .jobs = options.jobs});
+  if (!found) return report_error(found.error(), exit_usage);
+  print(explored_mutants_words(*found));
+  return 0;
+}
+
 /// What it finds of the reference node's defects, and of what is none.
 int prove(const ExploreCommand& options, const std::string& root, const scenario::Catalogue& catalogue) {
   const auto profile = device::load_profile_file(root + "/devices/reference-node.yaml");
   if (!profile) return report_error(profile.error(), exit_usage);
+  if (!options.mutants.empty()) return prove_by_mutants(options, profile->profile, catalogue);
   const auto proof = prove_exploration(profile->profile, catalogue,
                                        {.seed = options.seed,
                                         .only = options.defects,

@@ -29,9 +29,10 @@ struct ExploreCommand {
   bool strict = false;                 ///< findings without a known rule are not passed over
   bool quiet = false;                  ///< print only the summary
   bool prove = false;  ///< against every defect and legal variant of the reference node, or `defects`
-  std::size_t combinations = 0;  ///< with prove: so many random legal devices instead
-  bool verbose = false;          ///< with prove: what was named instead
-  unsigned jobs = 0;             ///< with prove: threads; 0: the machine's cores
+  std::vector<std::string> mutants;  ///< with prove: numbers, rooms, files or "open"; nothing else is proven
+  std::size_t combinations = 0;      ///< with prove: so many random legal devices instead
+  bool verbose = false;              ///< with prove: what was named instead
+  unsigned jobs = 0;                 ///< with prove: threads; 0: the machine's cores
 };
 /// 0: no violated requirement; 1: there is one; exit_environment: with `strict`, something else differs.
 [[nodiscard]] int explore_command(const ExploreCommand& options);

@@ -63,6 +63,12 @@ CLI::App* add_explore(CLI::App& app, ExploreCommand& command) {
          "With --prove: whether this many random combinations of legal variants are blamed, and nothing else")
       ->type_name("NUMBER")
       ->needs(prove);
+  sub->add_option("--mutant", command.mutants,
+                  "With --prove: only this mutant, room or file, or 'open': those that the suite is known to "
+                  "miss; repeatable (canopen-conform-mutants only)")
+      ->allow_extra_args(false)
+      ->type_name("WHICH")
+      ->needs(prove);
   sub->add_flag("-v,--verbose", command.verbose, "With --prove: what was named instead")->needs(prove);
   sub->add_option("-j,--jobs", command.jobs, "With --prove: threads (default: the machine's cores)")
       ->check(CLI::Range(1, 256))

@@ -25,17 +25,10 @@ constexpr double least_failed = 93.0;
 
 int mutants_command(const SelftestCommand& options, const device::Profile& profile,
                     const LoadedSuites& suites, Proof& proof) {
-  const auto* build = mutant_build();
-  if (build == nullptr) {
-    return report_error(Error{.what = "this program has no mutants",
-                              .where = {},
-                              .hint = "cmake --build --preset release --target canopen-conform-mutants; then "
-                                      "build/release/bin/canopen-conform-mutants selftest --mutants"},
-                        exit_usage);
-  }
-  const auto text = read_file(std::string(build->explained), 1U << 20U);
-  if (!text) return report_error(text.error(), exit_environment);
-  const auto explanations = parse_explanations(*text);
+  const auto mutants = mutants_of_program();
+  if (!mutants) return report_error(mutants.error(), exit_usage);
+  const auto* build = *mutants;
+  const auto explanations = explanations_of(*build);
   if (!explanations) return report_error(explanations.error(), exit_usage);
   const bool shows_progress = ::isatty(STDERR_FILENO) != 0;
   const auto progress = [&](std::size_t done, std::size_t of) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "base/files.hpp"
 #include "base/text.hpp"
 
 namespace conform::cli {
@@ -68,6 +69,12 @@ Result<std::vector<Explanation>> parse_explanations(std::string_view text) {
     out.push_back(std::move(*parsed));
   }
   return out;
+}
+
+Result<std::vector<Explanation>> explanations_of(const MutantBuild& build) {
+  const auto text = read_file(std::string(build.explained), 1U << 20U);
+  if (!text) return std::unexpected(text.error());
+  return parse_explanations(*text);
 }
 
 std::vector<std::string> explain(std::vector<MutantFate>& fates, std::span<const Mutant> all,

@@ -27,6 +27,9 @@ struct Explanation {
 
 [[nodiscard]] Result<std::vector<Explanation>> parse_explanations(std::string_view text);
 
+/// Those of a build.
+[[nodiscard]] Result<std::vector<Explanation>> explanations_of(const MutantBuild& build);
+
 /// Gives survivors their reasons, and those without a rule (another legal device) also when they are noticed
 /// without a failure. Returns the lines that explain nobody: of `all` no mutant is meant, or every one that
 /// is meant was run and needs no reason.

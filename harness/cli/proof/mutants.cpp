@@ -72,13 +72,25 @@ MutantFate fate_of(const Mutant& mutant, const Ending& ending) {
   return out;
 }
 
+Result<const MutantBuild*> mutants_of_program() {
+  const auto* build = mutant_build();
+  if (build == nullptr)
+    return fail("this program has no mutants", {},
+                "cmake --build --preset release --target canopen-conform-mutants; then "
+                "build/release/bin/canopen-conform-mutants");
+  return build;
+}
+
+bool is_named(const Mutant& mutant, const std::vector<std::string>& by) {
+  return std::ranges::any_of(by, [&](const std::string& name) {
+    return name == std::to_string(mutant.number) || name == mutant.room() || name == mutant.file;
+  });
+}
+
 std::vector<const Mutant*> chosen(std::span<const Mutant> mutants, const MutantOptions& options) {
   std::vector<const Mutant*> out;
   for (const auto& mutant : mutants) {
-    const auto named = [&](const std::string& name) {
-      return name == std::to_string(mutant.number) || name == mutant.room() || name == mutant.file;
-    };
-    if (options.only.empty() || std::ranges::any_of(options.only, named)) out.push_back(&mutant);
+    if (options.only.empty() || is_named(mutant, options.only)) out.push_back(&mutant);
   }
   if (options.sample == 0 || options.sample >= out.size()) return out;
   // The generator's numbers and this way to use them are the same everywhere; std::sample's are not.

@@ -58,6 +58,12 @@ struct MutantOptions {
                                                           const scenario::Catalogue& catalogue,
                                                           const MutantOptions& options);
 
+/// The mutants of this program; an error in every program but canopen-conform-mutants.
+[[nodiscard]] Result<const MutantBuild*> mutants_of_program();
+
+/// By a number, a room or a file.
+[[nodiscard]] bool is_named(const Mutant& mutant, const std::vector<std::string>& by);
+
 /// The mutants that `only` names, or a sample of them.
 [[nodiscard]] std::vector<const Mutant*> chosen(std::span<const Mutant> mutants,
                                                 const MutantOptions& options);

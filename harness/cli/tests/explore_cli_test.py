@@ -69,6 +69,11 @@ class Explore(unittest.TestCase):
     def test_a_corpus_is_for_the_simulation(self):
         self.ended(explore("--interface", "none", "--corpus", self.corpus), 2)
 
+    def test_mutants_are_in_a_program_of_their_own(self):
+        done = explore("--prove", "--mutant", "open")
+        self.ended(done, 2)
+        self.assertIn("this program has no mutants", done.stderr)
+
     def test_written_findings_are_played_once(self):
         path = os.path.join(self.folder, "found.yaml")
         out = self.ended(explore("--simulate", "-q", "--defect", "sdo-served-in-stopped", "--actions", "5000", "--findings",
