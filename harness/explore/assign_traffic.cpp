@@ -411,6 +411,7 @@ std::optional<Assigned> assign_frame(const Evidence& evidence) {
   }
   if (frame.extended) return surplus ? violates("CAN-TRF-03") : std::nullopt;
   if (frame.id == set.error_control.value()) return assign_error_control(evidence);
+  if (frame.remote && surplus && frame.id > 0x700 && frame.id < 0x780) return violates("NMT-SVC-05");
   if (frame.remote) return surplus ? strains("CAN-TRF-04") : std::nullopt;
   if (frame.id == set.emcy.value()) return assign_emcy(evidence);
   if (frame.id == set.sdo_response.value()) return assign_sdo_frame(evidence);

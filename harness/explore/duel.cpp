@@ -93,7 +93,7 @@ class Duel {
     if (out) out->action = number;
     answer_ = answer_of_device;
     due_ = answer_of_model;
-    if (out && out->what != What::rule && out->what != What::broken && !out->is_about_a_frame()) {
+    if (out && out->is_about_an_answer()) {
       out->device = answer_;
       out->model = due_;
     }

@@ -44,6 +44,7 @@ struct Difference {
   [[nodiscard]] bool is_about_a_frame() const {
     return what == What::missing || what == What::surplus || what == What::other_data;
   }
+  [[nodiscard]] bool is_about_an_answer() const { return what == What::answer || what == What::late; }
   /// Equal for what is taken for the same fault while a conversation is made shorter.
   [[nodiscard]] std::string signature(std::span<const Action> conversation) const;
 };

@@ -22,6 +22,9 @@ constexpr Duration margin = 50ms;
 /// ... and where a later frame of the kind may come anyway.
 constexpr Duration close_margin = 10ms;
 
+/// What the scenarios of the suite call a quick answer.
+constexpr Duration soon = 100ms;
+
 std::string quoted(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -53,10 +56,15 @@ class Writer {
     const auto& difference = *finding_.played.difference;
     const auto end = last_that_acts();
     for (std::size_t i = 0; i < end; ++i) {
-      const bool judges = i + 1 == finding_.conversation.size() && difference.what == What::answer;
+      const bool judges = i + 1 == finding_.conversation.size() && difference.is_about_an_answer();
       act(finding_.conversation[i], i, judges);
     }
     if (difference.is_about_a_frame()) await(difference);
+    if (difference.what == What::gone) {
+      add("- nmt: reset node");
+      add("- boot_up: {within: $profile.boot_time}");
+      check();
+    }
     if (difference.what == What::rule) {
       // The monitors of every run judge the frames: this lets them see the last ones, and names the rule
       // with a step that whatever comes passes.
@@ -120,7 +128,11 @@ class Writer {
     if (!action.fault.empty()) keys += fmt::format(", fault: {}", action.fault);
     add(fmt::format("- {}: {{{}}}", up ? "upload" : "download", keys));
     const auto& answers = finding_.played.answers;
-    if (judges) {
+    if (judges && finding_.played.difference->what == What::late) {
+      check();
+      add(fmt::format("  expect: {{latency: ..{}}}", to_string(soon)));
+      add("  warn: [ok, abort any]");
+    } else if (judges) {
       check();
       add(fmt::format("  expect: {}", outcome(finding_.played.difference->model, up)));
       if (finding_.played.difference->model.kind == Answer::Kind::aborted) add("  warn: [abort any]");
@@ -150,6 +162,8 @@ class Writer {
       const auto& due = finding_.played.difference->model;
       const auto& came = finding_.played.difference->device;
       const bool same_code = came.kind == due.kind && came.code == due.code;
+      // How late an answer to a single request is no step can ask.
+      if (finding_.played.difference->what == What::late) return add("    < 580+N: ..");
       if (due.kind == Answer::Kind::aborted && same_code && due.data.size() == 8)
         add(fmt::format("    < 580+N: {} {{warn any}}", hex_bytes(due.data)));
       else if (due.kind == Answer::Kind::aborted)
@@ -198,8 +212,10 @@ class Writer {
   std::string out_;
 };
 
-std::string commented(std::string_view lines) {
-  std::string out = "  # No rule is known for this one: it is to be given a step with 'checks: ID'.\n";
+bool judges(std::string_view steps) { return steps.contains("\n        checks: "); }
+
+std::string commented(std::string_view lines, std::string_view why) {
+  std::string out = fmt::format("  # {}: it is to be given a step with 'checks: ID'.\n", why);
   for (const auto line : split(lines, '\n')) {
     if (!line.empty()) out += fmt::format("  # {}\n", line.substr(2));
   }
@@ -240,6 +256,10 @@ std::string due_text(const Finding& finding, const Vocabulary& words) {
   return "";
 }
 
+bool becomes_scenario(const Finding& finding, const Vocabulary& words) {
+  return judges(Writer(finding, words).steps());
+}
+
 std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words, std::string_view how,
                           std::span<const std::string> remarks) {
   std::string out =
@@ -253,7 +273,11 @@ std::string scenario_file(std::span<const Finding> findings, const Vocabulary& w
                                 quoted(printable(title)));
     scenario += Writer(finding, words).steps();
     // Who does not judge is no scenario.
-    out += finding.assigned ? scenario : commented(scenario);
+    if (judges(scenario))
+      out += scenario;
+    else
+      out += commented(scenario,
+                       finding.assigned ? "No step can ask for this one" : "No rule is known for this one");
   }
   return out;
 }

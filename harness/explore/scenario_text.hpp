@@ -9,8 +9,11 @@
 
 namespace conform::explore {
 
-/// A file of scenarios, one for each finding, "finding-1" on. What has no rule judges nothing and stands
-/// there as a comment. `remarks`: a comment before each, where it is not empty.
+/// Whether there is a rule, and a step that can ask for it.
+[[nodiscard]] bool becomes_scenario(const Finding& finding, const Vocabulary& words);
+
+/// A file of scenarios, one for each finding, "finding-1" on. What does not become one stands there as a
+/// comment. `remarks`: a comment before each, where it is not empty.
 [[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words,
                                         std::string_view how, std::span<const std::string> remarks = {});
 

@@ -23,22 +23,17 @@ constexpr std::string_view no_show =
 
 bool is_told(Verdict verdict) { return verdict == Verdict::fail || verdict == Verdict::warn; }
 
-/// By the scenario itself, or by a monitor while it ran.
+/// By the scenario itself, or by a monitor: that one sees it in whatever the run does.
 bool shows(const result::RunResult& run, const std::string& id, const std::string& requirement,
            const scenario::Catalogue& catalogue) {
   const auto wanted = catalogue.canonical(requirement);
   const auto is_about_it = [&](const result::Judgement& judgement) {
     return is_told(judgement.verdict) && catalogue.canonical(judgement.requirement) == wanted;
   };
-  for (const auto& each : run.cases) {
-    if (each.id == id && std::ranges::any_of(each.judgements, is_about_it)) return true;
-    for (const auto& judgement : each.judgements) {
-      const bool meanwhile = std::ranges::any_of(
-          judgement.findings, [&](const result::Finding& finding) { return finding.during == id; });
-      if (meanwhile && is_about_it(judgement)) return true;
-    }
-  }
-  return false;
+  return std::ranges::any_of(run.cases, [&](const result::CaseResult& each) {
+    const bool judges = each.id == id || each.suite == "monitor";
+    return judges && std::ranges::any_of(each.judgements, is_about_it);
+  });
 }
 
 Result<result::RunResult> play(const std::string& file, const NodeSwitches& switches,
@@ -61,7 +56,8 @@ std::string WrittenFindings::text() const {
                          shown == 1 ? "shows" : "show");
   if (silent > 0) out += fmt::format("; {} {} not, as the file says", silent, silent == 1 ? "does" : "do");
   if (unjudged > 0)
-    out += fmt::format("; {} without a known rule {} comments", unjudged, unjudged == 1 ? "is in" : "are in");
+    out += fmt::format("; {} without a known rule, or a step that could ask for it, {} in comments", unjudged,
+                       unjudged == 1 ? "is" : "are");
   return out;
 }
 
@@ -72,19 +68,17 @@ Result<WrittenFindings> write_findings(const std::string& file, std::span<const 
   if (auto done = write_file_atomically(file, explore::scenario_file(findings, words, how)); !done)
     return std::unexpected(done.error());
   WrittenFindings out;
-  if (std::ranges::none_of(findings, [](const auto& each) { return each.assigned.has_value(); })) {
-    out.unjudged = findings.size();
-    return out;
-  }
+  const auto is_played = [&words](const auto& each) { return explore::becomes_scenario(each, words); };
+  out.unjudged = findings.size() - static_cast<std::size_t>(std::ranges::count_if(findings, is_played));
+  if (out.unjudged == findings.size()) return out;
   const auto run = play(file, switches, profile, catalogue);
   if (!run) return std::unexpected(run.error());
   std::vector<std::string> remarks(findings.size());
   const auto stem = fs::path(file).stem().string();
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    const auto& assigned = findings[i].assigned;
-    if (!assigned) {
-      ++out.unjudged;
-    } else if (shows(*run, fmt::format("{}/finding-{}", stem, i + 1), assigned->requirement, catalogue)) {
+    if (!is_played(findings[i])) continue;
+    if (shows(*run, fmt::format("{}/finding-{}", stem, i + 1), findings[i].assigned->requirement,
+              catalogue)) {
       ++out.shown;
     } else {
       ++out.silent;

@@ -17,7 +17,7 @@ namespace conform::cli {
 struct WrittenFindings {
   std::size_t shown = 0;     ///< scenarios that show it again
   std::size_t silent = 0;    ///< those that do not; the file says so
-  std::size_t unjudged = 0;  ///< of findings without a known rule: they are comments
+  std::size_t unjudged = 0;  ///< findings that no scenario can be made of: they are comments
 
   /// "3 scenarios, of which 2 show it again; 1 without a known rule is in comments"
   [[nodiscard]] std::string text() const;

@@ -389,3 +389,12 @@ TEST_CASE("on a bus that the device fills everything is late, and nothing but st
   const Conversation slower{download(at(0x1006), {0x10, 0x27, 0, 0}), upload(at(0x1000))};
   CHECK(text_of(judged(slower, silent(), confirmed({0, 0, 0, 0}))).ends_with(" violated"));
 }
+
+TEST_CASE("a guard request of the device is a command, another remote frame asks for a PDO") {
+  const auto nothing = can::Frame{};
+  const Conversation talk{wait(20ms)};
+  CHECK(text_of(judged_frames(talk, What::surplus, can::remote_frame(CanId(0x77E), 1), nothing)) ==
+        "NMT-SVC-05 violated");
+  CHECK(text_of(judged_frames(talk, What::surplus, can::remote_frame(CanId(0x181), 8), nothing)) ==
+        "CAN-TRF-04 tolerated");
+}

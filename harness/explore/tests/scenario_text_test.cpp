@@ -86,6 +86,39 @@ TEST_CASE("a transfer that does not end well because of what a monitor saw is ju
         std::string::npos);
 }
 
+TEST_CASE("an answer that is only late is asked for in time") {
+  Finding finding;
+  finding.conversation = {upload({Index(0x1000), SubIndex(0)})};
+  finding.assigned = Assigned{"SDO-GEN-18", Grade::tolerated};
+  auto& difference = finding.played.difference.emplace();
+  difference.what = Difference::What::late;
+  difference.device = {.kind = Answer::Kind::confirmed, .taken = 300ms};
+  difference.model = {.kind = Answer::Kind::confirmed};
+  CHECK(becomes_scenario(finding, words_of_the_standard()));
+  CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x")
+            .ends_with("      - upload: {object: 1000h:00}\n"
+                       "        checks: SDO-GEN-18\n"
+                       "        expect: {latency: ..100 ms}\n"
+                       "        warn: [ok, abort any]\n"));
+  // A single request has no such measurement.
+  finding.conversation = {request(can::data_frame(CanId(0x605), {0x60, 0, 0, 0, 0, 0, 0, 0}))};
+  CHECK_FALSE(becomes_scenario(finding, words_of_the_standard()));
+  CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x")
+            .contains("\n  # No step can ask for this one: it is to be given a step with 'checks: ID'.\n"));
+}
+
+TEST_CASE("a device that does not come back is reset once more and waited for") {
+  Finding finding;
+  finding.conversation = {upload({Index(0x1000), SubIndex(0)})};
+  finding.assigned = Assigned{"NMT-BOOT-02", Grade::violated};
+  finding.played.difference.emplace().what = Difference::What::gone;
+  CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x")
+            .ends_with("      - upload: {object: 1000h:00}\n"
+                       "      - nmt: reset node\n"
+                       "      - boot_up: {within: $profile.boot_time}\n"
+                       "        checks: NMT-BOOT-02\n"));
+}
+
 TEST_CASE("a scenario that does not show what was found says so") {
   Finding finding;
   finding.conversation = {upload({Index(0x1000), SubIndex(0)})};
