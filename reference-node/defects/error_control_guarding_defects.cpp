@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of node guarding and life guarding (100Ch, 100Dh).
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <memory>
@@ -18,6 +19,21 @@ namespace {
 constexpr std::uint8_t toggle_bit = 0x80;
 
 GuardingRules& of_guarding(Parts& parts) { return parts.guarding.rules; }
+
+/// In Operational, where such a timer runs.
+void ends_with_event_timers(Parts& parts) {
+  parts.guarding.rules.life_time.replace(
+      [&parts](const auto& former, std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+        Duration time = former(guard_time, factor);
+        if (parts.device.state != NmtState::operational) return time;
+        for (std::uint16_t index = 0x1800; index <= 0x1803; ++index) {
+          const auto ticks =
+              std::chrono::milliseconds(static_cast<std::int64_t>(parts.device.dictionary.number(index, 5)));
+          if (ticks.count() > 0) time = std::min<Duration>(time, ticks);
+        }
+        return time;
+      });
+}
 
 bool is_request(const Parts& parts, const Frame& frame) {
   return frame.remote && frame.id == 0x700U + parts.device.node_id;
@@ -273,6 +289,10 @@ DefectTable life_rows() {
        life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
          return std::chrono::milliseconds(factor == 0 ? 0 : static_cast<std::int64_t>(guard_time));
        })},
+      {"life-time-ends-with-event-timer",
+       "The life guarding event comes with the next tick of a TPDO's event timer",
+       {"EC-NG-07"},
+       Change(ends_with_event_timers)},
       {"life-time-of-8-bits",
        "The life time is computed in 8 bits",
        {"EC-NG-07"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the heartbeat producer (1017h) and consumer (1016h).
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -48,6 +49,28 @@ Change ends_after(Duration running) {
       if (context.service == Service::heartbeat && *end && context.now >= **end) frames.clear();
     });
   };
+}
+
+Duration own_period(const Parts& parts) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(parts.device.dictionary.number(0x1017, 0)));
+}
+
+/// All watches end when the timer of the producer ticks.
+void watches_to_the_own_tick(Parts& parts) {
+  parts.consumer.rules.time.replace([&parts](const auto& former, std::int64_t value) -> Duration {
+    const Duration own = own_period(parts), time = former(value);
+    return own == Duration::zero() ? time : std::min(time, own);
+  });
+}
+
+/// The task that sends a TPDO by its event timer sends the heartbeat as well.
+void heartbeat_behind_tpdos(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo || frames.empty() || own_period(parts) == Duration::zero()) return;
+    frames.push_back({conform::can::data_frame(conform::CanId(0x700U + context.node_id),
+                                               {static_cast<std::uint8_t>(context.state)}),
+                      {}});
+  });
 }
 
 void shows_every_state_while_off(Parts& parts) {
@@ -150,6 +173,10 @@ DefectTable error_control_heartbeat_defects() {
        "The heartbeat comes at half the rate of 1017h",
        {"OD-1017-05", "EC-HBP-01"},
        lasts(200, of_producer, &HeartbeatProducerRules::period)},
+      {"heartbeat-behind-tpdos",
+       "Each TPDO is followed by a heartbeat while there are heartbeats",
+       {"EC-HBP-01"},
+       Change(heartbeat_behind_tpdos)},
       {"1017-period-a-fifth-longer",
        "The heartbeat comes after 1.2 times the time of 1017h",
        {"EC-HBP-01"},
@@ -284,6 +311,10 @@ DefectTable error_control_heartbeat_defects() {
        "A missing heartbeat is not noticed",
        {"OD-1016-11", "EC-HBC-03"},
        deaf_to([](Parts&, const Frame& frame) { return is_heartbeat(frame); })},
+      {"1016-ends-with-own-heartbeat",
+       "A heartbeat counts as missing when the own one is due, if that is earlier than the time of 1016h",
+       {"EC-HBC-03"},
+       Change(watches_to_the_own_tick)},
       {"1016-unit-wrong",
        "1016h counts in units of 10 ms",
        {"OD-1016-11", "EC-HBC-03"},
