@@ -6,6 +6,7 @@
 #include "base/strong.hpp"
 #include "can/frame.hpp"
 #include "canopen/abort_code.hpp"
+#include "canopen/short_entries.hpp"
 #include "monitor/sdo_channel.hpp"
 
 namespace conform::monitor::server {
@@ -38,12 +39,12 @@ inline Multiplexer object_of(const SdoChannel::Data& initiate) {
   return multiplexer_of(frame);
 }
 
-/// The value of an initiate frame with e = 1: n unused bytes if s says so.
+/// The value of an initiate frame with e = 1: n unused bytes if s says so, else as many as the entry has not.
 inline SdoChannel::Value expedited_value(Multiplexer object, const SdoChannel::Data& data) {
-  const unsigned unused = (data[0] & 0x01U) != 0 ? (data[0] >> 2U) & 3U : 0U;
-  const auto bytes = ByteView(data).subspan(4, 4U - unused);
-  return {object, static_cast<std::uint32_t>(load_le(bytes)),
-          static_cast<std::uint8_t>((data[0] & 0x01U) != 0 ? bytes.size() : 0)};
+  const bool is_told = (data[0] & 0x01U) != 0;
+  const auto size = is_told ? 4U - ((data[0] >> 2U) & 3U) : canopen::length_of_short_entry(object);
+  return {object, static_cast<std::uint32_t>(load_le(ByteView(data).subspan(4, size))),
+          static_cast<std::uint8_t>(is_told ? size : 0)};
 }
 
 }  // namespace conform::monitor::server

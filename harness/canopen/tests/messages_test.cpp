@@ -6,6 +6,7 @@
 #include "canopen/nmt.hpp"
 #include "canopen/sdo_initiate.hpp"
 #include "canopen/sdo_segment.hpp"
+#include "canopen/short_entries.hpp"
 
 #include "catch.hpp"
 
@@ -221,4 +222,25 @@ TEST_CASE("SDO responses are decoded bit by bit") {
   CHECK(decode_download_segment_response(SdoBytes{0x21})->reserved_set);
   CHECK(decode_download_segment_response(SdoBytes{0x20, 0, 0, 0, 0, 0, 0, 1})->reserved_set);
   CHECK_FALSE(decode_download_segment_response(SdoBytes{0x60}).has_value());
+}
+
+TEST_CASE("Entries of the communication profile have the length that CiA 301 gives them") {
+  const auto length = [](std::uint16_t index, std::uint8_t sub) {
+    return canopen::length_of_short_entry({Index(index), SubIndex(sub)});
+  };
+  CHECK(length(0x1000, 0) == 4);
+  CHECK(length(0x1001, 0) == 1);
+  CHECK(length(0x1003, 0) == 1);
+  CHECK(length(0x1003, 1) == 4);
+  CHECK(length(0x1005, 0) == 4);
+  CHECK(length(0x1017, 0) == 2);
+  CHECK(length(0x1200, 3) == 1);
+  CHECK(length(0x1201, 1) == 4);
+  CHECK(length(0x1400, 1) == 4);
+  CHECK(length(0x1800, 2) == 1);
+  CHECK(length(0x1800, 3) == 2);
+  CHECK(length(0x19FF, 6) == 1);
+  CHECK(length(0x1A00, 0) == 1);
+  CHECK(length(0x1A00, 1) == 4);
+  CHECK(length(0x2000, 0) == 4);
 }

@@ -33,6 +33,21 @@ TEST_CASE("Guard replies alternate, beginning with 0") {
   CHECK(Story().line(ask).line("< 701: 7F").line(ask).line("< 701: 7F").told().empty());
 }
 
+TEST_CASE("What lies behind a heartbeat time of which no size is told is none of it") {
+  const auto told_without_size = [](const std::string& value) {
+    return Story()
+        .line("wait 150 ms")
+        .line("> 40 17 10 00 00 00 00 00")
+        .line("< 42 17 10 00 " + value)
+        .line("wait 200 ms")
+        .line(ask)
+        .line("< 701: FF")
+        .told();
+  };
+  CHECK(told_without_size("00 00 5A 5A").empty());
+  CHECK(told_without_size("64 00 5A 5A") == Told{"fail EC-HBP-12"});
+}
+
 TEST_CASE("A guard reply is asked for") {
   const auto off = [] { return Story().read(0x1017, 0, 0).line("wait 200 ms"); };
   CHECK(Story()
