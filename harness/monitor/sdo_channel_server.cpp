@@ -103,6 +103,8 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
   if (spare_ == got && !asked && !next_segment && specifier(frame) >= 2 && specifier(frame) <= 4) {
     spare_.reset();
     out.to = SdoAnswer::To::unclear;
+    // The server may as well have given up what is open.
+    if (is_abort(frame) && transfer_.kind != Kind::none) lose_track();
     return true;
   }
   if (!aborted_ || !is_abort(frame) || count_ == 0) return false;

@@ -92,6 +92,18 @@ TEST_CASE("The time-out of a block upload may cross the start, an acknowledge, o
   CHECK(told(crossing(last, other)) == Told{"fail SDO-GEN-04 in frame 13"});
 }
 
+TEST_CASE("A time-out that may as well be a late answer to an abort leaves nothing open for certain") {
+  CHECK(told(after_exchanges({"> 40 08 10 00 00 00 00 00", "< 41 08 10 00 15 00 00 00",
+                              "> 80 08 10 00 00 00 00 08",  // which some servers answer
+                              "> 21 08 10 00 15 00 00 00", "< 80 08 10 00 02 00 01 06",
+                              "> A0 08 10 00 7F 00 00 00", "< C2 08 10 00 15 00 00 00",
+                              "> A3 00 00 00 00 00 00 00", "< 01 41 41 41 41 41 41 41",
+                              "< 02 42 42 42 42 42 42 42", "< 83 43 43 43 43 43 43 43",
+                              "> A2 03 7F 00 00 00 00 00", "< C1 00 00 00 00 00 00 00", "wait 1 s",
+                              give_up_1008, "wait 700 ms", "> A1 00 00 00 00 00 00 00", no_transfer}))
+            .empty());
+}
+
 TEST_CASE("The time-out of a block download may cross the end frame") {
   CHECK(told(crossing(block_download, {"wait 500 ms", "> C1 00 00 00 00 00 00 00", give_up_2008,
                                        "< 80 08 20 00 01 00 04 05"}))
