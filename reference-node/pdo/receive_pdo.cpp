@@ -30,7 +30,17 @@ ReceivePdo::ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16
       terms_(&terms),
       number_(number),
       parameters_(device, terms.parameters, number),
-      deadline_(device.pdo_alarms) {}
+      deadline_(device.pdo_alarms) {
+  parameters_.on_changed = [this] { forget(); };
+}
+
+// What waits was for the PDO as it was.
+void ReceivePdo::forget() {
+  buffered_.reset();
+  if (!deadline_ && !terms_->rules.watched_from_start(parameters_)) return;
+  deadline_.reset();
+  if (device_->works_now(Service::rpdo) && terms_->rules.valid(parameters_)) start_deadline();
+}
 
 bool ReceivePdo::on_frame(const Frame& frame) {
   if (!terms_->rules.valid(parameters_) || !parameters_.cob_id().names(frame)) return false;

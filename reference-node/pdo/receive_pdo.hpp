@@ -63,6 +63,8 @@ class ReceivePdo {
 
  private:
   void apply(const Bytes& data);
+  /// The communication parameters or the mapping have changed.
+  void forget();
   void start_deadline();
   [[nodiscard]] ErrorCause cause(std::uint16_t code) const {
     return {code, ErrorSource::rpdo, static_cast<std::uint16_t>(number_ + 1)};
