@@ -209,6 +209,8 @@ class ErrorObjects final : public Monitor {
       return;
     const Duration inhibit =
         std::min<std::uint32_t>(entries.most(0x1015, 0), 0xFFFF) * std::chrono::microseconds(100);
+    // A message may wait for as long as it likes where nobody has said how long that is.
+    verdict_ = entries.is_told(0x1015, 0) ? Verdict::fail : Verdict::warn;
     const auto after = asked_at_ - last_->time - inhibit;
     if (after < settled) return;
     const auto value = seen.read->value;
@@ -229,7 +231,7 @@ class ErrorObjects final : public Monitor {
   void put(std::size_t requirement, const Observation& seen, Duration inhibit, std::string actual,
            std::string expected, std::string reason) {
     if (open_[requirement]) return;
-    open_[requirement] = Open{{requirement, Verdict::fail, seen.index, seen.frame(), std::move(actual),
+    open_[requirement] = Open{{requirement, verdict_, seen.index, seen.frame(), std::move(actual),
                                std::move(expected), std::move(reason)},
                               seen.time() + late + inhibit};
   }
@@ -241,6 +243,7 @@ class ErrorObjects final : public Monitor {
   std::optional<Message> last_;
   BusTime asked_at_{};
   std::array<std::optional<Open>, 2> open_;
+  Verdict verdict_ = Verdict::fail;  ///< of what is looked at
 };
 
 }  // namespace

@@ -147,6 +147,10 @@ bool Entries::is_zero(std::uint16_t index, std::uint8_t sub) const {
   return entry != nullptr && entry->value == 0;
 }
 
+bool Entries::is_told(std::uint16_t index, std::uint8_t sub) const {
+  return is_absent(index, sub) || most_.contains(key_of(index, sub));
+}
+
 std::uint32_t Entries::most(std::uint16_t index, std::uint8_t sub) const {
   const auto found = most_.find(key_of(index, sub));
   return found == most_.end() ? 0 : found->second;

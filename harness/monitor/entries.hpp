@@ -45,6 +45,8 @@ class Entries {
   }
   /// The value is 0, or there is no such entry.
   [[nodiscard]] bool is_zero(std::uint16_t index, std::uint8_t sub) const;
+  /// A value was seen, or that there is none.
+  [[nodiscard]] bool is_told(std::uint16_t index, std::uint8_t sub) const;
   /// The largest value that was ever seen, 0 where there is none.
   [[nodiscard]] std::uint32_t most(std::uint16_t index, std::uint8_t sub) const;
   /// The entry was seen, and no value that it may have had before or after a reset has one of these bits set.

@@ -82,7 +82,12 @@ TEST_CASE("What another node sends on a CAN-ID that 1014h may hold does not begi
 
 TEST_CASE("1001h has no error that EMCY did not tell") {
   CHECK(Story().line(emcy).read(0x1001, 0, 0x11).line("wait 2 s").line(gone).told().empty());
+  // Whether a further message has to wait for an inhibit time, nobody has said.
   CHECK(Story().line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
+        Told{"warn EMCY-FMT-03"});
+  CHECK(Story().absent(0x1015, 0).line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
+        Told{"fail EMCY-FMT-03"});
+  CHECK(Story().read(0x1015, 0, 0).line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
         Told{"fail EMCY-FMT-03"});
   // Less is left of it; the message about more is to come; it cannot come.
   CHECK(Story().line(emcy).read(0x1001, 0, 0x01).line("wait 2 s").line(gone).told().empty());
@@ -146,8 +151,14 @@ TEST_CASE("1003h begins with the error of the last EMCY") {
   const std::string long_after = "wait 1200 ms", end = "< 701: 7F";
   CHECK(
       Story().line(emcy).line(long_after).read(0x1003, 1, 0x8130).line("wait 2 s").line(end).told().empty());
-  CHECK(Story().line(emcy).line(long_after).read(0x1003, 1, 0x3081).line("wait 2 s").line(end).told() ==
-        Told{"fail OD-1003-11"});
+  CHECK(Story()
+            .absent(0x1015, 0)
+            .line(emcy)
+            .line(long_after)
+            .read(0x1003, 1, 0x3081)
+            .line("wait 2 s")
+            .line(end)
+            .told() == Told{"fail OD-1003-11"});
   CHECK(Story().line(emcy).read(0x1003, 1, 0x3081).line("wait 2 s").line(end).told().empty());
   CHECK(Story()
             .line(emcy)
