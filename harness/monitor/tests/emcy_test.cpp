@@ -85,8 +85,14 @@ TEST_CASE("1001h has no error that EMCY did not tell") {
   // Whether a further message has to wait for an inhibit time, nobody has said.
   CHECK(Story().line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
         Told{"warn EMCY-FMT-03"});
-  CHECK(Story().absent(0x1015, 0).line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
-        Told{"fail EMCY-FMT-03"});
+  CHECK(Story()
+            .read(0x1000, 0, 0x191)
+            .absent(0x1015, 0)
+            .line(emcy)
+            .read(0x1001, 0, 0x15)
+            .line("wait 2 s")
+            .line(gone)
+            .told() == Told{"fail EMCY-FMT-03"});
   CHECK(Story().read(0x1015, 0, 0).line(emcy).read(0x1001, 0, 0x15).line("wait 2 s").line(gone).told() ==
         Told{"fail EMCY-FMT-03"});
   // Less is left of it; the message about more is to come; it cannot come.
@@ -152,6 +158,7 @@ TEST_CASE("1003h begins with the error of the last EMCY") {
   CHECK(
       Story().line(emcy).line(long_after).read(0x1003, 1, 0x8130).line("wait 2 s").line(end).told().empty());
   CHECK(Story()
+            .read(0x1000, 0, 0x191)
             .absent(0x1015, 0)
             .line(emcy)
             .line(long_after)
