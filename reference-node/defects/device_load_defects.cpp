@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of the device as a whole on its bus: under load, with any node-ID, with frames of others on its
-// own CAN-IDs, and with 29-bit identifiers.
+// Defects of the device as a whole on its bus: under load, while an SDO transfer is open, with any node-ID,
+// with frames of others on its own CAN-IDs, and with 29-bit identifiers.
 #include <chrono>
 #include <deque>
 #include <memory>
@@ -116,6 +116,42 @@ Change cuts_extended_ids() {
   };
 }
 
+/// While an SDO transfer is open, frames for which `when` holds are not looked at.
+Change waits_for_sdo(bool (*when)(const Parts&, const Frame&)) {
+  return deaf_to([when](Parts& parts, const Frame& frame) {
+    return !frame.extended && has_open_transfer(parts) && when(parts, frame);
+  });
+}
+
+bool is_pre_operational_command(const Parts&, const Frame& frame) {
+  return !frame.remote && frame.id == 0x000 && frame.data[0] == 0x80;
+}
+bool is_guard_request(const Parts& parts, const Frame& frame) {
+  return frame.remote && frame.id == 0x700U + parts.device.node_id;
+}
+bool is_sync(const Parts& parts, const Frame& frame) {
+  return !frame.remote && frame.id == (parts.device.dictionary.number(0x1005, 0) & 0x7FFU);
+}
+
+void takes_no_rpdo_beside_sdo(Parts& parts) {
+  parts.pdos.rpdo.rules.valid.replace([&parts](const auto& former, const PdoParameters& pdo) {
+    return !has_open_transfer(parts) && former(pdo);
+  });
+}
+
+void sees_no_change_beside_sdo(Parts& parts) {
+  parts.pdos.tpdo.rules.is_event.replace(
+      [&parts](const auto& former, const PdoParameters& pdo, const Bytes& sent, const Bytes& now) {
+        return !has_open_transfer(parts) && former(pdo, sent, now);
+      });
+}
+
+void tells_no_error_beside_sdo(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::emergency && has_open_transfer(parts)) frames.clear();
+  });
+}
+
 }  // namespace
 
 DefectTable device_load_defects() {
@@ -154,6 +190,30 @@ DefectTable device_load_defects() {
        .violates = {"CAN-EXT-01"},
        .how = together(takes_frame_bit_of_tpdos(), cuts_extended_ids()),
        .lacks = {"base frames only"}},
+      {"sync-lost-beside-sdo-transfer",
+       "While an SDO transfer is open a SYNC has no effect",
+       {"PDO-RX-01"},
+       waits_for_sdo(is_sync)},
+      {"rpdo-lost-beside-sdo-transfer",
+       "While an SDO transfer is open RPDOs are not received",
+       {"PDO-RX-01", "PDO-TX-08"},
+       Change(takes_no_rpdo_beside_sdo)},
+      {"tpdo-change-lost-beside-sdo-transfer",
+       "While an SDO transfer is open a change sends no TPDO",
+       {"PDO-TX-08"},
+       Change(sees_no_change_beside_sdo)},
+      {"emcy-lost-beside-sdo-transfer",
+       "While an SDO transfer is open no error is reported",
+       {"EC-HBC-03"},
+       Change(tells_no_error_beside_sdo)},
+      {"guarding-silent-beside-sdo-transfer",
+       "While an SDO transfer is open guard requests are not answered",
+       {"EC-NG-02"},
+       waits_for_sdo(is_guard_request)},
+      {"nmt-pre-operational-lost-beside-sdo-transfer",
+       "While an SDO transfer is open NMT enter pre-operational is ignored",
+       {"NMT-FSA-03"},
+       waits_for_sdo(is_pre_operational_command)},
   };
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finer defects of EMCY and of the error register: one error of several, and what happens later than the
 // error.
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -105,6 +108,112 @@ Change reported_once(ErrorSource source) {
   };
 }
 
+/// When an error goes, 1001h loses its bits, also those that another error sets.
+void clears_bits_of_others(Parts& parts) {
+  const auto lost = std::make_shared<std::uint8_t>(std::uint8_t{0});
+  parts.device.errors.clear.replace([&parts, lost](const auto& former, const ErrorCause& cause) {
+    const std::size_t before = parts.emergency.active().size();
+    former(cause);
+    if (parts.emergency.active().size() < before)
+      *lost = static_cast<std::uint8_t>(parts.emergency.rules.register_bits(cause.code) & 0xFEU);
+  });
+  parts.device.errors.raise.replace([lost](const auto& former, const ErrorCause& cause, auto detail) {
+    *lost = 0;
+    former(cause, detail);
+  });
+  reading(0x1001, 0, [lost](Parts&, const Read& former) {
+    Upload bits = former();
+    if (bits) bits->front() &= static_cast<std::uint8_t>(~*lost);
+    return bits;
+  })(parts);
+  with_boot_up([lost](Parts&) { *lost = 0; })(parts);
+}
+
+bool is_present(const Parts& parts, const ErrorCause& cause) {
+  const auto& active = parts.emergency.active();
+  return std::ranges::find(active, cause) != active.end();
+}
+
+std::uint16_t code_of(const Frame& message) {
+  return static_cast<std::uint16_t>(message.data[0] | (message.data[1] << 8U));
+}
+
+/// Of the errors that wait for the inhibit time the latest is reported.
+void keeps_the_latest_only(Parts& parts) {
+  const auto latest = std::make_shared<std::uint16_t>(std::uint16_t{0});
+  parts.device.errors.raise.replace(
+      [&parts, latest](const auto& former, const ErrorCause& cause, auto detail) {
+        if (!is_present(parts, cause)) *latest = cause.code;
+        former(cause, detail);
+      });
+  parts.device.outbox.add_filter([latest](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency) return;
+    std::erase_if(frames, [&](const Outgoing& each) {
+      return code_of(each.frame) != 0 && code_of(each.frame) != *latest;
+    });
+  });
+}
+
+/// Whatever waits for the inhibit time is sent at its end, one message right behind the other.
+void sends_all_after_the_inhibit_time(Parts& parts) {
+  const auto at_once = std::make_shared<bool>(false);
+  parts.device.errors.raise.replace([at_once](const auto& former, const ErrorCause& cause, auto detail) {
+    *at_once = true;
+    former(cause, detail);
+    *at_once = false;
+  });
+  parts.device.errors.clear.replace([at_once](const auto& former, const ErrorCause& cause) {
+    *at_once = true;
+    former(cause);
+    *at_once = false;
+  });
+  parts.emergency.rules.inhibit_time.replace([at_once](const auto& former, std::int64_t value) -> Duration {
+    return *at_once ? former(value) : Duration::zero();
+  });
+}
+
+/// Another NMT state ends the inhibit time: the error that waits is reported with it.
+void inhibit_time_ends_with_the_state(Parts& parts) {
+  struct Memory {
+    std::optional<Frame> waiting;  ///< of the latest error
+    std::optional<Frame> early;    ///< sent already
+  };
+  const auto memory = std::make_shared<Memory>();
+  parts.device.errors.raise.replace(
+      [&parts, memory](const auto& former, const ErrorCause& cause, auto detail) {
+        if (is_present(parts, cause)) return;
+        memory->waiting = Frame{};
+        former(cause, detail);
+        if (!memory->waiting) return;  // it has been sent
+        memory->waiting = conform::can::data_frame(
+            conform::CanId(static_cast<std::uint32_t>(parts.device.dictionary.number(0x1014, 0) & 0x7FFU)),
+            {static_cast<std::uint8_t>(cause.code & 0xFFU), static_cast<std::uint8_t>(cause.code >> 8U),
+             parts.emergency.error_register(), detail, static_cast<std::uint8_t>(cause.source), 0, 0, 0});
+      });
+  parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) *memory = {};
+    if (context.service != Service::emergency) return;
+    memory->waiting.reset();
+    std::erase_if(frames, [&](const Outgoing& each) {
+      return memory->early && code_of(each.frame) == code_of(*memory->early);
+    });
+    memory->early.reset();
+  });
+  ahead_of_state_change([memory](Parts& node) {
+    if (!memory->waiting || !node.device.works_now(Service::emergency)) return;
+    const Frame frame = *memory->waiting;
+    node.device.send(Service::emergency, frame);
+    memory->early = frame;
+  })(parts);
+}
+
+/// Bit 31 of 1014h means nothing before 1014h is written.
+void valid_until_written(Parts& parts) {
+  const auto written = written_since_boot_up(parts, {0x1014});
+  parts.emergency.cob_id_rules.valid.replace(
+      [written](const auto& former, std::uint32_t value) { return written->empty() || former(value); });
+}
+
 }  // namespace
 
 DefectTable emergency_course_defects() {
@@ -153,6 +262,26 @@ DefectTable emergency_course_defects() {
        "The second error of the application is not reported, nor any later one",
        {"EMCY-SEQ-04"},
        reported_once(ErrorSource::application)},
+      {"1001-shared-bit-cleared-with-one-error",
+       "When one of two errors goes, 1001h loses the bit that both set",
+       {"OD-1001-05"},
+       Change(clears_bits_of_others)},
+      {"emcy-latest-kept-while-inhibited",
+       "Of the errors that come during the inhibit time only the last one is reported",
+       {"EMCY-SEQ-04"},
+       Change(keeps_the_latest_only)},
+      {"emcy-burst-after-inhibit-time",
+       "What waits for the inhibit time of 1015h is sent all at once when it is over",
+       {"EMCY-INH-01"},
+       Change(sends_all_after_the_inhibit_time)},
+      {"emcy-inhibit-time-ends-with-nmt-state",
+       "A change of the NMT state ends the inhibit time of 1015h",
+       {"EMCY-INH-01"},
+       Change(inhibit_time_ends_with_the_state)},
+      {"1014-stored-valid-bit-ignored",
+       "An EMCY that was stored as not valid is sent until 1014h is written",
+       {"OD-1014-08"},
+       Change(valid_until_written)},
   };
 }
 

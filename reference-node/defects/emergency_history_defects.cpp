@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,28 @@ Change shows_in_field(std::uint32_t (*shown)(std::uint32_t field)) {
 
 Change remembers_more_than_it_shows() {
   return [](Parts& parts) { parts.emergency.history.choices.depth = 0xFE; };
+}
+
+/// Clearing shows an empty history; with the next error the former ones are back.
+void hides_what_was_cleared(Parts& parts) {
+  const auto hidden = std::make_shared<bool>(false);
+  checking(0x1003, 0, [hidden](Parts&, const Check& former, ByteView bytes) -> Accepted {
+    if (conform::load_le(bytes) != 0) return former(bytes);
+    *hidden = true;
+    return {};
+  })(parts);
+  reading(0x1003, 0,
+          [hidden](Parts&, const Read& former) -> Upload { return *hidden ? Bytes{0} : former(); })(parts);
+  reading_all(0x1003, [hidden](Parts&, const Read& former, std::uint8_t) -> Upload {
+    if (*hidden) return refuse(abort_code::no_data);
+    return former();
+  })(parts);
+  parts.device.errors.raise.replace(
+      [hidden](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        *hidden = false;
+        former(cause, detail);
+      });
+  with_boot_up([hidden](Parts&) { *hidden = false; })(parts);
 }
 
 }  // namespace
@@ -178,6 +201,19 @@ DefectTable emergency_history_defects() {
        "Writing 1003h:01 is refused with 0609 0030h instead of 0601 0002h",
        {"OD-1003-08"},
        wrong_abort_at(mux(0x1003, 1), abort_code::read_only, abort_code::invalid_value)},
+      {"1003-cleared-entries-come-back",
+       "With the next error the entries are back that were cleared from 1003h",
+       {"OD-1003-05"},
+       Change(hides_what_was_cleared)},
+      {"1003-same-error-not-recorded-again",
+       "An error that comes again right behind itself is not recorded again",
+       {"OD-1003-10"},
+       shows_of_history([](const ErrorHistory& history) {
+         auto errors = newest_first(history);
+         const auto repeated = std::ranges::unique(errors);
+         errors.erase(repeated.begin(), repeated.end());
+         return errors;
+       })},
   };
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the error behaviour (1029h).
+#include <memory>
+
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -28,6 +30,24 @@ Change reacts(std::uint64_t class_value, NmtState present, NmtState wrong) {
           return value == class_value && state == present ? wrong : former(value, state);
         });
   };
+}
+
+/// TPDOs go on where a lost heartbeat has ended Operational, until the next NMT command.
+void tpdos_outlive_operational(Parts& parts) {
+  const auto left = std::make_shared<bool>(false);
+  parts.consumer.on_loss = [&parts, left, former = parts.consumer.on_loss] {
+    const bool operational = parts.device.state == NmtState::operational;
+    *left = *left || operational;
+    if (former) former();
+    if (parts.device.state == NmtState::operational) *left = false;
+  };
+  deaf_to([left](Parts&, const Frame& frame) {
+    if (frame.id == 0x000 && !frame.extended && !frame.remote) *left = false;
+    return false;
+  })(parts);
+  parts.device.works.replace([left](const auto& former, Service service, NmtState state) {
+    return (service == Service::tpdo && *left) || former(service, state);
+  });
 }
 
 }  // namespace
@@ -89,6 +109,10 @@ DefectTable error_control_behaviour_defects() {
                return value == 2 ? present : former(value, present);
              });
        })},
+      {"1029-tpdos-go-on-behind-operational",
+       "TPDOs go on when a lost heartbeat has ended Operational",
+       {"PDO-TX-02"},
+       Change(tpdos_outlive_operational)},
   };
 }
 

@@ -184,6 +184,24 @@ Change says_in(NmtState real, NmtState told) {
   });
 }
 
+/// Stored parameters guard nobody; only those that are written do.
+void guards_with_written_parameters_only(Parts& parts) {
+  const auto written = written_since_boot_up(parts, {0x100C, 0x100D});
+  parts.guarding.rules.life_time.replace(
+      [written](const auto& former, std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+        return written->empty() ? Duration::zero() : former(guard_time, factor);
+      });
+}
+
+/// A life time that runs ends as if there were no heartbeat.
+Change goes_on_beside_heartbeat() {
+  return together(
+      decides(of_guarding, &GuardingRules::is_used, [](const auto&, std::uint64_t) { return true; }),
+      deaf_to([](Parts& parts, const Frame& frame) {
+        return is_request(parts, frame) && parts.device.dictionary.number(0x1017, 0) != 0;
+      }));
+}
+
 DefectTable request_rows() {
   return {
       {"guard-no-reply",
@@ -360,6 +378,14 @@ DefectTable life_rows() {
        "A life time that runs goes on over a reset",
        {"EC-NG-08"},
        decides(of_guarding, &GuardingRules::ends_with_reset, [](const auto&) { return false; })},
+      {"life-guarding-outlives-heartbeat-write",
+       "A life time that is running is not ended by a heartbeat time that is written",
+       {"EC-NG-11"},
+       goes_on_beside_heartbeat()},
+      {"life-guarding-stored-without-effect",
+       "Life guarding does not work with stored parameters until they are written",
+       {"EC-NG-07", "OD-RST-04"},
+       Change(guards_with_written_parameters_only)},
   };
 }
 

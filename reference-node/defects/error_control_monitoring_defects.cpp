@@ -2,6 +2,7 @@
 // Finer defects of the heartbeat consumer (1016h) and producer (1017h): one state, one entry, the upper half
 // of a value, the second time.
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "defects/heartbeats.hpp"
@@ -144,6 +145,45 @@ Change at_half_rate_in(NmtState state) {
   });
 }
 
+/// A write of an entry leaves the deadline that was running, where `left` says so of the node before and now.
+Change keeps_deadline(bool (*left)(std::uint8_t before, std::uint8_t now)) {
+  return [left](Parts& parts) {
+    struct Memory {
+      std::optional<std::uint8_t> node;  ///< before the write
+      std::optional<Duration> rest;
+    };
+    const auto memory = std::make_shared<Memory>();
+    checking_all(0x1016, [memory](Parts& node, const Check& former, std::uint8_t sub, ByteView bytes) {
+      memory->node = node_at(node, sub);
+      return former(bytes);
+    })(parts);
+    after_writing_all(0x1016, [memory, left](Parts& node, const Written& former, std::uint8_t sub) {
+      const auto due = node.consumer.due(sub);
+      former();
+      const auto now = node_at(node, sub);
+      if (!due || !now || !memory->node || !left(*memory->node, *now)) return;
+      memory->rest = *due - node.device.now;
+      node.consumer.on_heartbeat(*now, 0x05);
+      memory->rest.reset();
+    })(parts);
+    parts.consumer.rules.time.replace([memory](const auto& former, std::int64_t value) {
+      return memory->rest ? *memory->rest : former(value);
+    });
+  };
+}
+
+/// The heartbeats of a node are looked at once its entry has been written since the boot-up.
+void monitors_written_entries_only(Parts& parts) {
+  const auto written = written_since_boot_up(parts, {0x1016});
+  deaf_to([written](Parts& node, const Frame& frame) {
+    if (!is_heartbeat(frame)) return false;
+    for (std::uint8_t sub = 1; sub <= consumer_entries(node); ++sub) {
+      if (node_at(node, sub) == producer_of(frame)) return !written->contains(mux(0x1016, sub));
+    }
+    return false;
+  })(parts);
+}
+
 }  // namespace
 
 DefectTable error_control_monitoring_defects() {
@@ -242,6 +282,18 @@ DefectTable error_control_monitoring_defects() {
        "In Stopped the heartbeat comes at half the rate",
        {"EC-HBP-01"},
        at_half_rate_in(NmtState::stopped)},
+      {"1016-longer-time-waits-for-next-heartbeat",
+       "Another time in 1016h leaves the deadline that is running",
+       {"EC-HBC-04"},
+       keeps_deadline([](std::uint8_t before, std::uint8_t now) { return before == now; })},
+      {"1016-other-node-inherits-deadline",
+       "An entry of 1016h that names another node goes on with the deadline of the former one",
+       {"EC-HBC-02"},
+       keeps_deadline([](std::uint8_t before, std::uint8_t now) { return before != now; })},
+      {"1016-stored-entry-not-monitored",
+       "An entry of 1016h that was stored monitors nobody until it is written",
+       {"EC-HBC-03", "OD-RST-04"},
+       Change(monitors_written_entries_only)},
   };
 }
 

@@ -130,4 +130,44 @@ Change misreads(std::function<void(Parts&, Frame&)> change) {
   });
 }
 
+Change with_boot_up(std::function<void(Parts&)> act) {
+  return [act = std::move(act)](Parts& parts) {
+    parts.device.outbox.add_filter([&parts, act](const FilterContext& context, std::vector<Outgoing>&) {
+      if (context.service == Service::boot_up) act(parts);
+    });
+  };
+}
+
+Change ahead_of_state_change(std::function<void(Parts&)> act) {
+  return [act = std::move(act)](Parts& parts) {
+    parts.nmt.on_change = [&parts, act, former = parts.nmt.on_change](NmtState from) {
+      act(parts);
+      former(from);
+    };
+  };
+}
+
+std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(Parts& parts,
+                                                             std::initializer_list<std::uint16_t> indices) {
+  const auto written = std::make_shared<std::set<Multiplexer>>();
+  const auto note = [&](std::uint16_t index, std::uint8_t sub, Entry& entry) {
+    put_written(parts, entry, [written, index, sub](Parts&, const std::function<void()>& former) {
+      written->insert({conform::Index(index), conform::SubIndex(sub)});
+      former();
+    });
+  };
+  for (const std::uint16_t index : indices) {
+    if (Entry* entry = parts.device.dictionary.entry(index, 0)) note(index, 0, *entry);
+    for_all(parts, index, [&](std::uint8_t sub, Entry& entry) { note(index, sub, entry); });
+  }
+  with_boot_up([written](Parts&) { written->clear(); })(parts);
+  return written;
+}
+
+bool has_open_transfer(const Parts& parts) {
+  const SdoServer* server =
+      parts.sdo.server_of(conform::can::data_frame(conform::CanId(0x600U + parts.device.node_id), {}));
+  return server != nullptr && server->busy();
+}
+
 }  // namespace refnode::defect

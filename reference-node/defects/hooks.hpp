@@ -5,6 +5,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "defects/defect.hpp"
@@ -51,6 +54,17 @@ using Read = std::function<Upload()>;
 [[nodiscard]] Change deaf_to(std::function<bool(Parts&, const Frame&)> when);
 /// Every frame is changed by `change` before a service sees it.
 [[nodiscard]] Change misreads(std::function<void(Parts&, Frame&)> change);
+
+/// `act` runs with every boot-up message.
+[[nodiscard]] Change with_boot_up(std::function<void(Parts&)> act);
+/// `act` runs when the NMT state has changed, before any service hears of it.
+[[nodiscard]] Change ahead_of_state_change(std::function<void(Parts&)> act);
+/// What has been written of these objects since the boot-up message.
+[[nodiscard]] std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(
+    Parts& parts, std::initializer_list<std::uint16_t> indices);
+
+/// The default SDO server has a transfer that has not ended.
+[[nodiscard]] bool has_open_transfer(const Parts& parts);
 
 /// Another decision in place of a rule: `other(former, given...)`. `part` finds the struct of rules.
 template <typename Rules, typename Signature, typename Other>

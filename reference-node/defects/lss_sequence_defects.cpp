@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the LSS slave (CiA 305) in what several frames make up: what one address leaves behind for the
-// next.
+// next, and what becomes of a node-ID that was configured.
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "defects/hooks.hpp"
@@ -65,6 +68,81 @@ void takes_unknown_for_scan(Parts& parts, Frame& frame) {
   if (is_request(frame) && frame.data[0] >= 0x60 && parts.device.node_id > 127) frame.data[0] = fastscan;
 }
 
+/// What the latest configure node-ID said, until the device boots up; nothing: there was none.
+struct Configured {
+  std::optional<std::uint8_t> accepted;
+  bool refused = false;  ///< behind the accepted one
+};
+std::shared_ptr<Configured> latest_configured(Parts& parts) {
+  const auto latest = std::make_shared<Configured>();
+  parts.lss.rules.node_id_allowed.replace([latest](const auto& former, std::uint8_t node_id) {
+    const bool allowed = former(node_id);
+    if (allowed) latest->accepted = node_id;
+    latest->refused = !allowed;
+    return allowed;
+  });
+  return latest;
+}
+
+/// A node-ID that is refused takes the accepted one with it.
+void forgets_with_a_refused_one(Parts& parts) {
+  parts.lss.rules.after_reset_communication.replace(
+      [latest = latest_configured(parts)](const auto& former, std::uint8_t active, std::uint8_t pending) {
+        return latest->refused ? active : former(active, pending);
+      });
+}
+
+/// Reset node leaves the node-ID that was configured and not stored for the next reset communication.
+void remembers_over_reset_node(Parts& parts) {
+  parts.lss.rules.after_reset_communication.replace(
+      [latest = latest_configured(parts)](const auto& former, std::uint8_t active, std::uint8_t pending) {
+        return latest->accepted.value_or(former(active, pending));
+      });
+}
+
+void tells_the_configured_one(Parts& parts) {
+  constexpr std::uint8_t inquire_node_id = 0x5E;
+  const auto latest = latest_configured(parts);
+  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
+  parts.device.outbox.add_filter([latest](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::lss || !latest->accepted) return;
+    for (Outgoing& each : frames) {
+      if (each.frame.data[0] == inquire_node_id) each.frame.data[1] = *latest->accepted;
+    }
+  });
+}
+
+/// The node-ID in such frames is compared with the one that the device was switched on with.
+Change keeps_listening_to_its_first_node_id(bool (*holds_node_id)(const Frame&),
+                                            void (*put)(Frame&, std::uint8_t node_id),
+                                            std::uint8_t (*get)(const Frame&)) {
+  return [=](Parts& parts) {
+    constexpr std::uint8_t nobody = 0x7F;
+    misreads([=, first = parts.device.node_id](Parts& node, Frame& frame) {
+      const std::uint8_t present = node.device.node_id;
+      if (present == first || !holds_node_id(frame) || get(frame) == 0) return;
+      put(frame, get(frame) == first ? present : nobody);
+    })(parts);
+  };
+}
+
+bool is_guard_request(const Frame& frame) {
+  return frame.remote && !frame.extended && frame.id > 0x700 && frame.id <= 0x77F;
+}
+bool is_nmt_command(const Frame& frame) {
+  return frame.id == 0x000 && !frame.remote && !frame.extended && frame.size() == 2;
+}
+
+/// The default COB-IDs of all PDOs but the first ones are fixed.
+DictionaryEdit later_pdos_keep_their_defaults() {
+  return [](ObjectDictionary& od, std::uint8_t) {
+    for (auto& [index, object] : od.objects()) {
+      const bool later = (index > 0x1400 && index < 0x1600) || (index > 0x1800 && index < 0x1A00);
+      for (auto& [sub, entry] : object.entries) entry.adds_node_id = entry.adds_node_id && !later;
+    }
+  };
+}
+
 }  // namespace
 
 DefectTable lss_sequence_defects() {
@@ -99,6 +177,34 @@ DefectTable lss_sequence_defects() {
        "A slave without node-ID takes unknown commands for fastscan",
        {"LSS-GEN-02"},
        misreads(takes_unknown_for_scan)},
+      {"lss-refused-node-id-forgets-accepted",
+       "A node-ID that is refused takes with it the one that was accepted before",
+       {"LSS-CN-04"},
+       Change(forgets_with_a_refused_one)},
+      {"lss-node-id-outlives-reset-node",
+       "A node-ID that was not stored is forgotten with reset node, and back with the next reset communication",
+       {"LSS-CN-05"},
+       Change(remembers_over_reset_node)},
+      {"lss-configured-node-id-inquired",
+       "Inquire node-ID tells the one that waits for the reset",
+       {"LSS-INQ-05"},
+       Change(tells_the_configured_one)},
+      {"lss-guarding-keeps-node-id",
+       "With another node-ID guard requests to the former one are answered",
+       {"LSS-CN-04"},
+       keeps_listening_to_its_first_node_id(
+           is_guard_request, [](Frame& frame, std::uint8_t node_id) { frame.id = 0x700U + node_id; },
+           [](const Frame& frame) { return static_cast<std::uint8_t>(frame.id - 0x700U); })},
+      {"lss-nmt-keeps-node-id",
+       "With another node-ID NMT commands to the former one are obeyed",
+       {"LSS-CN-04"},
+       keeps_listening_to_its_first_node_id(
+           is_nmt_command, [](Frame& frame, std::uint8_t node_id) { frame.data[1] = node_id; },
+           [](const Frame& frame) { return frame.data[1]; })},
+      {"lss-later-pdos-keep-cob-ids",
+       "With another node-ID the default COB-IDs of the second PDOs and of all later ones stay",
+       {"OD-RST-06"},
+       later_pdos_keep_their_defaults()},
   };
 }
 

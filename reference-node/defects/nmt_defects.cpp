@@ -351,6 +351,20 @@ DefectTable nmt_defects() {
        reset_loads([](bool right, Group group, bool whole_node) {
          return right && !(whole_node && group != Group::communication);
        })},
+      {"nmt-reset-communication-to-all-ignored-in-stopped",
+       "In Stopped reset communication to all nodes is ignored",
+       {"NMT-FSA-14", "NMT-BOOT-03"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return parts.device.state == NmtState::stopped && is_command(frame, reset_communication) &&
+                frame.data[1] == 0;
+       })},
+      {"nmt-reset-node-in-stopped-resets-communication",
+       "In Stopped reset node resets the communication only",
+       {"NMT-FSA-25"},
+       misreads_commands([](Parts& parts, Frame& frame) {
+         if (parts.device.state == NmtState::stopped && frame.data[0] == reset_node)
+           frame.data[0] = reset_communication;
+       })},
   };
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "defects/pdos.hpp"
 #include "defects/tools.hpp"
@@ -94,6 +95,203 @@ Change maps_one_bit_of_anything(PdoRulesPart of) {
   });
 }
 
+/// What waited for its SYNC at a reset takes effect with the first SYNC behind it.
+void waits_over_a_reset(Parts& parts) {
+  struct Memory {
+    std::optional<Frame> last, waiting;
+  };
+  const auto memory = std::make_shared<Memory>();
+  parts.pdos.rpdo.rules.kept_for_sync.replace(
+      [memory](const auto& former, const PdoParameters& pdo, const auto& before, const Bytes& received) {
+        memory->waiting = memory->last;
+        return former(pdo, before, received);
+      });
+  parts.pdos.rpdo.rules.taken_at_sync.replace(
+      [memory](const auto& former, const PdoParameters& pdo, const Bytes& waiting) {
+        memory->waiting.reset();
+        return former(pdo, waiting);
+      });
+  misreads([memory](Parts& node, Frame& frame) {
+    if (is_rpdo(frame)) memory->last = frame;
+    if (frame.id == sync_can_id && memory->waiting) node.pdos.on_frame(Frame(*memory->waiting));
+  })(parts);
+  // Only a reset leaves it: there is no such change then.
+  ahead_of_state_change([memory](Parts& node) {
+    if (node.device.state != NmtState::operational) memory->waiting.reset();
+  })(parts);
+}
+
+/// What came in Pre-operational takes effect with the first SYNC in Operational.
+void waits_for_operational(Parts& parts) {
+  const auto waiting = std::make_shared<std::optional<Frame>>();
+  misreads([waiting](Parts& node, Frame& frame) {
+    const NmtState state = node.device.state;
+    if (is_rpdo(frame) && state == NmtState::pre_operational) *waiting = frame;
+    if (is_rpdo(frame) && state == NmtState::operational) waiting->reset();
+    if (frame.id != sync_can_id || state != NmtState::operational || !*waiting) return;
+    node.pdos.on_frame(**waiting);
+    waiting->reset();
+  })(parts);
+  with_boot_up([waiting](Parts&) { waiting->reset(); })(parts);
+}
+
+/// What was found first since the NMT state changed counts until it changes again.
+template <typename Value>
+std::shared_ptr<std::map<std::uint16_t, Value>> found_first(Parts& parts) {
+  const auto found = std::make_shared<std::map<std::uint16_t, Value>>();
+  ahead_of_state_change([found](Parts&) { found->clear(); })(parts);
+  return found;
+}
+
+void needs_the_first_length(Parts& parts) {
+  const auto lengths = found_first<std::size_t>(parts);
+  parts.pdos.rpdo.rules.processed.replace(
+      [lengths](const auto& former, const PdoParameters& pdo, std::size_t received, std::size_t mapped) {
+        return former(pdo, received, lengths->try_emplace(pdo.number(), mapped).first->second);
+      });
+}
+
+void keeps_the_first_way(Parts& parts) {
+  const auto waits = found_first<bool>(parts);
+  parts.pdos.rpdo.rules.waits_for_sync.replace([waits](const auto& former, const PdoParameters& pdo) {
+    return waits->try_emplace(pdo.number(), former(pdo)).first->second;
+  });
+}
+
+void sends_the_first_length(Parts& parts) {
+  const auto lengths = found_first<std::size_t>(parts);
+  parts.pdos.tpdo.rules.carried.replace(
+      [lengths](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+        Bytes sent = former(pdo, due);
+        sent.resize(lengths->try_emplace(pdo.number(), sent.size()).first->second);
+        return sent;
+      });
+}
+
+/// The number of SYNCs is compared for equality, and a type that is written leaves it as it is.
+void waits_for_the_very_number(Parts& parts) {
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.takes_effect.replace([](const auto& former, const PdoParameters& pdo) {
+    return !is_synchronous(pdo.transmission_type()) && former(pdo);
+  });
+  rules.sent_at_sync.replace(
+      [](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        const std::uint8_t type = pdo.transmission_type();
+        const bool cyclic = type >= 1 && is_synchronous(type);
+        return former(pdo, syncs, event) && (!cyclic || (syncs & 0xFFU) == type);
+      });
+}
+
+/// An event timer that is running is not disturbed by another time that is written.
+void timer_runs_to_its_end(Parts& parts) {
+  const auto times = std::make_shared<std::map<std::uint16_t, Duration>>();
+  with_boot_up([times](Parts&) { times->clear(); })(parts);
+  parts.pdos.tpdo.rules.takes_effect.replace([times](const auto& former, const PdoParameters& pdo) {
+    const Duration now = pdo.event_timer();
+    const Duration before = std::exchange((*times)[pdo.number()], now);
+    const bool runs = before > Duration::zero() && now > Duration::zero() && before != now;
+    return !runs && former(pdo);
+  });
+}
+
+/// Remote frames with any CAN-ID that a TPDO has been sent with ask for it.
+void answers_on_former_can_ids(Parts& parts) {
+  const auto used = std::make_shared<std::map<std::uint32_t, std::uint16_t>>();
+  parts.device.outbox.add_filter([&parts, used](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) used->clear();
+    if (context.service != Service::tpdo) return;
+    for (const Outgoing& each : frames) {
+      for (std::uint16_t index = 0x1800; index < 0x1A00; ++index) {
+        const auto cob_id = parts.device.dictionary.number(index, 1, 0x80000000U);
+        if ((cob_id & 0x800007FFU) == each.frame.id) used->insert_or_assign(each.frame.id, index);
+      }
+    }
+  });
+  misreads([used](Parts& node, Frame& frame) {
+    const auto former = used->find(frame.id);
+    if (frame.remote && !frame.extended && former != used->end())
+      frame.id = static_cast<std::uint32_t>(node.device.dictionary.number(former->second, 1) & 0x7FFU);
+  })(parts);
+}
+
+/// What is sent behind the inhibit time are the data of the first change within it.
+void sends_the_first_change(Parts& parts) {
+  struct Memory {
+    std::optional<Bytes> first;
+    bool made_up = false;
+  };
+  const auto memory = std::make_shared<std::map<std::uint16_t, Memory>>();
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.is_event.replace(
+      [memory](const auto& former, const PdoParameters& pdo, const Bytes& sent, const Bytes& now) {
+        const bool event = former(pdo, sent, now);
+        auto& first = (*memory)[pdo.number()].first;
+        if (event && !first) first = now;
+        return event;
+      });
+  rules.made_up_for.replace([memory](const auto& former, const PdoParameters& pdo) {
+    return (*memory)[pdo.number()].made_up = former(pdo);
+  });
+  rules.carried.replace([memory](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+    const Memory before = std::exchange((*memory)[pdo.number()], {});
+    return former(pdo, before.made_up && before.first ? *before.first : due);
+  });
+  ahead_of_state_change([memory](Parts&) { memory->clear(); })(parts);
+}
+
+/// A change that waits for the inhibit time is sent although the TPDO is switched off before.
+void waiting_change_outlives_validity(Parts& parts) {
+  const auto waiting = std::make_shared<std::set<std::uint16_t>>();
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.held_back.replace([waiting](const auto& former, const PdoParameters& pdo, TransmitCause cause) {
+    const bool held = former(pdo, cause);
+    if (held) waiting->insert(pdo.number());
+    return held;
+  });
+  rules.takes_effect.replace([waiting](const auto& former, const PdoParameters& pdo) {
+    return !waiting->contains(pdo.number()) && former(pdo);
+  });
+  rules.valid.replace([waiting](const auto& former, const PdoParameters& pdo) {
+    return waiting->contains(pdo.number()) || former(pdo);
+  });
+  rules.carried.replace([waiting](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+    waiting->erase(pdo.number());
+    return former(pdo, due);
+  });
+  ahead_of_state_change([waiting](Parts&) { waiting->clear(); })(parts);
+  with_boot_up([waiting](Parts&) { waiting->clear(); })(parts);
+}
+
+/// A change that waits for the inhibit time is sent although the device leaves Operational before.
+void waiting_change_outlives_operational(Parts& parts) {
+  struct Memory {
+    BusTime inhibited_until{};
+    std::optional<Frame> waiting;
+  };
+  const auto memory = std::make_shared<std::map<std::uint16_t, Memory>>();
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.is_event.replace([memory](const auto& former, const PdoParameters& pdo, const Bytes& sent,
+                                  const Bytes& now) {
+    const bool event = former(pdo, sent, now);
+    if (event && is_event_driven(pdo.transmission_type()))
+      (*memory)[pdo.number()].waiting = conform::can::data_frame(conform::CanId(pdo.cob_id().can_id()), now);
+    return event;
+  });
+  rules.carried.replace([&parts, memory](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+    (*memory)[pdo.number()] = {parts.device.now + pdo.inhibit_time(), std::nullopt};
+    return former(pdo, due);
+  });
+  ahead_of_state_change([memory](Parts& node) {
+    Device& device = node.device;
+    for (const auto& [number, each] : *memory) {
+      if (each.waiting && each.inhibited_until > device.now)
+        device.outbox.send({Service::tpdo, device.node_id, device.state, nullptr},
+                           {{*each.waiting, each.inhibited_until - device.now}}, device.now);
+    }
+    memory->clear();
+  })(parts);
+}
+
 }  // namespace
 
 DefectTable pdo_course_defects() {
@@ -140,6 +338,50 @@ DefectTable pdo_course_defects() {
        "One bit of any object, also of an absent one, can be mapped to a TPDO",
        {"OD-1A00-06", "PDO-MAP-18"},
        maps_one_bit_of_anything(tpdo_parameters)},
+      {"rpdo-waiting-outlives-reset",
+       "A synchronous RPDO that waits for its SYNC takes effect with the first SYNC behind a reset",
+       {"NMT-FSA-25"},
+       Change(waits_over_a_reset)},
+      {"rpdo-of-pre-operational-waits-for-sync",
+       "A synchronous RPDO that came in Pre-operational takes effect with the first SYNC in Operational",
+       {"PDO-RX-02"},
+       Change(waits_for_operational)},
+      {"rpdo-length-of-the-first",
+       "An RPDO that is mapped anew in Operational needs as many bytes as before",
+       {"PDO-MAP-22"},
+       Change(needs_the_first_length)},
+      {"rpdo-type-of-the-first",
+       "An RPDO whose type is written in Operational takes effect as before",
+       {"PDO-RX-03"},
+       Change(keeps_the_first_way)},
+      {"tpdo-length-of-the-first",
+       "A TPDO that is mapped anew in Operational is as long as before",
+       {"PDO-TX-01", "PDO-MAP-22"},
+       Change(sends_the_first_length)},
+      {"tpdo-smaller-type-waits-for-256-syncs",
+       "A smaller transmission type that is written in Operational waits until the count of SYNCs runs over",
+       {"PDO-TX-06"},
+       Change(waits_for_the_very_number)},
+      {"tpdo-event-timer-runs-to-its-end",
+       "Another event timer of a TPDO waits for the end of the one that is running",
+       {"PDO-TX-09"},
+       Change(timer_runs_to_its_end)},
+      {"tpdo-answers-on-former-can-id",
+       "A TPDO that was moved answers remote frames with its former CAN-ID, too",
+       {"PDO-TX-01"},
+       Change(answers_on_former_can_ids)},
+      {"tpdo-first-change-sent-after-inhibit-time",
+       "Of several changes within the inhibit time the first one is sent at its end",
+       {"PDO-TX-01"},
+       Change(sends_the_first_change)},
+      {"tpdo-waiting-sent-when-not-valid",
+       "A change that waits for the inhibit time is sent although the TPDO is not valid any more",
+       {"OD-1800-06", "OD-1800-09"},
+       Change(waiting_change_outlives_validity)},
+      {"tpdo-waiting-sent-outside-operational",
+       "A change that waits for the inhibit time is sent although the device is not Operational any more",
+       {"PDO-TX-02"},
+       Change(waiting_change_outlives_operational)},
   };
 }
 

@@ -115,6 +115,34 @@ Change keeps_mapping(PdoRulesPart of) {
       });
 }
 
+/// What is refused because it cannot be mapped stands in the entry all the same.
+Change keeps_refused_entries(std::uint16_t index) {
+  return checking_all(index, [index](Parts& parts, const Check& former, std::uint8_t sub, ByteView bytes) {
+    const Accepted taken = former(bytes);
+    if (!taken && (taken.error() == abort_code::no_object || taken.error() == abort_code::no_sub_index))
+      parts.device.dictionary.set_number(index, sub, conform::load_le(bytes));
+    return taken;
+  });
+}
+
+/// A mapping that was stored is shown; the default one is used until a number of mapped objects is written.
+void uses_the_default_until_written(Parts& parts) {
+  const auto written = written_since_boot_up(parts, {0x1A00, 0x1A01, 0x1A02, 0x1A03});
+  parts.pdos.tpdo.parameters.rules.mapping.replace(
+      [&parts, written](const auto& former, const PdoParameters& pdo, const Entries& counted) {
+        const auto index = static_cast<std::uint16_t>(0x1A00 + pdo.number());
+        const ObjectDictionary& od = parts.device.dictionary;
+        const Entry* count = od.entry(index, 0);
+        if (written->contains(mux(index, 0)) || count == nullptr) return former(pdo, counted);
+        Entries defaults;
+        for (std::uint8_t sub = 1; sub <= conform::load_le(count->default_value); ++sub) {
+          if (const Entry* entry = od.entry(index, sub))
+            defaults.push_back(Mapped::unpack(conform::load_le(entry->default_value)));
+        }
+        return former(pdo, defaults);
+      });
+}
+
 }  // namespace
 
 DefectTable pdo_mapping_defects() {
@@ -294,6 +322,14 @@ DefectTable pdo_mapping_defects() {
        "UNSIGNED8 cannot be mapped to an RPDO, although it is declared as a placeholder",
        {"PDO-MAP-15"},
        Change([](Parts& parts) { parts.pdos.rpdo.parameters.placeholders[5] = false; })},
+      {"1a00-refused-entry-kept",
+       "A mapping entry that is refused because its object is absent is stored all the same",
+       {"OD-ACC-05"},
+       keeps_refused_entries(0x1A00)},
+      {"1a00-stored-mapping-not-used",
+       "TPDOs are sent with the default mapping until 1A00h:00 is written, whatever was stored",
+       {"OD-RST-04"},
+       Change(uses_the_default_until_written)},
   };
 }
 

@@ -301,6 +301,22 @@ DefectTable pdo_receive_traffic_defects() {
        receives_values([](const Entry&, Bytes& value) {
          if (value.size() == 1) value[0] &= 0x7F;
        })},
+      {"rpdo-short-told-once",
+       "Of an RPDO that becomes too short again the first time is reported only",
+       {"PDO-RX-06"},
+       loses_errors([](std::set<std::uint16_t>& before, const ErrorCause& cause) {
+         return cause.code == too_short && !before.insert(cause.instance).second;
+       })},
+      {"rpdo-event-driven-late-discarded",
+       "An event-driven RPDO that comes behind the window of 1007h is discarded",
+       {"PDO-RX-01"},
+       Change([](Parts& parts) {
+         parts.pdos.rpdo.rules.processed.replace([&parts](const auto& former, const PdoParameters& pdo,
+                                                          std::size_t received, std::size_t mapped) {
+           const bool late = is_event_driven(pdo.transmission_type()) && !parts.pdos.rpdo.in_window();
+           return !late && former(pdo, received, mapped);
+         });
+       })},
   };
 }
 

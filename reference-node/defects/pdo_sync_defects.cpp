@@ -56,6 +56,21 @@ Change carries_the_former(bool (*when)(const PdoParameters& pdo)) {
       });
 }
 
+/// Within the inhibit time a SYNC sends nothing.
+void inhibits_synchronous(Parts& parts) {
+  const auto sent = std::make_shared<std::map<std::uint16_t, BusTime>>();
+  parts.pdos.tpdo.rules.sent_at_sync.replace(
+      [&parts, sent](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        const auto last = sent->find(pdo.number());
+        const BusTime now = parts.device.now;
+        const bool inhibited = last != sent->end() && now < last->second + pdo.inhibit_time();
+        const bool due = former(pdo, syncs, event) && !inhibited;
+        if (due) sent->insert_or_assign(pdo.number(), now);
+        return due;
+      });
+  ahead_of_state_change([sent](Parts&) { sent->clear(); })(parts);
+}
+
 }  // namespace
 
 DefectTable pdo_sync_defects() {
@@ -260,6 +275,10 @@ DefectTable pdo_sync_defects() {
                }
              });
        })},
+      {"tpdo-synchronous-inhibited",
+       "The inhibit time holds back synchronous TPDOs as well",
+       {"PDO-TX-05"},
+       Change(inhibits_synchronous)},
   };
 }
 

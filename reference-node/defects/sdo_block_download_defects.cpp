@@ -2,10 +2,13 @@
 // Defects of the SDO block download: sub-blocks, acknowledges, lengths, CRC, and what ends it.
 #include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "defects/sdo_block_exchanges.hpp"
 
@@ -160,6 +163,50 @@ Change stores_whatever_comes() {
   };
 }
 
+/// Of a later sub-block that lost a segment nothing is kept, what was acknowledged included.
+void forgets_later_sub_blocks_with_a_gap(Parts& parts) {
+  struct Memory {
+    std::size_t size = 0;  ///< of what is kept and of what is to be forgotten
+    bool later = false;
+    std::vector<std::pair<std::size_t, std::size_t>> forgotten;  ///< first and end
+  };
+  const auto memory = std::make_shared<Memory>();
+  parts.device.outbox.add_filter(on_exchange([memory](const SdoExchange& e, const Frames& frames) {
+    if (block_download_initiated(e)) *memory = {};
+    if (!acknowledged(e) || frames.empty()) return;
+    const Data& answer = frames.front().frame.data;
+    const std::size_t end = memory->size + answer[1] * std::size_t{7};
+    const bool last = (e.request[0] & 0x80U) != 0 && (e.request[0] & 0x7FU) == answer[1];
+    if (memory->later && !last && answer[1] < answer[2]) memory->forgotten.emplace_back(memory->size, end);
+    memory->size = end;
+    memory->later = true;
+  }));
+  of_block_download(parts).value.replace([memory](const auto& former, Bytes data, const Terms& terms) {
+    Bytes kept;
+    for (std::size_t i = 0; i < data.size(); ++i) {
+      const bool gone = std::ranges::any_of(
+          memory->forgotten, [i](const auto& range) { return i >= range.first && i < range.second; });
+      if (!gone) kept.push_back(data[i]);
+    }
+    return former(std::move(kept), terms);
+  });
+}
+
+/// A download that follows one aborted within a sub-block waits for the segment that was due there.
+void goes_on_counting_behind_an_abort(Parts& parts) {
+  const auto left = std::make_shared<std::uint8_t>(std::uint8_t{0});
+  misreads([left](Parts& node, Frame& frame) {
+    const auto* transfer = transfer_of<BlockDownload>(node, frame);
+    if (transfer != nullptr && is_abort_request(node, frame)) *left = transfer->sequence();
+  })(parts);
+  of_block_download(parts).follows.replace(
+      [left](const auto& former, std::uint8_t number, std::uint8_t last) {
+        const bool follows = former(number, last == 0 ? *left : last);
+        if (follows) *left = 0;
+        return follows;
+      });
+}
+
 DefectTable frame_rows() {
   return {
       {"block-download-not-stored",
@@ -276,6 +323,14 @@ DefectTable loss_rows() {
                 takes_for_next([](unsigned number, const BlockDownload& transfer) {
                   return number > transfer.block_size();
                 }))},
+      {"block-download-later-sub-block-lost-with-gap",
+       "Behind the first sub-block a lost segment makes forget what came before it in its sub-block",
+       {"SDO-BDN-07"},
+       Change(forgets_later_sub_blocks_with_a_gap)},
+      {"block-download-counts-on-behind-abort",
+       "A block download that follows one aborted within a sub-block does not begin with segment 1",
+       {"SDO-BDN-17", "SDO-BDN-26"},
+       Change(goes_on_counting_behind_an_abort)},
   };
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the SDO block upload: frames, sequence numbers, CRC, acknowledges, and what ends it.
+#include <cstdint>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "defects/sdo_block_exchanges.hpp"
 
@@ -90,6 +92,25 @@ Change starts_at_once() {
       parts.device.inbox.put(conform::can::data_frame(request, {0xA3, 0, 0, 0, 0, 0, 0, 0}), context.now);
     });
   };
+}
+
+/// Uploads that run at the same time on two channels have one register for the CRC.
+Filter shares_crc() {
+  struct Memory {
+    std::set<std::uint8_t> running, spoiled;
+  };
+  return on_exchange([memory = Memory{}](const SdoExchange& e, Frames& frames) mutable {
+    const bool ends = e.aborted || is_client_abort(e) || e.step == SdoStep::time_out || begins_transfer(e);
+    if (ends) memory.running.erase(e.channel);
+    if (block_upload_initiated(e) && (e.request[0] & 0x04U) != 0) {
+      memory.running.insert(e.channel);
+      memory.spoiled.erase(e.channel);
+      if (memory.running.size() > 1) memory.spoiled = memory.running;
+    }
+    if (!is_upload_end(e, frames)) return;
+    memory.running.erase(e.channel);
+    if (memory.spoiled.erase(e.channel) != 0) frames.front().frame.data[1] ^= 0x5AU;
+  });
 }
 
 DefectTable frame_rows() {
@@ -253,6 +274,10 @@ DefectTable crc_rows() {
          frames.front().frame.data[1] = 0x34;
          frames.front().frame.data[2] = 0x12;
        })},
+      {"block-upload-crc-shared-by-channels",
+       "Block uploads that run at the same time on two channels spoil each other's CRC",
+       {"SDO-BUP-02"},
+       shares_crc()},
   };
 }
 

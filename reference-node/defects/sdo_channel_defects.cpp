@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of additional SDO servers (1201h-127Fh) and of the parameters of SDO clients (1280h-12FFh).
+#include <map>
 #include <memory>
 
 #include "defects/cob_ids.hpp"
 #include "defects/sdo_block_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
+#include "defects/tools.hpp"
 
 namespace refnode {
 
@@ -93,6 +95,50 @@ Change accepts_restricted_at(std::uint16_t index, std::uint8_t sub) {
     const auto wanted = static_cast<std::uint32_t>(conform::load_le(bytes));
     return allowed || !of_sdo_server(parts).restricted(wanted & 0x7FFU) ? allowed : Accepted{};
   });
+}
+
+/// What ends one transfer for want of requests ends the others, too.
+void gives_up_all_at_once(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, Frames&) {
+    if (context.sdo == nullptr || context.sdo->step != SdoStep::time_out) return;
+    const ObjectDictionary& od = parts.device.dictionary;
+    const auto abort_on = [&](std::uint32_t id) {
+      parts.device.inbox.put(conform::can::data_frame(conform::CanId(id), {0x80, 0, 0, 0, 0, 0, 0, 0}),
+                             context.now);
+    };
+    if (on_additional_channel(*context.sdo)) abort_on(0x600U + context.node_id);
+    for (std::uint16_t index = first_sdo_server + 1; index <= first_sdo_server + 2; ++index) {
+      const std::uint64_t request = od.number(index, 1, 0x80000000U);
+      if (index != first_sdo_server + context.sdo->channel && (request & 0x80000000U) == 0)
+        abort_on(static_cast<std::uint32_t>(request & 0x7FFU));
+    }
+  });
+}
+
+/// A channel serves every CAN-ID that it has had requests on.
+void serves_former_can_ids(Parts& parts) {
+  const auto used = std::make_shared<std::map<std::uint32_t, std::uint8_t>>();
+  with_boot_up([used](Parts&) { used->clear(); })(parts);
+  misreads([used](Parts& node, Frame& frame) {
+    if (!is_base_data_frame(frame)) return;
+    const auto channel = channel_of(node, frame);
+    if (channel && *channel != 0) used->insert_or_assign(frame.id, *channel);
+    const auto former = used->find(frame.id);
+    if (channel || former == used->end()) return;
+    const auto index = static_cast<std::uint16_t>(first_sdo_server + former->second);
+    frame.id = static_cast<std::uint32_t>(node.device.dictionary.number(index, 1) & 0x7FFU);
+  })(parts);
+}
+
+/// A channel that was stored serves nobody before one of its COB-IDs is written.
+void serves_when_written_only(Parts& parts) {
+  const auto written = written_since_boot_up(parts, {0x1201, 0x1202});
+  deaf_to([written](Parts& node, const Frame& frame) {
+    const auto channel = channel_of(node, frame);
+    if (!channel || *channel == 0) return false;
+    const auto index = static_cast<std::uint16_t>(first_sdo_server + *channel);
+    return !written->contains(mux(index, 1)) && !written->contains(mux(index, 2));
+  })(parts);
 }
 
 }  // namespace
@@ -232,6 +278,25 @@ DefectTable sdo_channel_defects() {
        "The parameters of an SDO client are not stored",
        {"SDO-MUL-07"},
        not_storable(0x1280)},
+      {"additional-sdo-aborts-on-default-channel",
+       "Additional SDO servers send aborts on the CAN-ID of the default one",
+       {"SDO-MUL-01", "SDO-GEN-04"},
+       Filter([](const FilterContext& context, Frames& frames) {
+         if (context.sdo == nullptr || !on_additional_channel(*context.sdo) || !context.sdo->aborted) return;
+         for (Outgoing& outgoing : frames) outgoing.frame.id = 0x580U + context.node_id;
+       })},
+      {"additional-sdo-serves-former-can-id",
+       "An additional SDO server that was moved serves its former CAN-ID, too",
+       {"SDO-MUL-01"},
+       Change(serves_former_can_ids)},
+      {"additional-sdo-stored-serves-nobody",
+       "An additional SDO server that was stored serves nobody until it is written",
+       {"SDO-MUL-01"},
+       Change(serves_when_written_only)},
+      {"additional-sdo-time-out-ends-all",
+       "A transfer that is given up on one channel ends those on all others",
+       {"SDO-MUL-04"},
+       Change(gives_up_all_at_once)},
   };
 }
 

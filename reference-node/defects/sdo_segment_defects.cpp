@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "defects/sdo_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
@@ -176,6 +177,63 @@ Change shows_partial_downloads() {
             std::copy_n(data.begin(), std::min(data.size(), entry->value.size()), entry->value.begin());
         });
   };
+}
+
+/// A download that follows one aborted by the client goes on with the toggle bit that was due there.
+void toggles_on_behind_an_abort(Parts& parts) {
+  struct Memory {
+    bool due = false;   ///< in the transfer that is running
+    bool left = false;  ///< by one that was aborted
+  };
+  const auto memory = std::make_shared<Memory>();
+  misreads([memory](Parts& node, Frame& frame) {
+    const SdoServer* server = is_base_data_frame(frame) ? node.sdo.server_of(frame) : nullptr;
+    if (server == nullptr || frame.size() != 8) return;
+    const bool downloading = server->running<SegmentedDownload>() != nullptr;
+    if (frame.data[0] >> 5U == 4 && downloading) memory->left = memory->due;
+    if (frame.data[0] >> 5U == 1) memory->due = false;
+  })(parts);
+  of_segments(parts).download_toggle_right.replace([memory](const auto& former, bool toggle, bool due) {
+    if (std::exchange(memory->left, false)) return former(toggle, !due);
+    memory->due = !toggle;
+    return former(toggle, due);
+  });
+}
+
+/// What has come of a download is stored when NMT stop ends it.
+void stores_half_when_stopped(Parts& parts) {
+  const auto data = std::make_shared<Bytes>();
+  parts.device.outbox.add_filter([data](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.sdo == nullptr || context.sdo->channel != 0) return;
+    if (segmented_download_initiated(*context.sdo)) data->clear();
+    if (!download_segment_taken(*context.sdo)) return;
+    const auto& request = context.sdo->request;
+    data->insert(data->end(), request.begin() + 1, request.end() - ((request[0] >> 1U) & 0x07U));
+  });
+  ahead_of_state_change([data](Parts& node) {
+    const SdoServer* server =
+        node.sdo.server_of(conform::can::data_frame(conform::CanId(0x600U + node.device.node_id), {}));
+    const auto* open = server == nullptr ? nullptr : server->running<SegmentedDownload>();
+    if (node.device.state != NmtState::stopped || open == nullptr || data->empty()) return;
+    [[maybe_unused]] const auto stored = of_segments(node).store(open->mux(), *data);
+  })(parts);
+}
+
+/// The upper limit is not looked at where no size was told.
+void unsized_above_the_limit(Parts& parts) {
+  const auto sized = std::make_shared<bool>(false);
+  SegmentedRules& rules = of_segments(parts);
+  rules.granted.replace([sized](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
+    *sized = announced.has_value();
+    return former(mux, announced);
+  });
+  rules.store.replace([&parts, sized](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
+    const Accepted stored = former(mux, data);
+    Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+    if (stored || *sized || entry == nullptr || stored.error() != abort_code::value_too_high) return stored;
+    entry->value = Bytes(data.begin(), data.end());
+    return {};
+  });
 }
 
 DefectTable upload_rows() {
@@ -524,6 +582,18 @@ DefectTable download_rows() {
                     e.aborted == abort_code::no_sub_index;
            },
            0x60, 0)},
+      {"segmented-download-toggles-on-behind-abort",
+       "A segmented download that follows one aborted by the client begins with the toggle bit that was due there",
+       {"SDO-SDN-03"},
+       Change(toggles_on_behind_an_abort)},
+      {"segmented-download-stored-when-stopped",
+       "NMT stop stores what has come of a segmented download",
+       {"SDO-SDN-18"},
+       Change(stores_half_when_stopped)},
+      {"segmented-download-without-size-above-limit",
+       "A segmented download that tells no size takes values above the limit",
+       {"SDO-SDN-23"},
+       Change(unsized_above_the_limit)},
   };
 }
 

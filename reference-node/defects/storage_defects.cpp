@@ -154,6 +154,74 @@ void restores_without_node_id(Parts& parts) {
   });
 }
 
+/// Entries for which `left_out` holds are no parameters to 1010h.
+DictionaryEdit leaves_out(bool (*left_out)(std::uint16_t index, std::uint8_t sub)) {
+  return [left_out](ObjectDictionary& od, std::uint8_t) {
+    for (auto& [index, object] : od.objects()) {
+      for (auto& [sub, entry] : object.entries) {
+        if (left_out(index, sub)) entry.storable = false;
+      }
+    }
+  };
+}
+
+bool is_later_communication(std::uint16_t index, std::uint8_t) {
+  return (index > 0x1400 && index < 0x1600) || (index > 0x1800 && index < 0x1A00);
+}
+bool is_mapped_object(std::uint16_t index, std::uint8_t sub) {
+  return sub != 0 && ((index >= 0x1600 && index < 0x1800) || (index >= 0x1A00 && index < 0x1C00));
+}
+
+/// A value that is 0 is not stored.
+void leaves_out_zeros(Entry& entry) {
+  const Entry* self = &entry;  // entries live in maps: they do not move
+  entry.not_stored_now = [self, former = entry.not_stored_now] {
+    const bool zero = std::ranges::all_of(self->value, [](std::uint8_t byte) { return byte == 0; });
+    return zero || (former && former());
+  };
+}
+
+/// What was stored comes back otherwise with reset node.
+Change comes_back(void (*otherwise)(const Entry& entry, Bytes& value)) {
+  return [otherwise](Parts& parts) {
+    parts.nmt.on_reset = [&parts, otherwise, former = parts.nmt.on_reset](Reset reset) {
+      former(reset);
+      if (reset != Reset::node) return;
+      for (auto& [index, object] : parts.device.dictionary.objects()) {
+        for (auto& [sub, entry] : object.entries) {
+          const bool writable = entry.access == Access::rw || entry.access == Access::wo;
+          if (writable && !entry.command && entry.value != entry.default_value) otherwise(entry, entry.value);
+        }
+      }
+    };
+  };
+}
+
+/// Behind "load" the next "save" is confirmed, and the defaults come all the same.
+void restore_outlives_save(Parts& parts) {
+  const auto restored = std::make_shared<bool>(false);
+  checking_all(0x1011, [restored](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted done = former(bytes);
+    *restored = *restored || done.has_value();
+    return done;
+  })(parts);
+  checking_all(0x1010, [restored](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    return *restored && is_save(conform::load_le(bytes)) ? Accepted{} : former(bytes);
+  })(parts);
+  with_boot_up([restored](Parts&) { *restored = false; })(parts);
+}
+
+/// Once a signature was wrong none is right any more.
+void locked_by_a_wrong_signature(Parts& parts) {
+  const auto locked = std::make_shared<bool>(false);
+  checking_all(0x1010, [locked](Parts& node, const Check& former, std::uint8_t, ByteView bytes) -> Accepted {
+    if (!is_save(conform::load_le(bytes))) *locked = true;
+    if (*locked) return refuse(node.store.choices.wrong_signature);
+    return former(bytes);
+  })(parts);
+  with_boot_up([locked](Parts&) { *locked = false; })(parts);
+}
+
 }  // namespace
 
 DefectTable storage_defects() {
@@ -352,6 +420,38 @@ DefectTable storage_defects() {
        "A failure to restore is aborted with 0800 0020h",
        {"OD-1011-15"},
        refuses_failure(0x1011)},
+      {"1010-later-pdo-parameters-not-stored",
+       "Of the communication parameters of PDOs those of the first ones are stored only",
+       {"OD-RST-04"},
+       leaves_out(is_later_communication)},
+      {"1010-mapped-objects-not-stored",
+       "Of mappings the number of objects is stored only",
+       {"OD-RST-04"},
+       leaves_out(is_mapped_object)},
+      {"1010-zero-not-stored",
+       "A value that is 0 is not stored",
+       {"OD-RST-04"},
+       everywhere(leaves_out_zeros)},
+      {"1010-texts-cut",
+       "Of texts eight characters are stored",
+       {"OD-1010-10"},
+       comes_back([](const Entry& entry, Bytes& value) {
+         if (fixed_size(entry.type) == 0 && value.size() > 8) value.resize(8);
+       })},
+      {"1010-long-values-cut",
+       "Of values of more than four bytes the first four are stored",
+       {"OD-1010-10"},
+       comes_back([](const Entry& entry, Bytes& value) {
+         if (fixed_size(entry.type) > 4) std::fill(value.begin() + 4, value.end(), std::uint8_t{0});
+       })},
+      {"1011-restore-outlives-save",
+       "What is stored behind \"load\" is confirmed, and the defaults come with the reset",
+       {"OD-1010-10"},
+       Change(restore_outlives_save)},
+      {"1010-locked-by-wrong-signature",
+       "Behind a wrong signature 1010h refuses the right one, until a reset",
+       {"OD-1010-07"},
+       Change(locked_by_a_wrong_signature)},
   };
 }
 

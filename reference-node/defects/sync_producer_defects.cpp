@@ -2,6 +2,7 @@
 // Defects of the SYNC producer: when it sends, how often, and what it counts.
 #include <iterator>
 #include <memory>
+#include <utility>
 
 #include "defects/cob_ids.hpp"
 #include "defects/hooks.hpp"
@@ -129,6 +130,20 @@ Change never_works_in(NmtState state) {
   };
 }
 
+/// Another period is taken for another beginning.
+void counts_anew_with_the_period(Parts& parts) {
+  const auto anew = std::make_shared<bool>(false);
+  auto& rules = parts.sync_producer.rules;
+  rules.new_period.replace([anew](const auto& former, Duration present, Duration written) {
+    const Duration period = former(present, written);
+    *anew = *anew || period != present;
+    return period;
+  });
+  rules.next_count.replace([anew](const auto& former, std::uint8_t last, std::uint8_t overflow) {
+    return former(std::exchange(*anew, false) ? std::uint8_t{0} : last, overflow);
+  });
+}
+
 DefectTable switch_rows() {
   return {
       {"sync-counter-anew-with-start",
@@ -206,6 +221,10 @@ DefectTable switch_rows() {
        "Synchronous TPDOs follow every second SYNC that the node produces",
        {"SYNC-PRO-08"},
        serves_every_second_own_sync},
+      {"sync-counter-anew-with-period",
+       "Another period begins the counter of SYNC anew",
+       {"SYNC-PRO-04"},
+       Change(counts_anew_with_the_period)},
   };
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -18,6 +19,7 @@ struct SdoChoices {
   bool block = true;             ///< false: block requests are refused with 0504 0001h
   bool expedited_upload = true;  ///< false: objects of one to four bytes are uploaded in segments too
   bool upload_size_indicated = true;   ///< segmented and block upload; false: bytes 4-7 stay zero
+  std::size_t upload_segment = 7;      ///< segmented upload: bytes in each segment but the last, 1 to 7
   bool toggle_errors_ignored = false;  ///< true: no reply to a repeated segment in place of 0503 0000h
 
   /// Answer to a new initiate request while a transfer is open, which it ends; nullopt: the new one is
@@ -26,6 +28,7 @@ struct SdoChoices {
 
   // Block transfer
   bool crc = true;                        ///< this side can generate and check the CRC
+  std::size_t block_upload_from = 0;      ///< upload: objects of fewer bytes are refused with 0504 0001h
   bool protocol_switch = true;            ///< upload: switch protocol when the size is not above a pst > 0
   std::uint8_t block_size = 127;          ///< download: segments per sub-block, 1 to 127
   std::uint8_t next_block_size = 0;       ///< download: block size in acknowledges; 0: the same

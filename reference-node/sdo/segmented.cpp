@@ -22,7 +22,7 @@ SdoReply SegmentedUpload::segment(const SdoData& request) {
   const bool toggle = (request[0] & toggle_bit) != 0;
   if (!rules_->upload_toggle_right(toggle, toggle_)) return toggle_error(*choices_);
   const std::size_t left = data_.size() - position_;
-  const std::size_t count = std::min<std::size_t>(left, 7);
+  const std::size_t count = std::min(left, choices_->upload_segment);
   const bool last = count == left;
   // 000t nnnc: toggle of the request, n = bytes without data, c = last segment.
   SdoData reply{};

@@ -163,6 +163,7 @@ SdoReply SdoServer::initiate_block_upload(SdoExchange& exchange) {
   const std::uint8_t threshold = exchange.request[5];
   Upload data = device_->dictionary.upload(exchange.mux);
   if (!data) return refuse(data.error());
+  if (data->size() < choices_->block_upload_from) return refuse(abort_code::command_unknown);
   if (!valid_block_size(block_size)) return refuse(abort_code::block_size_invalid);
   if (choices_->protocol_switch && rules_->block_upload.may_switch(data->size(), threshold)) {
     exchange.step = SdoStep::upload_initiate;

@@ -91,6 +91,51 @@ void empty_domains(Parts& parts) {
   });
 }
 
+/// Nothing is there to be read until something has been written.
+void domains_without_data(Parts& parts) {
+  empty_domains(parts);
+  change_domains(parts, [](Entry& entry) {
+    entry.read = [&entry]() -> Upload {
+      if (entry.value.empty()) return refuse(abort_code::no_data);
+      return entry.value;
+    };
+  });
+}
+
+/// Writable entries of variable length, DOMAINs and commands left alone.
+template <typename Change>
+void change_strings(Parts& parts, Change change) {
+  for (auto& [index, object] : parts.device.dictionary.objects()) {
+    for (auto& [sub, entry] : object.entries) {
+      if (fixed_size(entry.type) == 0 && entry.type != DataType::domain && entry.access == Access::rw &&
+          !entry.command)
+        change(entry);
+    }
+  }
+}
+
+/// Texts have a fixed length and are filled up with 00h.
+void fixed_texts(Parts& parts) {
+  change_strings(parts, [](Entry& entry) {
+    if (entry.type != DataType::visible_string) return;
+    entry.value.resize(entry.max_size);
+    entry.default_value = entry.value;
+    entry.written = [&entry, former = entry.written] {
+      entry.value.resize(entry.max_size);
+      if (former) former();
+    };
+  });
+}
+
+void strings_of(Parts& parts, std::size_t bytes) {
+  change_strings(parts, [bytes](Entry& entry) {
+    entry.max_size = bytes;
+    if (entry.value.size() <= bytes) return;
+    entry.value.resize(bytes);
+    entry.default_value = entry.value;
+  });
+}
+
 /// A complex data type entry with the types of its elements (CiA 301, 7.4.8).
 How structure(std::uint16_t index, std::vector<std::uint16_t> elements) {
   return [index, elements = std::move(elements)](Parts& parts) {
@@ -123,6 +168,12 @@ VariantTable dictionary_variants() {
        domains_look_at_content, "domain"},
       {"domain-empty", "nothing is in the DOMAINs yet", "7.4.7: lengths are the device's own", empty_domains,
        "domain"},
+      {"abort-domain-0800-0024", "the DOMAINs have no data until something is written to them",
+       "7.2.4.3.17: 0800 0024h", domains_without_data, "domain"},
+      {"strings-fixed", "writable texts have a fixed length and are filled up with 00h",
+       "7.4.7: lengths are the device's own", fixed_texts, "strings"},
+      {"strings-of-eight-bytes", "writable strings hold at most eight bytes",
+       "7.4.7: lengths are the device's own", [](Parts& parts) { strings_of(parts, 8); }, "strings"},
       {"types-readable", "lengths of data types 0001h to 0007h can be read", "OD-TYP-01", add_types},
       {"0020-four-elements", "a PDO communication record of four elements", "OD-TYP-14",
        structure(0x0020, {7, 5, 6, 5}), "0020"},

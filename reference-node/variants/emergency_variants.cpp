@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // EMCY, its history and its consumer.
+#include <chrono>
+
 #include "variants/tools.hpp"
 
 namespace refnode {
@@ -27,6 +29,33 @@ void fill_manufacturer_bytes(Parts& parts) {
       for (std::size_t i = 3; i < 8; ++i) outgoing.frame.data[i] = static_cast<std::uint8_t>(0xA0U + i);
     }
   });
+}
+
+/// A communication error brings a second error, one of the maker's, which goes with it.
+void second_error(Parts& parts) {
+  const auto follow_up = [](const ErrorCause& cause) {
+    constexpr std::uint16_t apart = 100;  // from what has this code by itself
+    return ErrorCause{0xFF20, cause.source, static_cast<std::uint16_t>(cause.instance + apart)};
+  };
+  Errors& errors = parts.device.errors;
+  errors.raise.replace([follow_up](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+    former(cause, detail);
+    if (cause.source != ErrorSource::application) former(follow_up(cause), detail);
+  });
+  errors.clear.replace([follow_up](const auto& former, const ErrorCause& cause) {
+    if (cause.source != ErrorSource::application) former(follow_up(cause));
+    former(cause);
+  });
+}
+
+/// The voltage is too low for a moment at each boot-up.
+void low_voltage_at_boot_up(Parts& parts) {
+  parts.nmt.on_boot_up = [&errors = parts.device.errors, former = parts.nmt.on_boot_up] {
+    constexpr ErrorCause low_voltage{0x3110, ErrorSource::application, 1};
+    former();
+    errors.raise(low_voltage, 0);
+    errors.clear(low_voltage);
+  };
 }
 
 }  // namespace
@@ -67,6 +96,12 @@ VariantTable emergency_variants() {
        .how = preset(0x1015, 0, 1000),
        .group = "1015",
        .warns = {"OD-1015-02"}},
+      {.id = "1015-1s",
+       .summary = "an EMCY inhibit time of 1 s by default",
+       .legal = "OD-1015-02, tolerated: a profile-specific default",
+       .how = preset(0x1015, 0, 10000),
+       .group = "1015",
+       .warns = {"OD-1015-02"}},
       {"abort-empty-history-0800-0000", "an empty history is a general error", "OD-1003-03",
        [](Parts& node) {
          node.emergency.history.choices.nothing_recorded = node.emergency.history.choices.unused_field =
@@ -87,6 +122,16 @@ VariantTable emergency_variants() {
        [](Parts& node) { node.emergency.choices.error_reset_for_each = true; }},
       {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
        [](Parts& node) { node.emergency.choices.dropped_in_stopped = true; }},
+      {"emcy-late-50ms", "a task of its own sends EMCYs, 50 ms after the error", "7.2.7: no time is given",
+       [](Parts& node) { node.emergency.choices.delay = std::chrono::milliseconds(50); }},
+      {"emcy-second-of-maker", "a communication error brings a second error, FF20h, which goes with it",
+       "7.2.7: an EMCY for each error, and what an error is, the device says", second_error},
+      {.id = "emcy-low-voltage-at-boot-up",
+       .summary = "a voltage too low for a moment at each boot-up: EMCY 3110h, EMCY 0000h",
+       .legal = "7.2.7: an error may come and go at any time; EMCY-SEQ-03 warns",
+       .how = low_voltage_at_boot_up,
+       .excludes = {"emcy-no-error-at-boot-up"},
+       .warns = {"EMCY-SEQ-03", "OD-1003-04", "EC-NG-08", "EC-HBC-02"}},
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},
       {.id = "emcy-no-error-at-boot-up",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boot-up and the NMT state machine, where the standard leaves the when to the device.
 #include <chrono>
+#include <vector>
 
 #include "variants/tools.hpp"
 
@@ -30,6 +31,17 @@ How follows_after(Duration latency) {
   return [=](Parts& node) { node.nmt.choices.latency = latency; };
 }
 
+/// A program that looks at what has come once in each of its cycles.
+How program_cycle(Duration cycle) {
+  return [cycle](Parts& parts) {
+    parts.device.inbox.add_filter([&device = parts.device, cycle](std::vector<Frame>& frames) {
+      const BusTime next = device.now + (cycle - device.now.time_since_epoch() % cycle);
+      for (const Frame& frame : frames) device.inbox.put(frame, next);
+      frames.clear();
+    });
+  };
+}
+
 }  // namespace
 
 VariantTable nmt_variants() {
@@ -44,6 +56,15 @@ VariantTable nmt_variants() {
        "7.3.2.2: no time is given, NMT-FSA-20: T_NMT", follows_after(10ms), "nmt-latency"},
       {"nmt-90ms", "follows start, stop and enter pre-operational after 90 ms",
        "7.3.2.2: no time is given, NMT-FSA-20: T_NMT", follows_after(90ms), "nmt-latency"},
+      // With NMT commands that take longer T_NMT is over; who is that late for a sub-block acknowledges its
+      // end.
+      {.id = "program-cycle-20ms",
+       .summary = "frames are looked at once in 20 ms",
+       .legal = "CiA 301 gives no times; SDO-BUP-17, SYNC-CON-09 warn",
+       .how = program_cycle(20ms),
+       .group = "late",
+       .excludes = {"nmt-latency", "sdo-gap-at-once"},
+       .warns = {"SDO-BUP-17", "SYNC-CON-09"}},
       {"self-starting", "goes on into Operational after boot-up, as its 1F80h says",
        "CiA 302-2, 1F80h bit 2 = 0; NMT-BOOT-07 does not apply", start_by_itself},
   };

@@ -2,8 +2,13 @@
 // Objects that a device need not have: identity, names, descriptions, operating system, modules.
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <functional>
 #include <initializer_list>
+#include <memory>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "variants/tools.hpp"
@@ -87,6 +92,102 @@ void silent_prompt(Parts& parts) {
   }
 }
 
+/// Inputs that never rest.
+void noisy_inputs(Parts& parts) {
+  for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
+    Entry* input = parts.device.dictionary.entry(0x6401, sub);
+    if (input == nullptr) continue;
+    read_by(*input, [looks = 0U]() mutable -> Upload { return conform::to_le(0x0100U + ++looks % 4, 2); });
+  }
+}
+
+/// CiA 401: what the outputs do outside of Operational is theirs; here they are switched off, and the inputs
+/// show it.
+void outputs_fall(Parts& parts) {
+  static constexpr std::uint16_t channels[] = {0x6000, 0x6200, 0x6401, 0x6411, 0x6402, 0x6412};
+  const auto switch_off = [&objects = parts.device.dictionary.objects()] {
+    for (const std::uint16_t index : channels) {
+      const auto found = objects.find(index);
+      if (found == objects.end()) continue;
+      for (auto& [sub, entry] : found->second.entries) {
+        if (entry.rx_mappable || entry.tx_mappable) std::ranges::fill(entry.value, std::uint8_t{0});
+      }
+    }
+  };
+  parts.nmt.on_change = [switch_off, former = parts.nmt.on_change](NmtState from) {
+    if (from == NmtState::operational) switch_off();
+    former(from);
+  };
+}
+
+/// Outputs belong to RPDOs and to Operational: elsewhere a write is refused with 0800 0022h.
+void outputs_in_operational_only(Parts& parts) {
+  const auto locked = [&device = parts.device](Multiplexer mux) {
+    const unsigned index = mux.index.value();
+    return device.state != NmtState::operational && (index == 0x6200 || index == 0x6411 || index == 0x6412);
+  };
+  ObjectDictionary& dictionary = parts.device.dictionary;
+  const auto refused = [&dictionary, locked](Multiplexer mux) {
+    const Entry* entry = dictionary.entry(mux.index.value(), mux.sub.value());
+    return entry != nullptr && (entry->access == Access::rw || entry->access == Access::wo) && locked(mux);
+  };
+  dictionary.may_download.replace(
+      [refused](const auto& former, Multiplexer mux, std::optional<std::size_t> size) -> Accepted {
+        Accepted granted = former(mux, size);
+        if (granted && refused(mux)) return refuse(abort_code::device_state);
+        return granted;
+      });
+  dictionary.download.replace([refused](const auto& former, Multiplexer mux, ByteView bytes) -> Accepted {
+    if (refused(mux)) return refuse(abort_code::device_state);
+    return former(mux, bytes);
+  });
+}
+
+/// Another condition for the values of an entry.
+void check(Entry* entry, std::function<Accepted(ByteView)> condition) {
+  if (entry != nullptr) entry->check = std::move(condition);
+}
+
+void known_error_modes(Parts& parts) {
+  for (std::uint8_t sub = 1; sub <= 8; ++sub) {
+    check(parts.device.dictionary.entry(0x6206, sub), [](ByteView bytes) -> Accepted {
+      if (bytes[0] > 1 && bytes[0] != 0xFF) return refuse(abort_code::invalid_value);
+      return {};
+    });
+  }
+}
+
+void even_numbers(Parts& parts) {
+  check(parts.device.dictionary.entry(0x2007, 0), [](ByteView bytes) -> Accepted {
+    if ((bytes[0] & 1U) != 0) return refuse(abort_code::invalid_value);
+    return {};
+  });
+}
+
+/// 0609 0036h: the maximum is less than the minimum.
+void dependent_limits(Parts& parts) {
+  ObjectDictionary& dictionary = parts.device.dictionary;
+  check(dictionary.entry(0x2002, 1), [&dictionary](ByteView bytes) -> Accepted {
+    if (bytes[0] > 150 && dictionary.number(0x2002, 3) < 5000) return refuse(AbortCode(0x06090036));
+    return {};
+  });
+}
+
+/// A counter that can be set and goes on from there.
+void running_hours(Parts& parts) {
+  ObjectDictionary& dictionary = parts.device.dictionary;
+  dictionary.remove(0x2013);  // a twin may have one
+  Entry& hours =
+      dictionary.add_variable(0x2013, integer_entry("Running hours", DataType::unsigned32, Access::rw, 0));
+  hours.storable = false;
+  const auto clock = [&device = parts.device] {
+    return static_cast<std::uint32_t>(device.now.time_since_epoch() / std::chrono::milliseconds(1));
+  };
+  const auto offset = std::make_shared<std::uint32_t>(0);
+  hours.read = [clock, offset]() -> Upload { return conform::to_le(clock() + *offset, 4); };
+  hours.written = [clock, offset, &hours] { *offset = static_cast<std::uint32_t>(hours.number()) - clock(); };
+}
+
 }  // namespace
 
 VariantTable objects_variants() {
@@ -165,6 +266,27 @@ VariantTable objects_variants() {
        .how = absent({0x1027}),
        .group = "1027",
        .lacks = {"modular device"}},
+      {"2002-limits-depend", "2002h:01 is at most 150 while 2002h:03 is below 5000: 0609 0036h",
+       "7.2.4.3.17: whether a value is right may depend on others", dependent_limits},
+      {"2007-even-only", "2007h takes even numbers only: 0609 0030h",
+       "7.2.4.3.17: which values are valid, the application says", even_numbers},
+      {"2013-runs",
+       "2013h is a counter that can be set and goes on from there",
+       "7.4.5: rw does not say that a value rests",
+       running_hours,
+       {},
+       {"manufacturer"}},
+      {"6206-known-modes-only", "6206h takes 00h, 01h and FFh only: 0609 0030h",
+       "7.2.4.3.17: which values are valid, the device profile says", known_error_modes},
+      {"analog-inputs-noisy", "the values of 6401h never rest", "7.4.1: process data is the application's",
+       noisy_inputs},
+      {"outputs-fall", "outputs are 0 as soon as Operational is left",
+       "CiA 401; 7.3.2.2: what the outputs do there is the device's", outputs_fall},
+      {.id = "abort-outputs-0800-0022",
+       .summary = "outputs can be written in Operational only",
+       .legal = "7.2.4.3.17: 0800 0022h, the present device state; OD-GEN-17 warns",
+       .how = outputs_in_operational_only,
+       .warns = {"OD-GEN-17", "EDS-VSD-04"}},
       {"1027-no-modules", "a modular device without modules", "OD-1027-01: 00h", no_modules, "1027"},
   };
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDOs: parameters, mappings, transmission types, remote frames and the first PDO.
+#include <chrono>
+#include <vector>
+
+#include "pdo/parameters.hpp"
 #include "variants/tools.hpp"
 
 namespace refnode {
 
 using namespace variant;
+using std::chrono::milliseconds;
 
 namespace {
 
@@ -31,6 +36,25 @@ How constant_mappings(std::uint16_t first) {
 /// The default of sub-index 02h.
 How types(std::uint16_t first, std::uint64_t type) {
   return of_all(first, [type](std::uint16_t index) { return preset(index, 2, type); });
+}
+
+/// Event-driven TPDOs whose timer is off have an event of the maker's.
+How own_events(Duration period) {
+  return [period](Parts& parts) {
+    parts.pdos.tpdo.parameters.rules.event_timer.replace(
+        [period](const auto& former, const PdoParameters& pdo, std::int64_t value) {
+          return value == 0 ? period : former(pdo, value);
+        });
+  };
+}
+
+How late_tpdos(Duration time) {
+  return [time](Parts& parts) {
+    parts.device.outbox.add_filter([time](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::tpdo) return;
+      for (Outgoing& outgoing : frames) outgoing.delay += time;
+    });
+  };
 }
 
 How choose_of_rpdos(void (*change)(PdoChoices&)) {
@@ -192,6 +216,24 @@ VariantTable pdo_variants() {
        "7.5.2.37: the default is the device's", preset(0x1800, 5, 20)},
       {"1800-event-500ms", "the event timer runs by default, twice a second",
        "7.5.2.37: the default is the device's", preset(0x1800, 5, 500)},
+      {"tpdos-event-100ms-const",
+       "the event timers of all TPDOs are fixed to 100 ms",
+       "7.5.2.37: rw or const, the default is the device's",
+       of_all(0x1800,
+              [](std::uint16_t index) {
+                return both(preset(index, 5, 100), access(index, 5, Access::constant));
+              }),
+       {},
+       {"1800-event-20ms", "1800-event-500ms"}},
+      {"tpdos-own-events", "event-driven TPDOs have an event of the maker's every 40 ms",
+       "7.5.2.37: FEh, manufacturer-specific events; FFh, those of the profile",
+       own_events(milliseconds(40))},
+      {.id = "tpdos-late-25ms",
+       .summary = "TPDOs are sent 25 ms late",
+       .legal = "7.2.2: no time is given; SYNC-CON-08, SYNC-CON-09 warn",
+       .how = late_tpdos(milliseconds(25)),
+       .group = "late",
+       .warns = {"SYNC-CON-08", "SYNC-CON-09"}},
       {"1A00-const", "the mapping of the TPDO is fixed", "OD-1A00-04",
        access_all(0x1A00, Access::rw, Access::constant), "1A00"},
       {"1A00-empty", "nothing is mapped by default", "OD-1A00-01: 00h", preset(0x1A00, 0, 0), "1A00"},

@@ -102,6 +102,26 @@ void refuse_reserved_bits(Parts& parts) {
       });
 }
 
+/// Block download is offered where it is worth it: 0504 0001h for anything but a DOMAIN.
+void block_download_of_domains(Parts& parts) {
+  const ObjectDictionary& dictionary = parts.device.dictionary;
+  parts.sdo.rules.block_download.may_begin.replace(
+      [&dictionary](const auto& former, Multiplexer mux, std::optional<std::size_t> size) -> Accepted {
+        const Entry* entry = dictionary.entry(mux.index.value(), mux.sub.value());
+        if (entry != nullptr && entry->type != DataType::domain) return refuse(abort_code::command_unknown);
+        return former(mux, size);
+      });
+}
+
+/// The memory is erased before the first sub-block of a download is asked for.
+How erases_before_block_download(Duration time) {
+  return filter([time](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->aborted) return;
+    if (context.sdo->step != SdoStep::block_download_initiate) return;
+    for (Outgoing& outgoing : frames) outgoing.delay += time;
+  });
+}
+
 /// 42h: expedited, the size is not told.
 /// A client knows the length by the type; of a string of four characters nobody would.
 void leave_out_size(Parts& parts) {
@@ -220,6 +240,19 @@ VariantTable sdo_variants() {
        .excludes = {"manufacturer", "sdo-block"},
        .lacks = {"segmented sdo", "block sdo", "time consumer"},
        .warns = {"OD-ACC-08"}},
+      {"sdo-segments-of-four-bytes",
+       "segments of an upload carry four bytes each",
+       "7.2.4.3.6: n tells how many bytes of a segment hold no data",
+       choose([](SdoChoices& c) { c.upload_segment = 4; }),
+       "upload-segment",
+       {"sdo-expedited-only"}},
+      // A description in single bytes takes a slow server hours.
+      {"sdo-segments-of-one-byte",
+       "segments of an upload carry one byte each",
+       "7.2.4.3.6: n tells how many bytes of a segment hold no data",
+       choose([](SdoChoices& c) { c.upload_segment = 1; }),
+       "upload-segment",
+       {"sdo-expedited-only", "turnaround"}},
       {"sdo-toggle-errors-ignored", "a segment with the wrong toggle bit is ignored",
        "SDO-SUP-05, -06; SDO-SDN-04, -05", choose([](SdoChoices& c) { c.toggle_errors_ignored = true; })},
       {.id = "sdo-block-absent",
@@ -228,6 +261,32 @@ VariantTable sdo_variants() {
        .how = choose([](SdoChoices& c) { c.block = false; }),
        .group = "sdo-block",
        .lacks = {"block sdo"}},
+      {"sdo-block-upload-from-eight-bytes",
+       "objects of up to seven bytes have no block upload: 0504 0001h",
+       "7.2.4.2.12: optional",
+       choose([](SdoChoices& c) { c.block_upload_from = 8; }),
+       "sdo-block-upload",
+       {"sdo-block", "sdo-expedited-only"}},
+      {"sdo-block-upload-from-fifty-bytes",
+       "objects of fewer than 50 bytes have no block upload: 0504 0001h",
+       "7.2.4.2.12: optional",
+       choose([](SdoChoices& c) { c.block_upload_from = 50; }),
+       "sdo-block-upload",
+       {"sdo-block", "sdo-expedited-only"}},
+      // Somewhere there has to be a DOMAIN.
+      {"sdo-block-download-of-domains",
+       "block download of DOMAINs only: 0504 0001h for anything else",
+       "7.2.4.2.9: optional",
+       block_download_of_domains,
+       {},
+       {"sdo-block", "sdo-expedited-only", "manufacturer", "sdo-turnaround-400ms", "sdo-turnaround-1200ms"}},
+      // Both together may take longer than T_SDO, or than the server has patience.
+      {"sdo-block-download-erases",
+       "a block download is begun after 800 ms: the memory is erased first",
+       "SDO-GEN-18: no limit is set",
+       erases_before_block_download(milliseconds(800)),
+       {},
+       {"sdo-block", "sdo-expedited-only", "turnaround", "sdo-time-out", "program-cycle-20ms"}},
       {"sdo-block-without-crc", "no CRC in block transfers", "7.2.4.3.9: sc = 0",
        choose([](SdoChoices& c) { c.crc = false; })},
       {"sdo-no-protocol-switch", "never goes on with a normal upload", "SDO-BUP-15",

@@ -126,6 +126,8 @@ VariantTable sync_variants() {
        .lacks = {"sync counter"}},
       {"1019-const", "SYNC never has a counter", "OD-1019-08: const", access(0x1019, 0, Access::constant),
        "1019"},
+      {"1019-10", "SYNCs are counted to 10 by default", "7.5.2.22: the default is the device's",
+       preset(0x1019, 0, 10), "1019"},
       {"abort-1019-reserved-0800-0000", "a reserved counter overflow: general error", "OD-1019-04",
        [](Parts& node) { node.sync.choices.counter_reserved = abort_code::general_error; }},
       {"abort-1019-locked-0800-0000", "a counter overflow in use: general error", "OD-1019-05",

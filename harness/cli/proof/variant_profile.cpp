@@ -20,6 +20,32 @@ device::Access access_of(refnode::Access access, device::Access declared) {
   return device::is_writable(declared) && device::is_readable(declared) ? declared : device::Access::rw;
 }
 
+/// A manufacturer's variable that only the variant has, as its maker would describe it.
+device::Entry entry_of(Multiplexer mux, const refnode::Entry& own) {
+  device::Entry out;
+  out.mux = mux;
+  out.name = own.name;
+  out.type = static_cast<canopen::DataType>(own.type);
+  out.access = access_of(own.access, device::Access::rw);
+  // What is computed when it is looked at has no value of its own.
+  out.may_change = static_cast<bool>(own.read);
+  if (!out.may_change) out.default_value = own.default_value;
+  out.claimed = true;
+  return out;
+}
+
+void describe_manufacturer_variables(device::Profile& out, const refnode::ObjectDictionary& dictionary) {
+  const auto& objects = dictionary.objects();
+  for (auto at = objects.lower_bound(0x2000); at != objects.upper_bound(0x5FFF); ++at) {
+    const auto& [index, object] = *at;
+    const Multiplexer mux{Index(index), SubIndex(0)};
+    const bool described = std::ranges::find(out.objects, mux, &device::Entry::mux) != out.objects.end();
+    if (object.kind != refnode::ObjectKind::variable || described) continue;
+    out.objects.push_back(entry_of(mux, object.entries.at(0)));
+    out.safe_objects.push_back(mux);
+  }
+}
+
 }  // namespace
 
 device::Profile profile_of_variants(const device::Profile& reference,
@@ -32,11 +58,16 @@ device::Profile profile_of_variants(const device::Profile& reference,
   const auto gone = [&held](Multiplexer mux) { return held(mux) == nullptr; };
   std::erase_if(out.objects, [&gone](const device::Entry& entry) { return gone(entry.mux); });
   std::erase_if(out.safe_objects, gone);
-  std::erase_if(out.wired,
-                [&gone](const device::Wire& wire) { return gone(wire.output) || gone(wire.input); });
+  describe_manufacturer_variables(out, dictionary);
+  // An input that is computed when it is looked at repeats no output.
+  std::erase_if(out.wired, [&](const device::Wire& wire) {
+    return gone(wire.output) || gone(wire.input) || held(wire.input)->read;
+  });
   for (device::Entry& entry : out.objects) {
     const refnode::Entry& node_entry = *held(entry.mux);
     entry.access = access_of(node_entry.access, entry.access);
+    // What an application computes when it is looked at may be something else the next time.
+    if (entry.mux.index >= Index(0x2000) && node_entry.read && !entry.command) entry.may_change = true;
     // A default that is the standard's need not be declared, another one is.
     if (entry.default_value || node_entry.default_value != node_entry.value ||
         entry.mux.index == Index(0x1017)) {
