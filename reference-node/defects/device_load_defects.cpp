@@ -123,8 +123,8 @@ Change waits_for_sdo(bool (*when)(const Parts&, const Frame&)) {
   });
 }
 
-bool is_pre_operational_command(const Parts&, const Frame& frame) {
-  return !frame.remote && frame.id == 0x000 && frame.data[0] == 0x80;
+bool is_change_of_state(const Parts&, const Frame& frame) {
+  return !frame.remote && frame.id == 0x000 && frame.data[0] <= 0x80;
 }
 bool is_guard_request(const Parts& parts, const Frame& frame) {
   return frame.remote && frame.id == 0x700U + parts.device.node_id;
@@ -210,10 +210,10 @@ DefectTable device_load_defects() {
        "While an SDO transfer is open guard requests are not answered",
        {"EC-NG-02"},
        waits_for_sdo(is_guard_request)},
-      {"nmt-pre-operational-lost-beside-sdo-transfer",
-       "While an SDO transfer is open NMT enter pre-operational is ignored",
-       {"NMT-FSA-03"},
-       waits_for_sdo(is_pre_operational_command)},
+      {"nmt-lost-beside-sdo-transfer",
+       "While an SDO transfer is open NMT start, stop and enter pre-operational are ignored",
+       {"NMT-FSA-03", "NMT-FSA-01", "NMT-FSA-02"},
+       waits_for_sdo(is_change_of_state)},
   };
 }
 

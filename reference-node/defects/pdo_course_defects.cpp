@@ -348,7 +348,7 @@ DefectTable pdo_course_defects() {
        Change(waits_for_operational)},
       {"rpdo-length-of-the-first",
        "An RPDO that is mapped anew in Operational needs as many bytes as before",
-       {"PDO-MAP-22"},
+       {"PDO-MAP-22", "PDO-RX-01"},
        Change(needs_the_first_length)},
       {"rpdo-type-of-the-first",
        "An RPDO whose type is written in Operational takes effect as before",

@@ -172,11 +172,11 @@ bool is_mapped_object(std::uint16_t index, std::uint8_t sub) {
   return sub != 0 && ((index >= 0x1600 && index < 0x1800) || (index >= 0x1A00 && index < 0x1C00));
 }
 
-/// A value that is 0 is not stored.
+/// A byte that is 0 is not stored.
 void leaves_out_zeros(Entry& entry) {
   const Entry* self = &entry;  // entries live in maps: they do not move
   entry.not_stored_now = [self, former = entry.not_stored_now] {
-    const bool zero = std::ranges::all_of(self->value, [](std::uint8_t byte) { return byte == 0; });
+    const bool zero = self->value.size() == 1 && self->value.front() == 0;
     return zero || (former && former());
   };
 }
@@ -428,8 +428,8 @@ DefectTable storage_defects() {
        "Of mappings the number of objects is stored only",
        {"OD-RST-04"},
        leaves_out(is_mapped_object)},
-      {"1010-zero-not-stored",
-       "A value that is 0 is not stored",
+      {"1010-zero-byte-not-stored",
+       "Values of one byte that are 0 are not stored",
        {"OD-RST-04"},
        everywhere(leaves_out_zeros)},
       {"1010-texts-cut",
