@@ -31,23 +31,6 @@ void fill_manufacturer_bytes(Parts& parts) {
   });
 }
 
-/// A communication error brings a second error, one of the maker's, which goes with it.
-void second_error(Parts& parts) {
-  const auto follow_up = [](const ErrorCause& cause) {
-    constexpr std::uint16_t apart = 100;  // from what has this code by itself
-    return ErrorCause{0xFF20, cause.source, static_cast<std::uint16_t>(cause.instance + apart)};
-  };
-  Errors& errors = parts.device.errors;
-  errors.raise.replace([follow_up](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
-    former(cause, detail);
-    if (cause.source != ErrorSource::application) former(follow_up(cause), detail);
-  });
-  errors.clear.replace([follow_up](const auto& former, const ErrorCause& cause) {
-    if (cause.source != ErrorSource::application) former(follow_up(cause));
-    former(cause);
-  });
-}
-
 /// The voltage is too low for a moment at each boot-up.
 void low_voltage_at_boot_up(Parts& parts) {
   parts.nmt.on_boot_up = [&errors = parts.device.errors, former = parts.nmt.on_boot_up] {
@@ -122,15 +105,18 @@ VariantTable emergency_variants() {
        [](Parts& node) { node.emergency.choices.error_reset_for_each = true; }},
       {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
        [](Parts& node) { node.emergency.choices.dropped_in_stopped = true; }},
-      {"emcy-late-50ms", "a task of its own sends EMCYs, 50 ms after the error", "7.2.7: no time is given",
-       [](Parts& node) { node.emergency.choices.delay = std::chrono::milliseconds(50); }},
-      {"emcy-second-of-maker", "a communication error brings a second error, FF20h, which goes with it",
-       "7.2.7: an EMCY for each error, and what an error is, the device says", second_error},
+      // Who stops at once has not told of it yet, and more than a second is no answer.
+      {"emcy-late-50ms",
+       "a task of its own sends EMCYs, 50 ms after the error",
+       "7.2.7: no time is given",
+       [](Parts& node) { node.emergency.choices.delay = std::chrono::milliseconds(50); },
+       {},
+       {"1029-stops", "1015-1s"}},
       {.id = "emcy-low-voltage-at-boot-up",
        .summary = "a voltage too low for a moment at each boot-up: EMCY 3110h, EMCY 0000h",
        .legal = "7.2.7: an error may come and go at any time; EMCY-SEQ-03 warns",
        .how = low_voltage_at_boot_up,
-       .excludes = {"emcy-no-error-at-boot-up"},
+       .excludes = {"emcy-no-error-at-boot-up", "boot-up-2s", "1015-1s"},
        .warns = {"EMCY-SEQ-03", "OD-1003-04", "EC-NG-08", "EC-HBC-02"}},
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <vector>
 
-#include "pdo/parameters.hpp"
 #include "variants/tools.hpp"
 
 namespace refnode {
@@ -36,16 +35,6 @@ How constant_mappings(std::uint16_t first) {
 /// The default of sub-index 02h.
 How types(std::uint16_t first, std::uint64_t type) {
   return of_all(first, [type](std::uint16_t index) { return preset(index, 2, type); });
-}
-
-/// Event-driven TPDOs whose timer is off have an event of the maker's.
-How own_events(Duration period) {
-  return [period](Parts& parts) {
-    parts.pdos.tpdo.parameters.rules.event_timer.replace(
-        [period](const auto& former, const PdoParameters& pdo, std::int64_t value) {
-          return value == 0 ? period : former(pdo, value);
-        });
-  };
 }
 
 How late_tpdos(Duration time) {
@@ -225,14 +214,12 @@ VariantTable pdo_variants() {
               }),
        {},
        {"1800-event-20ms", "1800-event-500ms"}},
-      {"tpdos-own-events", "event-driven TPDOs have an event of the maker's every 40 ms",
-       "7.5.2.37: FEh, manufacturer-specific events; FFh, those of the profile",
-       own_events(milliseconds(40))},
       {.id = "tpdos-late-25ms",
        .summary = "TPDOs are sent 25 ms late",
        .legal = "7.2.2: no time is given; SYNC-CON-08, SYNC-CON-09 warn",
        .how = late_tpdos(milliseconds(25)),
        .group = "late",
+       .excludes = {"nmt-latency"},
        .warns = {"SYNC-CON-08", "SYNC-CON-09"}},
       {"1A00-const", "the mapping of the TPDO is fixed", "OD-1A00-04",
        access_all(0x1A00, Access::rw, Access::constant), "1A00"},
