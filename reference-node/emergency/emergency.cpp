@@ -100,10 +100,6 @@ void Emergency::report(const Message& message) {
     if (choices.dropped_in_stopped) return;
   }
   if (choices.dropped_in_stopped && message.code == 0 && !reported_ && pending_.empty()) return;
-  if (pending_.empty() && choices.delay > Duration::zero()) {
-    const BusTime due = device_->now + choices.delay;
-    inhibited_until_ = std::max(inhibited_until_.value_or(due), due);
-  }
   pending_.push_back(message);
   if (pending_.size() > pending_limit) pending_.pop_front();
   flush();

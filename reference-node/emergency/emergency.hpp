@@ -18,7 +18,6 @@ struct EmergencyChoices {
   bool register_generic_only = false;  ///< no other bit than 0
   bool error_reset_for_each = false;   ///< EMCY 0000h also while other errors remain
   bool dropped_in_stopped = false;     ///< not made up for afterwards
-  Duration delay{};                    ///< from an error to its EMCY
 };
 
 struct EmergencyRules {

@@ -105,13 +105,6 @@ VariantTable emergency_variants() {
        [](Parts& node) { node.emergency.choices.error_reset_for_each = true; }},
       {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
        [](Parts& node) { node.emergency.choices.dropped_in_stopped = true; }},
-      // Who stops at once has not told of it yet, and more than a second is no answer.
-      {"emcy-late-50ms",
-       "a task of its own sends EMCYs, 50 ms after the error",
-       "7.2.7: no time is given",
-       [](Parts& node) { node.emergency.choices.delay = std::chrono::milliseconds(50); },
-       {},
-       {"1029-stops", "1015-1s"}},
       {.id = "emcy-low-voltage-at-boot-up",
        .summary = "a voltage too low for a moment at each boot-up: EMCY 3110h, EMCY 0000h",
        .legal = "7.2.7: an error may come and go at any time; EMCY-SEQ-03 warns",

@@ -63,7 +63,7 @@ VariantTable nmt_variants() {
        .legal = "CiA 301 gives no times; SDO-BUP-17, SYNC-CON-09 warn",
        .how = program_cycle(20ms),
        .group = "late",
-       .excludes = {"nmt-latency", "sdo-gap-at-once", "analog-inputs-noisy"},
+       .excludes = {"nmt-latency", "sdo-gap-at-once", "analog-inputs-noisy", "turnaround"},
        .warns = {"SDO-BUP-17", "SYNC-CON-09"}},
       {"self-starting", "goes on into Operational after boot-up, as its 1F80h says",
        "CiA 302-2, 1F80h bit 2 = 0; NMT-BOOT-07 does not apply", start_by_itself},

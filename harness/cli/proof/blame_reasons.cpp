@@ -130,6 +130,12 @@ constexpr auto reasons = std::to_array<Reason>({
      "the order is seen in the data of a TPDO that is sent on change, by the rule of that"},
     {"sync-tpdo-slow",
      "the rule about the delay is a recommendation and only warns; the rule about the transmission type fails beside it"},
+    {"missing-object-silent",
+     "an additional channel is silent about an object that is not there as well, and is an area of its own"},
+    {"errors-never-clear",
+     "an RPDO that is too short for the second time is no new error there, and RPDOs are an area of their own"},
+    {"sync-ignored-above-127",
+     "counters up to 240 are counted by a case that takes long; the others see it by the rule about any counter"},
 });
 
 }  // namespace
