@@ -163,16 +163,9 @@ Result<DefectFound> found_of(const refnode::Defect& defect, const Explorable& ri
   auto bench = right.bench;
   bench.device = maker_of({.defects = {out.id}}, right.words.node);
   const auto violates = canonical(defect.violates, catalogue);
-  explore::SearchOptions search;
-  search.seed = options.seed;
-  search.most_actions = options.actions;
-  search.most_findings = 12;
-  search.offer = right.offer;
-  search.repeats = 1;
+  auto search = search_for_one_fault(right, options.seed, options.actions);
   search.on_finding = [&](const explore::Finding& finding) {
-    // What only strains the rule of a monitor may be a monitor that was led astray.
-    const bool by_monitor = finding.played.difference->what == explore::Difference::What::rule;
-    if (by_monitor && !finding.is_violation()) return false;
+    if (!counts_as_found(finding)) return false;
     if (!out.found) {
       out.actions = finding.actions_until;
       out.shortest = finding.conversation.size();
@@ -248,6 +241,22 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
     if (auto made = (*make)(); !made) return std::unexpected(made.error());
   }
   return out;
+}
+
+explore::SearchOptions search_for_one_fault(const Explorable& right, std::uint64_t seed,
+                                            std::size_t actions) {
+  explore::SearchOptions out;
+  out.seed = seed;
+  out.most_actions = actions;
+  out.most_findings = 12;
+  out.offer = right.offer;
+  out.repeats = 1;
+  return out;
+}
+
+bool counts_as_found(const explore::Finding& finding) {
+  const bool by_monitor = finding.played.difference->what == explore::Difference::What::rule;
+  return !by_monitor || finding.is_violation();
 }
 
 std::string summary_of_choice(std::string_view id) {

@@ -25,6 +25,13 @@ struct Explorable {
 [[nodiscard]] Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitches& device,
                                                const std::vector<std::string>& adapted);
 
+/// How a node with one fault is searched for it: the model is that of `right`, and flakiness is not asked
+/// about.
+[[nodiscard]] explore::SearchOptions search_for_one_fault(const Explorable& right, std::uint64_t seed,
+                                                          std::size_t actions);
+/// What only strains the rule of a monitor may be a monitor that was led astray: it does not count.
+[[nodiscard]] bool counts_as_found(const explore::Finding& finding);
+
 /// "boots in 200 ms (boot-up-200ms)": a choice of SearchResult::chosen in words.
 [[nodiscard]] std::string summary_of_choice(std::string_view id);
 

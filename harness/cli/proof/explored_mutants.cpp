@@ -76,16 +76,9 @@ std::string search_for(const MutantBuild& build, const Mutant& mutant, const Exp
     return std::make_unique<MutantNode>(build, mutant, std::move(*node));
   };
   std::string out, weaker;
-  explore::SearchOptions search;
-  search.seed = options.seed;
-  search.most_actions = options.actions;
-  search.most_findings = 12;
-  search.offer = right.offer;
-  search.repeats = 1;
+  auto search = search_for_one_fault(right, options.seed, options.actions);
   search.on_finding = [&](const explore::Finding& finding) {
-    // What only strains the rule of a monitor may be a monitor that was led astray.
-    const bool by_monitor = finding.played.difference->what == explore::Difference::What::rule;
-    if (by_monitor && !finding.is_violation()) return false;
+    if (!counts_as_found(finding)) return false;
     const auto word = word_of(finding, catalogue);
     auto text = fmt::format("{} {}: {}", word, finding.assigned ? finding.assigned->requirement : "?",
                             explore::came_text(finding, right.words));
