@@ -210,28 +210,28 @@ class ErrorObjects final : public Monitor {
     const Duration inhibit =
         std::min<std::uint32_t>(entries.most(0x1015, 0), 0xFFFF) * std::chrono::microseconds(100);
     // A message may wait for as long as it likes where nobody has said how long that is.
-    verdict_ = entries.is_told(0x1015, 0) ? Verdict::fail : Verdict::warn;
+    const auto verdict = entries.is_told(0x1015, 0) ? Verdict::fail : Verdict::warn;
     const auto after = asked_at_ - last_->time - inhibit;
     if (after < settled) return;
     const auto value = seen.read->value;
     if (index == 0x1001 && sub == 0) {
       // Less may be left of it.
       if ((value & ~last_->bits & 0xFFU) == 0) return good(error_register);
-      put(error_register, seen, inhibit, fmt::format("1001h holds {}", hex(value & 0xFFU, 2)),
+      put(error_register, seen, verdict, inhibit, fmt::format("1001h holds {}", hex(value & 0xFFU, 2)),
           fmt::format("no other bit than in {}", hex(last_->bits, 2)),
           fmt::format("EMCY {:04X}h told {} as error register, and no further one came", last_->code,
                       hex(last_->bits, 2)));
     } else if (index == 0x1003 && sub == 1 && last_->code >= 0x1000 && after >= std::chrono::seconds(1)) {
       if ((value & 0xFFFFU) == last_->code) return good(history);
-      put(history, seen, inhibit, fmt::format("{:04X}h in bits 15 to 0", value & 0xFFFFU),
+      put(history, seen, verdict, inhibit, fmt::format("{:04X}h in bits 15 to 0", value & 0xFFFFU),
           fmt::format("{:04X}h", last_->code), "that was the code of the last emergency message");
     }
   }
 
-  void put(std::size_t requirement, const Observation& seen, Duration inhibit, std::string actual,
-           std::string expected, std::string reason) {
+  void put(std::size_t requirement, const Observation& seen, Verdict verdict, Duration inhibit,
+           std::string actual, std::string expected, std::string reason) {
     if (open_[requirement]) return;
-    open_[requirement] = Open{{requirement, verdict_, seen.index, seen.frame(), std::move(actual),
+    open_[requirement] = Open{{requirement, verdict, seen.index, seen.frame(), std::move(actual),
                                std::move(expected), std::move(reason)},
                               seen.time() + late + inhibit};
   }
@@ -243,7 +243,6 @@ class ErrorObjects final : public Monitor {
   std::optional<Message> last_;
   BusTime asked_at_{};
   std::array<std::optional<Open>, 2> open_;
-  Verdict verdict_ = Verdict::fail;  ///< of what is looked at
 };
 
 }  // namespace
