@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finer defects of SDO: lengths that are wrong for one size only, the last segment of a full sub-block, and
-// data that two servers share.
+// Finer defects of SDO: lengths that are wrong for one size only or not told, the last segment of a full
+// sub-block, and data that two servers share.
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "defects/sdo_block_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
@@ -93,6 +94,23 @@ Change segments_of_the_latest_upload() {
   };
 }
 
+/// The upper limit is not looked at where no size was told.
+void unsized_above_the_limit(Parts& parts) {
+  const auto sized = std::make_shared<bool>(false);
+  SegmentedRules& rules = of_segments(parts);
+  rules.granted.replace([sized](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
+    *sized = announced.has_value();
+    return former(mux, announced);
+  });
+  rules.store.replace([&parts, sized](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
+    const Accepted stored = former(mux, data);
+    Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+    if (stored || *sized || entry == nullptr || stored.error() != abort_code::value_too_high) return stored;
+    entry->value = Bytes(data.begin(), data.end());
+    return {};
+  });
+}
+
 }  // namespace
 
 DefectTable sdo_length_defects() {
@@ -114,6 +132,10 @@ DefectTable sdo_length_defects() {
        "A segmented upload of five to eight bytes announces one byte more",
        {"SDO-SUP-02"},
        announces_more_for_numbers()},
+      {"segmented-download-without-size-above-limit",
+       "A segmented download that tells no size takes values above the limit",
+       {"SDO-SDN-23"},
+       Change(unsized_above_the_limit)},
       {"block-upload-segment-127-unused-bytes",
        "The end of a block upload tells no unused bytes when its last segment is number 127",
        {"SDO-BUP-13"},

@@ -219,23 +219,6 @@ void stores_half_when_stopped(Parts& parts) {
   })(parts);
 }
 
-/// The upper limit is not looked at where no size was told.
-void unsized_above_the_limit(Parts& parts) {
-  const auto sized = std::make_shared<bool>(false);
-  SegmentedRules& rules = of_segments(parts);
-  rules.granted.replace([sized](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
-    *sized = announced.has_value();
-    return former(mux, announced);
-  });
-  rules.store.replace([&parts, sized](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
-    const Accepted stored = former(mux, data);
-    Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
-    if (stored || *sized || entry == nullptr || stored.error() != abort_code::value_too_high) return stored;
-    entry->value = Bytes(data.begin(), data.end());
-    return {};
-  });
-}
-
 DefectTable upload_rows() {
   return {
       {"toggle-not-checked-upload",
@@ -590,10 +573,6 @@ DefectTable download_rows() {
        "NMT stop stores what has come of a segmented download",
        {"SDO-SDN-18"},
        Change(stores_half_when_stopped)},
-      {"segmented-download-without-size-above-limit",
-       "A segmented download that tells no size takes values above the limit",
-       {"SDO-SDN-23"},
-       Change(unsized_above_the_limit)},
   };
 }
 
