@@ -192,7 +192,7 @@ DefectTable device_load_defects() {
        .lacks = {"base frames only"}},
       {"sync-lost-beside-sdo-transfer",
        "While an SDO transfer is open a SYNC has no effect",
-       {"PDO-RX-01"},
+       {"PDO-RX-03"},
        waits_for_sdo(is_sync)},
       {"rpdo-lost-beside-sdo-transfer",
        "While an SDO transfer is open RPDOs are not received",
