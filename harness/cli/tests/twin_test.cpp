@@ -84,17 +84,22 @@ TEST_CASE("The twin of the node's own description passes what the node passes") 
   };
   const Verdicts node = run({});
   const Verdicts twin = run({.description = own_description()});
-  CHECK(twin.size() >= node.size());
+  // A twin knows no application: no output is wired to an input, so nothing makes an event.
+  const auto is_of_application = [](const std::string& name) {
+    const auto is_in = [&name](const char* cases) { return name.find(cases) != std::string::npos; };
+    return name.starts_with("PDO-TX-07 ") || name.starts_with("PDO-TX-08 ") ||
+           name.starts_with("PDO-TX-05 in cia301/sync/consumer/present-data") ||
+           is_in(" in cia301/pdo/tpdo-wired/") || is_in(" in cia301/pdo/rpdo-content/wired") ||
+           is_in(" in cia301/pdo/remote-frames/not-sampled-yet");
+  };
+  const auto comparable = [&](const Verdicts& verdicts) {
+    return std::ranges::count_if(verdicts, [&](const auto& each) { return !is_of_application(each.first); });
+  };
+  CHECK(comparable(twin) >= comparable(node));
   CHECK(std::ranges::count(node, Verdict::pass, &Verdicts::value_type::second) > 1200);
   for (const auto& [name, verdict] : node) {
     CAPTURE(name);
-    // A twin knows no application: no output is wired to an input, so nothing makes an event.
-    if (name.starts_with("PDO-TX-07 ") || name.starts_with("PDO-TX-08 ")) continue;
-    if (name.starts_with("PDO-TX-05 in cia301/sync/consumer/present-data")) continue;
-    const auto is_in = [&name](const char* cases) { return name.find(cases) != std::string::npos; };
-    if (is_in(" in cia301/pdo/tpdo-wired/") || is_in(" in cia301/pdo/rpdo-content/wired") ||
-        is_in(" in cia301/pdo/remote-frames/not-sampled-yet"))
-      continue;
+    if (is_of_application(name)) continue;
     const auto other = twin.find(name);
     REQUIRE(other != twin.end());
     CHECK(std::string(to_string(other->second)) == std::string(to_string(verdict)));
