@@ -45,7 +45,7 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
                      [this](const can::CapturedFrame& captured) {
                        const auto& frame = captured.frame;
                        return captured.direction == can::Direction::received &&
-                              frame.is_data(run_.session.emcy_can_id()) && frame.size() == 8 &&
+                              run_.session.was_for_emcy(frame) && frame.size() == 8 &&
                               (frame.data[0] != 0 || frame.data[1] != 0);
                      });
 }
@@ -61,7 +61,7 @@ Result<void> LastingErrors::let_emcy_end(std::size_t from) {
     const auto& frames = run_.recorder.capture().frames();
     for (auto i = frames.size(); i > from && !latest; --i) {
       const auto& captured = frames[i - 1];
-      if (captured.direction == can::Direction::received && captured.frame.is_data(session.emcy_can_id()))
+      if (captured.direction == can::Direction::received && session.was_for_emcy(captured.frame))
         latest = captured.time;
     }
     if (!latest || *latest + inhibit + margin <= session.now()) return {};

@@ -26,7 +26,8 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
       channel_(recorder, profile.node, profile.sdo_timeout, profile.quiet_time),
       others_(profile.node),
       emcy_can_id_(canopen::connection_set(profile.node).emcy),
-      home_emcy_can_id_(emcy_can_id_) {
+      home_emcy_can_id_(emcy_can_id_),
+      emcy_can_ids_{emcy_can_id_} {
   channel_.set_known_size([this](Multiplexer object) -> std::optional<std::size_t> {
     const auto* known = entry(object);
     return known != nullptr ? known->size() : std::nullopt;
@@ -210,9 +211,14 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
   return answers;
 }
 
+void RunSession::set_emcy_can_id(CanId id) {
+  emcy_can_id_ = id;
+  if (std::ranges::find(emcy_can_ids_, id) == emcy_can_ids_.end()) emcy_can_ids_.push_back(id);
+}
+
 void RunSession::watch_emcy(Multiplexer object, const Bytes& value) {
   if (object == emcy_entry && value.size() == 4) {
-    emcy_can_id_ = canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(value))));
+    set_emcy_can_id(canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(value)))));
   } else if (object == emcy_inhibit_entry && value.size() == 2) {
     emcy_inhibit_ = std::chrono::microseconds(100) * static_cast<std::int64_t>(load_le(value));
     // Behind a reset what was held before runs no more.
@@ -397,7 +403,7 @@ void RunSession::device_was_reset() {
   guarded_ = false;
   looked_for_guarding_ = recorder_.capture().size();
   ++resets_;
-  emcy_can_id_ = home_emcy_can_id_;
+  set_emcy_can_id(home_emcy_can_id_);
   emcy_inhibit_is_known_ = false;
   before_write_.clear();
   forget_long_values();
@@ -421,6 +427,7 @@ void RunSession::begin_case(scenario::Risk risk) {
   silence_seen_ = false;
   write_refused_ = false;
   longest_emcy_inhibit_ = emcy_inhibit_;
+  emcy_can_ids_ = {emcy_can_id_};
 }
 
 void RunSession::begin_step(const steps::Step& step) {

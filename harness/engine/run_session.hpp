@@ -3,6 +3,7 @@
 // changed.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -142,7 +143,14 @@ class RunSession final : public steps::Session {
   /// look behind a reset on, since the reset.
   [[nodiscard]] Duration longest_emcy_inhibit() const { return longest_emcy_inhibit_; }
   /// CAN-ID of EMCY as found after power-on.
-  void set_home_emcy_can_id(CanId id) { home_emcy_can_id_ = emcy_can_id_ = id; }
+  void set_home_emcy_can_id(CanId id) {
+    home_emcy_can_id_ = emcy_can_id_ = id;
+    emcy_can_ids_ = {id};
+  }
+  /// Whether EMCY has had this CAN-ID (1014h) at any time since the case began.
+  [[nodiscard]] bool was_for_emcy(const can::Frame& frame) const {
+    return std::ranges::any_of(emcy_can_ids_, [&frame](CanId id) { return frame.is_data(id); });
+  }
   /// `why`: what the device answered, where it is not there.
   void note_present(Multiplexer object, bool present, std::string why = {});
   void forget_presence() { present_.clear(); }
@@ -195,6 +203,7 @@ class RunSession final : public steps::Session {
   /// send() without asking the guard.
   [[nodiscard]] Result<void> send_unguarded(const can::Frame& frame);
   [[nodiscard]] Result<bool> try_block_download();
+  void set_emcy_can_id(CanId id);
   void watch_emcy(Multiplexer object, const Bytes& value);
   /// What it holds, for the journal.
   [[nodiscard]] Result<steps::SdoAnswer> value_before_change(Multiplexer object);
@@ -237,7 +246,8 @@ class RunSession final : public steps::Session {
   bool stopped_ = false;
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;
-  CanId home_emcy_can_id_;  ///< after a reset
+  CanId home_emcy_can_id_;           ///< after a reset
+  std::vector<CanId> emcy_can_ids_;  ///< since the case began
   Duration emcy_inhibit_{}, longest_emcy_inhibit_{};
   bool emcy_inhibit_is_known_ = true;  ///< read or written since the last reset
 };

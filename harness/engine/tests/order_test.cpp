@@ -79,6 +79,39 @@ TEST_CASE("what the inhibit time of a case holds back is over before the next ca
   CHECK(out.run.cases[1].begin - *sent >= 500ms);
 }
 
+TEST_CASE("what the inhibit time holds back is waited for where EMCY was sent on another CAN-ID as well") {
+  ScriptedDevice device;
+  give_errors(device);
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1)
+      self.send(can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0}));
+    return false;
+  };
+  const auto out = play(device, R"(
+  - id: inhibits
+    title: t
+    risk: config
+    steps:
+      - download: {object: 1015h:00, value: 5000}  # 500 ms
+      - set_cob_id: {object: 1014h:00, to: 6A0h}
+      - download: {object: 2000h:00, bytes: "01"}
+        checks: T-MUST
+  - id: next
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  std::optional<BusTime> sent;
+  for (const auto& captured : out.capture.frames()) {
+    if (captured.frame.id == 0x6A0) sent = captured.time;
+  }
+  REQUIRE(sent.has_value());
+  REQUIRE(out.run.cases.size() == 2);
+  CHECK(out.run.cases[1].begin - *sent >= 500ms);
+}
+
 TEST_CASE("an inhibit time that a reset has ended holds up no further case") {
   ScriptedDevice device;
   give_errors(device);
