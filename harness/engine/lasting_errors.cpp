@@ -55,7 +55,7 @@ Result<void> LastingErrors::let_emcy_end(std::size_t from) {
   // A device may keep to the inhibit time that it held when the last message went out.
   const auto inhibit = session.longest_emcy_inhibit();
   constexpr auto margin = std::chrono::milliseconds(10);
-  constexpr int most_held_back = 16;
+  constexpr int most_held_back = 48;  // a case may raise and clear a dozen errors one after the other
   for (int held = 0; inhibit > Duration::zero() && held < most_held_back; ++held) {
     std::optional<BusTime> latest;
     const auto& frames = run_.recorder.capture().frames();
