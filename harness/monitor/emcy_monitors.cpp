@@ -57,7 +57,10 @@ class Emergencies final : public Monitor {
     if (found.empty()) return;
     if (is_emcy(found, Held::off)) return off(seen, follower, found);
     if (!is_emcy(found)) return;
-    if (is_emcy(found, Held::yes)) good(valid);
+    const bool known = is_emcy(found, Held::yes);
+    // What an object had queued before its CAN-ID changed has no holder any more.
+    if (!known && !is_own(seen) && seen.frame().dlc != 8) return;
+    if (known) good(valid);
     judge_state(seen, follower);
     judge_form(seen);
     judge_distance(seen, follower);
