@@ -361,7 +361,7 @@ std::optional<bool> RunSession::is_placeholder(Index type) const {
 bool RunSession::claims(std::string_view feature) const { return profile_.claimed(feature); }
 
 Result<std::vector<device::ErrorTrigger>> RunSession::error_triggers() {
-  const auto consumes = is_present({Index(0x1016), SubIndex(1)}, false);
+  const auto consumes = is_writable({Index(0x1016), SubIndex(1)});
   if (!consumes) return std::unexpected(consumes.error());
   std::vector<device::ErrorTrigger> out;
   for (const auto& trigger : profile_.errors) {

@@ -131,6 +131,9 @@ class TimeProducer final : public Monitor {
     const auto found = from(seen, follower, 0x1012);
     if (!found) return;
     if (found->held == Held::off) {
+      // A frame of another length is another message: an EMCY that was late, where 1014h had this CAN-ID
+      // before.
+      if (seen.frame().dlc != 6) return;
       if (found->entry == nullptr || follower.nmt().is_newer(seen.time(), found->entry->since))
         accuse(off, seen, "a TIME message", "silence",
                "bit 30 of 1012h is 0: the device does not produce TIME");

@@ -245,6 +245,8 @@ Result<Expression> Expression::parse(std::string_view text) {
   return expression;
 }
 
+bool Expression::is_declared() const { return tree_ && tree_->kind == Tree::Kind::declared; }
+
 Result<Value> Expression::evaluate(Scope& scope) const {
   if (!tree_) return fail("an empty expression");
   return evaluate_node(tree_, scope);

@@ -72,6 +72,8 @@ class Expression {
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] const std::string& text() const { return text_; }
   [[nodiscard]] bool empty() const { return tree_ == nullptr; }
+  /// "default of ...", and nothing else: what a description says.
+  [[nodiscard]] bool is_declared() const;
 
   struct Tree;
   [[nodiscard]] const std::shared_ptr<const Tree>& tree() const { return tree_; }

@@ -40,6 +40,16 @@ bool holds(const Actual& actual, const Bytes& written) {
          std::ranges::equal(ByteView(actual.data).first(written.size()), written);
 }
 
+/// 00h is a visible character as well, and ends or fills the text of many a device; no description can say
+/// so.
+Bytes as_described(const Actual& actual) {
+  Bytes data = actual.data;
+  if (actual.type == canopen::DataType::visible_string) {
+    while (!data.empty() && data.back() == 0) data.pop_back();
+  }
+  return data;
+}
+
 Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
   using Kind = Demand::Kind;
   switch (demand.kind) {
@@ -95,7 +105,7 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
     if (!value) return std::unexpected(value.error());
     mask = *value;
   } else if (wanted->bytes) {
-    return *wanted->bytes == actual.data;
+    return *wanted->bytes == (demand.value.is_declared() ? as_described(actual) : actual.data);
   } else if (wanted->word) {
     return std::ranges::equal(*wanted->word, actual.data, {}, {},
                               [](std::uint8_t byte) { return static_cast<char>(byte); });

@@ -66,8 +66,10 @@ class Segments final : public Action {
     if (initiate->size_indicated) so_far.announced = initiate->value;
     for (bool toggle = false;; toggle = !toggle) {
       if (pause_ && (!pauses_ || so_far.segments < *pauses_)) {
+        const auto seen = session.capture().frames().size();
         auto waited = session.wait_until(session.now() + pause_->resolve(session.profile()));
         if (!waited) return std::unexpected(waited.error());
+        if (gave_up(session, seen, so_far.out)) return so_far.out;
       }
       auto answer = exchange(session, canopen::encode_upload_segment_request(toggle), so_far.out);
       // Past the announced size only the mark is missing: how the server ends then is no matter of the data.
@@ -137,6 +139,23 @@ class Segments final : public Action {
       return std::optional<Bytes>();
     }
     return std::optional(Bytes(bytes.begin(), bytes.end()));
+  }
+
+  /// Whether the server ended the transfer while nobody asked it for anything.
+  static bool gave_up(Session& session, std::size_t from, Actual& out) {
+    const auto id = canopen::connection_set(session.node()).sdo_response;
+    const auto& frames = session.capture().frames();
+    for (std::size_t at = from; at < frames.size(); ++at) {
+      if (frames[at].direction != can::Direction::received || !frames[at].frame.is_data(id)) continue;
+      const auto abort = canopen::decode_abort(frames[at].frame.bytes());
+      if (!abort) continue;
+      session.consume(at);
+      out.decisive = at;
+      out.kind = Actual::Kind::aborted;
+      out.code = abort->code;
+      return true;
+    }
+    return false;
   }
 
   static Result<Actual> end(Session&, Progress& so_far, const Answer& answer) {

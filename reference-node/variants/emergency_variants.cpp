@@ -31,6 +31,18 @@ void fill_manufacturer_bytes(Parts& parts) {
   });
 }
 
+/// Some power is missing, which is of interest in Operational only.
+void error_in_operational(Parts& parts) {
+  parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
+    constexpr ErrorCause no_power{0xFF20, ErrorSource::application, 7};
+    former(from);
+    if (parts.device.state == NmtState::operational)
+      parts.device.errors.raise(no_power, 1);
+    else
+      parts.device.errors.clear(no_power);
+  };
+}
+
 /// The voltage is too low for a moment at each boot-up.
 void low_voltage_at_boot_up(Parts& parts) {
   parts.nmt.on_boot_up = [&errors = parts.device.errors, former = parts.nmt.on_boot_up] {
@@ -58,6 +70,30 @@ VariantTable emergency_variants() {
        .how = absent({0x1014, 0x1015}),
        .group = "emcy",
        .lacks = {"emcy"}},
+      {.id = "emcy-absent-nothing-is-an-error",
+       .summary = "no EMCY and no history, and 1001h stays 0 where others see a communication error",
+       .legal = "7.2.7.1: optional; 7.2.8.3.2.2: the application is told, no more",
+       .how = both(absent({0x1003, 0x1014, 0x1015}),
+                   [](Parts& parts) {
+                     parts.device.errors.raise.replace(
+                         [](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+                           if (cause.source == ErrorSource::application) former(cause, detail);
+                         });
+                   }),
+       .group = "emcy",
+       .lacks = {"emcy"}},
+      {.id = "emcy-in-operational",
+       .summary = "an error of the application that is there in Operational only",
+       .legal = "7.2.7.1: an EMCY when the error occurs; NMT-FSA-01: 1001h shows it",
+       .how = error_in_operational,
+       .excludes = {"self-starting"}},
+      {"emcy-late-20ms", "EMCYs leave 20 ms after their error", "7.2.7: no time is set",
+       [](Parts& parts) {
+         parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+           if (context.service != Service::emergency) return;
+           for (Outgoing& outgoing : frames) outgoing.delay += std::chrono::milliseconds(20);
+         });
+       }},
       {"1015-absent", "no EMCY inhibit time", "7.5.2.18: optional", absent({0x1015}), "1015"},
       {"1014-const", "the COB-ID of EMCY cannot be changed", "OD-1014-09",
        access(0x1014, 0, Access::constant)},

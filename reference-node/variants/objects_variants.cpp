@@ -173,6 +173,44 @@ void dependent_limits(Parts& parts) {
   });
 }
 
+/// 00h is a visible character, too, and ends a text in C.
+void terminated_texts(Parts& parts) {
+  for (const std::uint16_t index :
+       {std::uint16_t{0x1008}, std::uint16_t{0x1009}, std::uint16_t{0x100A}, std::uint16_t{0x2006}}) {
+    Entry* text = parts.device.dictionary.entry(index, 0);
+    if (text == nullptr) continue;
+    text->read = [text, read = text->read]() -> Upload {
+      Upload value = read ? read() : Upload(text->value);
+      if (value) value->push_back(0);
+      return value;
+    };
+  }
+}
+
+/// Values are kept in steps of 16, as a converter has them.
+void steps_of_16(Parts& parts) {
+  ObjectDictionary& dictionary = parts.device.dictionary;
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+    if (Entry* entry = dictionary.entry(0x2004, sub)) entry->written = [entry] { entry->value[0] &= 0xF0U; };
+  }
+}
+
+/// Who writes first writes 4711h to 2004h:01.
+Accepted unlocked_by_2004(const Parts& parts, ByteView) {
+  if (parts.device.dictionary.number(0x2004, 1) != 0x4711) return refuse(abort_code::cannot_store);
+  return {};
+}
+
+/// A device that reads its description from a slow memory before the first byte is sent.
+void description_from_slow_memory(Parts& parts) {
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->index() != 0x1021) return;
+    if (context.sdo->step != SdoStep::upload_initiate && context.sdo->step != SdoStep::block_upload_initiate)
+      return;
+    for (Outgoing& outgoing : frames) outgoing.delay += std::chrono::milliseconds(700);
+  });
+}
+
 /// A counter that can be set and goes on from there.
 void running_hours(Parts& parts) {
   ObjectDictionary& dictionary = parts.device.dictionary;
@@ -270,6 +308,24 @@ VariantTable objects_variants() {
        "7.2.4.3.17: whether a value is right may depend on others", dependent_limits},
       {"2007-even-only", "2007h takes even numbers only: 0609 0030h",
        "7.2.4.3.17: which values are valid, the application says", even_numbers},
+      {"names-end-with-00",
+       "names are delivered with the 00h that ends them",
+       "7.1.6.3: 00h is a visible character",
+       terminated_texts,
+       "1008",
+       {"strings", "sdo-expedited-only"}},
+      {"2004-in-steps", "2004h keeps its values in steps of 16", "OD-ACC-04: quantised values", steps_of_16},
+      {.id = "2007-locked-0800-0020",
+       .summary = "2007h cannot be written before 2004h:01 = 4711h: 0800 0020h",
+       .legal = "7.2.4.3.17: 0800 0020h; OD-GEN-17 and SDO-DNL-21 warn",
+       .how = also_checked(0x2007, 0, unlocked_by_2004),
+       .warns = {"OD-GEN-17", "EDS-VSD-04", "SDO-DNL-21"}},
+      {"1021-from-slow-memory",
+       "the first answer of an upload of 1021h takes 700 ms",
+       "SDO-GEN-18: no limit is set",
+       description_from_slow_memory,
+       "1021",
+       {"turnaround", "sdo-time-out", "sdo-block-download-erases"}},
       {"2013-runs",
        "2013h is a counter that can be set and goes on from there",
        "7.4.5: rw does not say that a value rests",

@@ -331,6 +331,13 @@ VariantTable sdo_variants() {
        .how = choose([](SdoChoices& c) { c.time_out.reset(); }),
        .group = "sdo-time-out",
        .warns = {"SDO-BDN-25"}},
+      {.id = "sdo-time-out-200ms",
+       .summary = "a transfer ends after 200 ms of silence",
+       .legal = "SDO-SUP-18, SDO-SDN-25; SDO-SUP-17 warns",
+       .how = choose([](SdoChoices& c) { c.time_out = milliseconds(200); }),
+       .group = "sdo-time-out",
+       .excludes = {"turnaround", "program-cycle-20ms"},
+       .warns = {"SDO-SUP-17"}},
       // With answers that take half of that time two channels at once could not be kept open.
       {"sdo-time-out-500ms",
        "a transfer ends after 500 ms of silence",

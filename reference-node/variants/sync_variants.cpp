@@ -93,6 +93,12 @@ VariantTable sync_variants() {
        .how = preset(0x1005, 0, 0x40000080),
        .excludes = {"sync-producer", "1005-bit-31"},
        .warns = {"OD-1005-02"}},
+      {.id = "1005-producing-at-power-on",
+       .summary = "SYNC every 100 ms from power-on",
+       .legal = "OD-1005-02 and OD-1006-02 warn",
+       .how = both(preset(0x1005, 0, 0x40000080), preset(0x1006, 0, 100'000)),
+       .excludes = {"sync-producer", "1005-bit-31", "1005-producing-without-period", "1006", "sync", "1019"},
+       .warns = {"OD-1005-02", "OD-1006-02"}},
       {"sync-loss-reported", "a SYNC that stays away is reported", "SYNC-CON-10: one EMCY",
        [](Parts& node) { node.sync_supervision.choices.loss_reported = true; }},
       {.id = "1007-5-ms",
@@ -102,6 +108,24 @@ VariantTable sync_variants() {
        .warns = {"OD-1007-01"}},
       {"1007-late-rpdo-kept", "a synchronous RPDO behind the window is taken over", "OD-1007-03",
        [](Parts& node) { node.sync_window.choices.late_discarded = false; }},
+      {"1007-16-bits", "a synchronous window of more than 65 535 us is refused: 0609 0031h",
+       "OD-1007-01: what the device can measure",
+       also_checked(0x1007, 0,
+                    [](const Parts&, ByteView bytes) -> Accepted {
+                      if (conform::load_le(bytes) > 0xFFFF) return refuse(abort_code::value_too_high);
+                      return {};
+                    })},
+      {"1007-within-1006",
+       "a synchronous window beyond the cycle is refused: 0604 0043h",
+       "OD-1007-01: 7.5.2.7, a part of the cycle",
+       also_checked(0x1007, 0,
+                    [](const Parts& parts, ByteView bytes) -> Accepted {
+                      if (conform::load_le(bytes) > parts.device.dictionary.number(0x1006, 0))
+                        return refuse(abort_code::parameter_incompatible);
+                      return {};
+                    }),
+       {},
+       {"1007-5-ms"}},
       {"1007-absent", "no synchronous window", "7.5.2.7: optional", absent({0x1007})},
       {"1005-bit-31", "default 8000 0080h", "OD-1005-02: bit 31 is not looked at",
        preset(0x1005, 0, 0x80000080)},

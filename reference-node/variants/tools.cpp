@@ -47,6 +47,18 @@ How access_all(std::uint16_t index, Access from, Access to) {
   };
 }
 
+How also_checked(std::uint16_t index, std::uint8_t sub,
+                 std::function<Accepted(const Parts&, ByteView)> condition) {
+  return [index, sub, condition = std::move(condition)](Parts& parts) {
+    Entry* entry = parts.device.dictionary.entry(index, sub);
+    if (entry == nullptr) return;
+    entry->check = [&parts, condition, former = std::move(entry->check)](ByteView bytes) -> Accepted {
+      if (const Accepted good = condition(parts, bytes); !good) return good;
+      return former ? former(bytes) : Accepted{};
+    };
+  };
+}
+
 How preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value) {
   return [index, sub, value](Parts& parts) {
     Entry* entry = parts.device.dictionary.entry(index, sub);

@@ -20,6 +20,9 @@ using How = std::function<void(Parts&)>;
 [[nodiscard]] How access(std::uint16_t index, std::uint8_t sub, Access access);
 /// Every sub-index of the object, those of another access than `from` left alone.
 [[nodiscard]] How access_all(std::uint16_t index, Access from, Access to);
+/// One more condition for the values of an entry, asked before those it has.
+[[nodiscard]] How also_checked(std::uint16_t index, std::uint8_t sub,
+                               std::function<Accepted(const Parts&, ByteView)> condition);
 /// Value after power-on.
 [[nodiscard]] How preset(std::uint16_t index, std::uint8_t sub, std::uint64_t value);
 [[nodiscard]] How preset_with_node_id(std::uint16_t index, std::uint8_t sub, std::uint64_t value);
