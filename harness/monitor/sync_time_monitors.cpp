@@ -2,6 +2,7 @@
 // Monitors of SYNC and TIME: a device sends them only if it is their producer.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -18,11 +19,23 @@ bool is_stopped(const Observation& seen, const Follower& follower) {
   return follower.nmt().commanded_to_sender(seen.time()) == canopen::NmtState::stopped;
 }
 
+/// Another object was moved away from this CAN-ID a moment ago: what waited to be sent then may come now.
+bool may_be_late(const Observation& seen, const Follower& follower, std::uint16_t index) {
+  constexpr auto moment = std::chrono::seconds(1);
+  bool late = false;
+  follower.entries().for_holders(seen.key(), [&](std::uint16_t other) {
+    late = late || (other != index && holder(follower, other, seen.key()).held == Held::no &&
+                    seen.time() - follower.entries().touched(other, other) < moment);
+  });
+  return late;
+}
+
 /// Received with the CAN-ID of the object, and with nothing else of the device that may send with it.
 std::optional<Holder> from(const Observation& seen, const Follower& follower, std::uint16_t index) {
   if (seen.subject != Subject::data || !seen.received()) return std::nullopt;
   const auto found = holder(follower, index, seen.key());
-  if (found.held == Held::no || other_holder(holders(follower, seen.key()), index, index))
+  if (found.held == Held::no || other_holder(holders(follower, seen.key()), index, index) ||
+      may_be_late(seen, follower, index))
     return std::nullopt;
   return found;
 }

@@ -75,6 +75,20 @@ void hides_what_was_cleared(Parts& parts) {
   with_boot_up([hidden](Parts&) { *hidden = false; })(parts);
 }
 
+/// The history is the list of what is wrong: what is cleared there is not known any more.
+void forgets_cleared_errors(Parts& parts) {
+  const auto forgotten = std::make_shared<std::vector<ErrorCause>>();
+  checking(0x1003, 0, [forgotten](Parts& node, const Check& former, ByteView bytes) {
+    const Accepted cleared = former(bytes);
+    if (cleared) *forgotten = node.emergency.active();
+    return cleared;
+  })(parts);
+  parts.device.errors.clear.replace([forgotten](const auto& former, const ErrorCause& cause) {
+    if (std::ranges::find(*forgotten, cause) == forgotten->end()) former(cause);
+  });
+  with_boot_up([forgotten](Parts&) { forgotten->clear(); })(parts);
+}
+
 }  // namespace
 
 DefectTable emergency_history_defects() {
@@ -205,6 +219,10 @@ DefectTable emergency_history_defects() {
        "With the next error the entries are back that were cleared from 1003h",
        {"OD-1003-05"},
        Change(hides_what_was_cleared)},
+      {"1003-cleared-errors-never-end",
+       "Of an error whose entry in 1003h was cleared the end goes unnoticed",
+       {"OD-1001-06"},
+       Change(forgets_cleared_errors)},
       {"1003-same-error-not-recorded-again",
        "An error that comes again right behind itself is not recorded again",
        {"OD-1003-10"},

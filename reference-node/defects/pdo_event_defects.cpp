@@ -77,10 +77,20 @@ void end_of_inhibit_time_is_an_event(Parts& parts) {
   });
 }
 
+/// What the PDO does goes on as before, though the type is another.
+Change writes_type_quietly(std::uint16_t index) {
+  return after_writing(index, 2, [](Parts&, const std::function<void()>&) {});
+}
+
 }  // namespace
 
 DefectTable pdo_event_defects() {
   return {
+      {"tpdo-type-starts-no-event-timer",
+       "An event-driven type that is written in Operational does not start the event timer",
+       {"PDO-TX-09"},
+       together(writes_type_quietly(0x1800), writes_type_quietly(0x1801), writes_type_quietly(0x1802),
+                writes_type_quietly(0x1803))},
       {"tpdo-sent-at-end-of-inhibit-time",
        "The end of the inhibit time sends a TPDO again, without an event",
        {"PDO-TX-09"},

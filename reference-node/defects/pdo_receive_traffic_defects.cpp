@@ -60,6 +60,30 @@ Change deadline_of(Duration (*as)(std::int64_t value)) {
 constexpr std::uint16_t too_short = 0x8210;
 constexpr std::uint16_t too_late = 0x8250;
 
+/// The length is noted whatever the state is, and looked at in Operational.
+void reports_what_came_before(Parts& parts) {
+  const auto noted = std::make_shared<bool>(false);
+  parts.device.inbox.add_filter([&parts, noted](std::vector<Frame>& frames) {
+    if (parts.device.state != NmtState::pre_operational) return;
+    for (const Frame& frame : frames) {
+      for (std::uint16_t number = 0; number < 4; ++number) {
+        const auto& od = parts.device.dictionary;
+        const std::uint64_t cob_id = od.number(static_cast<std::uint16_t>(0x1400 + number), 1);
+        const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
+        std::uint64_t bits = 0;
+        for (std::uint8_t sub = 1; sub <= od.number(mapping, 0); ++sub)
+          bits += od.number(mapping, sub) & 0xFFU;
+        if ((cob_id & 0x8000'07FFU) == frame.id && !frame.remote && frame.size() * 8 < bits) *noted = true;
+      }
+    }
+  });
+  parts.nmt.on_change = [&parts, noted, former = parts.nmt.on_change](NmtState from) {
+    former(from);
+    if (parts.device.state == NmtState::operational && std::exchange(*noted, false))
+      parts.device.errors.raise({too_short, ErrorSource::rpdo, 1}, 0);
+  };
+}
+
 }  // namespace
 
 DefectTable pdo_receive_traffic_defects() {
@@ -307,6 +331,10 @@ DefectTable pdo_receive_traffic_defects() {
        loses_errors([](std::set<std::uint16_t>& before, const ErrorCause& cause) {
          return cause.code == too_short && !before.insert(cause.instance).second;
        })},
+      {"rpdo-length-of-pre-operational-reported",
+       "An RPDO that came too short in Pre-operational is reported when Operational is entered",
+       {"PDO-RX-02"},
+       Change(reports_what_came_before)},
       {"rpdo-event-driven-late-discarded",
        "An event-driven RPDO that comes behind the window of 1007h is discarded",
        {"PDO-RX-01"},

@@ -3,6 +3,7 @@
 // services, how they look, and may keep one for later or bring one of their own.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -34,6 +35,15 @@ class Inbox {
 
   /// The services will see this frame then, unless a reset comes before.
   void put(const Frame& frame, BusTime at) { later_.emplace(at, frame); }
+  /// The same where there is room for one frame of each CAN-ID: the newest.
+  void put_newest(const Frame& frame, BusTime at) {
+    const auto same = std::ranges::find_if(later_, [&](const auto& waiting) {
+      return waiting.second.id == frame.id && waiting.second.remote == frame.remote &&
+             waiting.second.extended == frame.extended;
+    });
+    if (same == later_.end()) return put(frame, at);
+    same->second = frame;
+  }
   void on_time(BusTime now) {
     while (!later_.empty() && later_.begin()->first <= now) {
       const Frame frame = later_.begin()->second;

@@ -55,6 +55,8 @@ void Emergency::bind() {
     read_by(*shown, [this]() -> Upload { return Bytes{error_register()}; });
   history.bind();
   cob_id_.bind();
+  if (Entry* inhibit = device_->dictionary.entry(0x1015, 0))
+    inhibit->written = [this] { begin_inhibiting(); };
 }
 
 std::uint8_t Emergency::error_register() const {
@@ -76,7 +78,9 @@ void Emergency::clear(const ErrorCause& cause) {
   if (found == causes_.end()) return;
   causes_.erase(found);
   // With further causes left the standard allows a message, but asks for none.
-  if (causes_.empty() || choices.error_reset_for_each) report({0, error_register(), 0, cause.source});
+  if (!causes_.empty() && !choices.error_reset_for_each) return;
+  if (choices.error_resets_recorded) history.record(0, cause.source, 0);
+  report({0, error_register(), 0, cause.source});
 }
 
 void Emergency::on_reset(bool whole_node) {
@@ -90,6 +94,12 @@ void Emergency::on_reset(bool whole_node) {
 }
 
 Duration Emergency::inhibit_time() const { return rules.inhibit_time(device_->time_value(0x1015, 0)); }
+
+void Emergency::begin_inhibiting() {
+  if (!choices.inhibited_from_setting) return;
+  inhibited_until_.reset();
+  if (inhibit_time() > Duration::zero()) inhibited_until_ = device_->now + inhibit_time();
+}
 
 void Emergency::report(const Message& message) {
   if (!cob_id_.valid()) return;

@@ -15,9 +15,11 @@
 namespace refnode {
 
 struct EmergencyChoices {
-  bool register_generic_only = false;  ///< no other bit than 0
-  bool error_reset_for_each = false;   ///< EMCY 0000h also while other errors remain
-  bool dropped_in_stopped = false;     ///< not made up for afterwards
+  bool register_generic_only = false;   ///< no other bit than 0
+  bool error_reset_for_each = false;    ///< EMCY 0000h also while other errors remain
+  bool dropped_in_stopped = false;      ///< not made up for afterwards
+  bool error_resets_recorded = false;   ///< EMCY 0000h has its field in 1003h, too
+  bool inhibited_from_setting = false;  ///< the first EMCY waits, too, from boot-up or the write of 1015h on
 };
 
 struct EmergencyRules {
@@ -52,6 +54,8 @@ class Emergency {
   /// Communication (and, with reset node, all) causes and everything unsent are forgotten.
   void on_reset(bool whole_node);
   void on_state_change() { flush(); }
+  /// The boot-up message has been sent.
+  void on_boot_up() { begin_inhibiting(); }
   void on_time();
   [[nodiscard]] std::optional<BusTime> next_wakeup() const;
 
@@ -66,6 +70,7 @@ class Emergency {
   void clear(const ErrorCause& cause);
   void report(const Message& message);
   void flush();
+  void begin_inhibiting();
   void transmit(const Message& message);
   [[nodiscard]] Duration inhibit_time() const;
 

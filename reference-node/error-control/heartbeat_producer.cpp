@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "error-control/heartbeat_producer.hpp"
 
+#include <algorithm>
+
 namespace refnode {
 
 void HeartbeatProducer::add_objects() {
@@ -9,7 +11,7 @@ void HeartbeatProducer::add_objects() {
 }
 
 void HeartbeatProducer::bind() {
-  if (Entry* period = device_->dictionary.entry(0x1017, 0)) period->written = [this] { start(); };
+  if (Entry* period = device_->dictionary.entry(0x1017, 0)) period->written = [this] { on_written(); };
 }
 
 void HeartbeatProducer::start() {
@@ -18,6 +20,11 @@ void HeartbeatProducer::start() {
   if (period_ == Duration::zero()) return;
   raster_.start(device_->now + period_);
   if (choices.at_once) transmit();
+}
+
+void HeartbeatProducer::on_written() {
+  start();
+  if (choices.from_last && raster_.runs()) raster_.start(std::max(sent_ + period_, device_->now));
 }
 
 void HeartbeatProducer::on_reset() {
@@ -31,11 +38,14 @@ void HeartbeatProducer::on_boot_up() {
   waiting_ = message();
   sent_ = device_->now;
   start();
+  if (choices.first_early && raster_.runs()) raster_.start(device_->now + period_ / 2);
 }
 
 void HeartbeatProducer::on_state_change() {
   waiting_ = message();
-  if (choices.at_state_change && raster_.runs()) transmit();
+  if (!choices.at_state_change || !raster_.runs()) return;
+  transmit();
+  if (choices.restarts_at_change) raster_.start(device_->now + period_);
 }
 
 void HeartbeatProducer::on_time() {

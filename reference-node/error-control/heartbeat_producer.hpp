@@ -12,10 +12,13 @@
 namespace refnode {
 
 struct HeartbeatProducerChoices {
-  bool at_once = false;          ///< the first right after 1017h was written, and after boot-up
-  bool at_state_change = false;  ///< one more, while 1017h is not 0
-  int jitter_percent = 0;        ///< late and early by turns
-  bool crosses_reset = false;    ///< the next is in the transmit buffer when a reset comes, and is sent
+  bool at_once = false;             ///< the first right after 1017h was written, and after boot-up
+  bool at_state_change = false;     ///< one more, while 1017h is not 0
+  int jitter_percent = 0;           ///< late and early by turns
+  bool first_early = false;         ///< the first after boot-up comes after half the period
+  bool from_last = false;           ///< a new period counts from the last heartbeat
+  bool restarts_at_change = false;  ///< with at_state_change: the period begins anew
+  bool crosses_reset = false;       ///< the next is in the transmit buffer when a reset comes, and is sent
 };
 
 struct HeartbeatProducerRules {
@@ -48,6 +51,7 @@ class HeartbeatProducer {
  private:
   /// With the period that 1017h says now; 0: there is no heartbeat.
   void start();
+  void on_written();
   void transmit();
   [[nodiscard]] conform::can::Frame message() const;
 

@@ -150,6 +150,7 @@ void LssSlave::configure_bit_timing(std::uint8_t table, std::uint8_t index) {
   if (!choices.bit_timing) return;
   if (choices.bit_rate_fixed) return answer(configure_rate, of_the_maker, 1);
   if (!rules.bit_rate_allowed(table, index)) return answer(configure_rate, out_of_range);
+  if (choices.few_bit_rates && index > 4) return answer(configure_rate, of_the_maker, 1);
   bit_rate_ = index;
   answer(configure_rate);
 }

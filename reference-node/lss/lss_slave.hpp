@@ -24,6 +24,7 @@ struct LssChoices {
   bool fastscan = true;                 ///< 51h
   bool node_id_fixed = false;           ///< by switches: 11h is refused with error code FFh
   bool bit_rate_fixed = false;          ///< by switches: 13h is refused with error code FFh
+  bool few_bit_rates = false;           ///< 125 kbit/s and more; others of the table have error code FFh
   bool can_be_unconfigured = true;      ///< 11h takes FFh
   /// A new node-ID is active as soon as the configuration state is left, not with the next reset
   /// communication.

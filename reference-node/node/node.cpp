@@ -164,6 +164,7 @@ void Node::Impl::boot_up() {
   sync_producer.on_boot_up();
   time_producer.update();
   pdos.on_boot_up();
+  emergency.on_boot_up();
 }
 
 void Node::Impl::begin_cycle(std::optional<std::uint8_t> counter) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pdo/receive_pdo.hpp"
 
+#include <utility>
+
 #include "pdo/bits.hpp"
 
 namespace refnode {
@@ -37,6 +39,7 @@ ReceivePdo::ReceivePdo(Device& device, const ReceivePdoTerms& terms, std::uint16
 // What waits was for the PDO as it was.
 void ReceivePdo::forget() {
   buffered_.reset();
+  unjudged_.reset();
   if (!deadline_ && !terms_->rules.watched_from_start(parameters_)) return;
   deadline_.reset();
   if (device_->works_now(Service::rpdo) && terms_->rules.valid(parameters_)) start_deadline();
@@ -48,17 +51,12 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   const std::size_t size = parameters_.mapped_size();
   if (size == 0) return true;
 
-  if (frame.size() < size) {
-    device_->errors.raise(cause(too_short), frame.size());
+  if (terms_->choices.judged_at_sync && terms_->rules.waits_for_sync(parameters_)) {
+    unjudged_ = frame.size();
   } else {
-    device_->errors.clear(cause(too_short));
+    judge_length(frame.size());
   }
   if (!terms_->rules.processed(parameters_, frame.size(), size)) return true;
-  if (frame.size() <= size) {
-    device_->errors.clear(cause(too_long));
-  } else if (terms_->choices.too_long_reported) {
-    device_->errors.raise(cause(too_long), frame.size());
-  }
   start_deadline();
 
   const Bytes data(frame.data.begin(), frame.data.begin() + static_cast<std::ptrdiff_t>(size));
@@ -73,7 +71,26 @@ bool ReceivePdo::on_frame(const Frame& frame) {
   return true;
 }
 
+void ReceivePdo::judge_length(std::size_t received) {
+  const std::size_t size = parameters_.mapped_size();
+  const auto detail = static_cast<std::uint8_t>(received);
+  if (received < size) {
+    device_->errors.raise(cause(too_short), detail);
+  } else {
+    device_->errors.clear(cause(too_short));
+  }
+  if (!terms_->rules.processed(parameters_, received, size)) return;
+  if (received <= size) {
+    device_->errors.clear(cause(too_long));
+  } else if (terms_->choices.too_long_reported) {
+    device_->errors.raise(cause(too_long), detail);
+  }
+}
+
 void ReceivePdo::on_sync() {
+  if (const auto received = std::exchange(unjudged_, std::nullopt);
+      received && device_->works_now(Service::rpdo))
+    judge_length(*received);
   if (!buffered_ || !terms_->rules.due_at_sync(parameters_, ++syncs_)) return;
   if (device_->works_now(Service::rpdo)) apply(terms_->rules.taken_at_sync(parameters_, *buffered_));
   buffered_.reset();
@@ -81,6 +98,7 @@ void ReceivePdo::on_sync() {
 
 void ReceivePdo::on_state_change() {
   buffered_.reset();
+  unjudged_.reset();
   deadline_.reset();
   const bool watched = device_->works_now(Service::rpdo) && terms_->rules.watched_from_start(parameters_);
   if (watched && terms_->rules.valid(parameters_)) start_deadline();

@@ -14,6 +14,7 @@ namespace refnode {
 
 struct ReceivePdoChoices {
   bool too_long_reported = false;  ///< EMCY 8220h
+  bool judged_at_sync = false;     ///< the length of a synchronous one, with the SYNC
 };
 
 struct ReceivePdoRules {
@@ -63,6 +64,7 @@ class ReceivePdo {
 
  private:
   void apply(const Bytes& data);
+  void judge_length(std::size_t received);
   /// The communication parameters or the mapping have changed.
   void forget();
   void start_deadline();
@@ -75,9 +77,10 @@ class ReceivePdo {
   std::uint16_t number_;
   PdoParameters parameters_;
   bool applying_ = false;
-  std::optional<Bytes> buffered_;  ///< synchronous types: waiting for the SYNC
-  std::uint32_t syncs_ = 0;        ///< since then
-  Alarms::Alarm deadline_;         ///< event timer, armed by the first RPDO
+  std::optional<Bytes> buffered_;        ///< synchronous types: waiting for the SYNC
+  std::uint32_t syncs_ = 0;              ///< since then
+  std::optional<std::size_t> unjudged_;  ///< length of what came last, to be judged with the SYNC
+  Alarms::Alarm deadline_;               ///< event timer, armed by the first RPDO
 };
 
 }  // namespace refnode

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pdo/transmit_pdo.hpp"
 
+#include <algorithm>
+
 #include "pdo/bits.hpp"
 
 namespace refnode {
@@ -31,7 +33,7 @@ TransmitPdo::TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uin
       timer_(device.pdo_alarms),
       inhibited_until_(device.pdo_alarms) {
   parameters_.on_changed = [this] {
-    if (terms_->rules.takes_effect(parameters_)) restart();
+    if (terms_->rules.takes_effect(parameters_)) on_parameters();
   };
 }
 
@@ -66,6 +68,7 @@ void TransmitPdo::transmit(const Bytes& due) {
   auto frame = conform::can::data_frame(conform::CanId(parameters_.cob_id().can_id()), data);
   frame.extended = parameters_.cob_id().extended();
   device_->send(Service::tpdo, frame);
+  sent_ = device_->now;
   reported_ = due;
   event_ = false;
   syncs_ = 0;
@@ -84,7 +87,7 @@ void TransmitPdo::start_event_timer() {
 void TransmitPdo::on_application_change() {
   if (!terms_->choices.change_is_event || !enabled()) return;
   const Bytes now = content();
-  if (!terms_->rules.is_event(parameters_, reported_, now)) return;
+  if (!terms_->choices.write_is_event && !terms_->rules.is_event(parameters_, reported_, now)) return;
   event_ = true;
   if (event_driven() && !held_back(TransmitCause::change)) transmit(now);
 }
@@ -123,6 +126,17 @@ void TransmitPdo::on_state_change() {
   if (event_driven()) transmit(content());
 }
 
+void TransmitPdo::on_parameters() {
+  restart();
+  if (!enabled()) return;
+  if (terms_->choices.timer_goes_on && timer_) {
+    timer_ = std::max(sent_ + parameters_.event_timer(), device_->now);
+  }
+  if (!terms_->choices.sent_when_set) return;
+  event_ = true;
+  if (event_driven()) transmit(content());
+}
+
 void TransmitPdo::restart() {
   event_ = false;
   syncs_ = 0;
@@ -133,6 +147,7 @@ void TransmitPdo::restart() {
   if (!enabled()) return;
   const std::uint8_t type = parameters_.transmission_type();
   if (terms_->choices.sends_at_first_sync && type >= 1 && is_synchronous(type)) syncs_ = type - 1U;
+  if (terms_->choices.sends_in_the_middle && type >= 1 && is_synchronous(type)) syncs_ = (type - 1U) / 2U;
   reported_ = content();
   start_event_timer();
 }

@@ -17,6 +17,10 @@ struct TransmitPdoChoices {
       true;                     ///< and with a SYNC start value at that one, else it only begins to count
   bool change_is_event = true;  ///< of what is mapped; types 00h, FEh and FFh
   bool sent_empty = false;      ///< without mapped objects it is sent, with no data
+  bool sent_when_set = false;   ///< a write of its parameters in Operational is an event
+  bool sends_in_the_middle = false;  ///< type n sends at SYNC n / 2 + 1 first
+  bool timer_goes_on = false;        ///< a new event time counts from the last TPDO
+  bool write_is_event = false;       ///< of what is mapped, also where the value is the same
 };
 
 /// What lets a TPDO be sent by itself.
@@ -81,6 +85,7 @@ class TransmitPdo {
   [[nodiscard]] bool enabled() const;
   void transmit(const Bytes& due);
   void start_event_timer();
+  void on_parameters();
   void restart();
 
   Device* device_;
@@ -91,6 +96,7 @@ class TransmitPdo {
   bool event_ = false;         ///< type 00h, or an event waiting for the inhibit time
   std::uint32_t syncs_ = 0;    ///< SYNCs since the last TPDO
   bool awaits_start_ = false;  ///< for the SYNC whose counter is the SYNC start value
+  BusTime sent_{};             ///< when the last one was
   Alarms::Alarm timer_;
   Alarms::Alarm inhibited_until_;
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // EMCY, its history and its consumer.
+#include <algorithm>
 #include <chrono>
+#include <memory>
+#include <vector>
 
 #include "variants/tools.hpp"
 
@@ -50,6 +53,92 @@ void low_voltage_at_boot_up(Parts& parts) {
     former();
     errors.raise(low_voltage, 0);
     errors.clear(low_voltage);
+  };
+}
+
+/// Whatever the error is, it ends Operational. There is no 1029h to say otherwise.
+void error_ends_operational(Parts& parts) {
+  absent({0x1029})(parts);
+  parts.device.errors.raise.replace(
+      [&parts](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        former(cause, detail);
+        if (parts.device.state == NmtState::operational) parts.nmt.enter(NmtState::pre_operational);
+      });
+}
+
+/// And there is none while an error lasts.
+void error_prevents_operational(Parts& parts) {
+  error_ends_operational(parts);
+  parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
+    former(from);
+    if (parts.device.state == NmtState::operational && parts.emergency.error_register() != 0)
+      parts.nmt.enter(NmtState::pre_operational);
+  };
+}
+
+/// One flag for all errors of a kind: the first sets it, and it goes with the last of them.
+void one_flag_for_a_kind(Parts& parts) {
+  const auto alike = std::make_shared<std::vector<ErrorCause>>();
+  const auto flag_of = [](const ErrorCause& cause) { return ErrorCause{cause.code, cause.source, 1}; };
+  Errors& errors = parts.device.errors;
+  errors.raise.replace([alike, flag_of](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+    if (cause.source == ErrorSource::application) return former(cause, detail);
+    if (std::ranges::find(*alike, cause) == alike->end()) alike->push_back(cause);
+    former(flag_of(cause), detail);
+  });
+  errors.clear.replace([alike, flag_of](const auto& former, const ErrorCause& cause) {
+    if (cause.source == ErrorSource::application) return former(cause);
+    std::erase(*alike, cause);
+    const auto same_kind = [&](const ErrorCause& other) { return flag_of(other) == flag_of(cause); };
+    if (std::ranges::none_of(*alike, same_kind)) former(flag_of(cause));
+  });
+  parts.nmt.on_reset = [alike, former = parts.nmt.on_reset](Reset kind) {
+    alike->clear();
+    former(kind);
+  };
+}
+
+/// Each frame that is wrong is an error of its own; the next right one ends them all.
+void an_error_for_each_frame(Parts& parts) {
+  struct Seen {
+    ErrorCause as;
+    ErrorCause told;
+  };
+  const auto seen = std::make_shared<std::vector<Seen>>();
+  const auto count = std::make_shared<std::uint16_t>(0);
+  Errors& errors = parts.device.errors;
+  errors.raise.replace([seen, count](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+    if (cause.source != ErrorSource::rpdo && cause.source != ErrorSource::sync) return former(cause, detail);
+    *count = static_cast<std::uint16_t>(*count + 1U);
+    seen->push_back({cause, {cause.code, cause.source, *count}});
+    former(seen->back().told, detail);
+  });
+  errors.clear.replace([seen](const auto& former, const ErrorCause& cause) {
+    if (cause.source != ErrorSource::rpdo && cause.source != ErrorSource::sync) return former(cause);
+    for (const Seen& each : *seen) {
+      if (each.as == cause) former(each.told);
+    }
+    std::erase_if(*seen, [&](const Seen& each) { return each.as == cause; });
+  });
+  parts.nmt.on_reset = [seen, former = parts.nmt.on_reset](Reset kind) {
+    seen->clear();
+    former(kind);
+  };
+}
+
+/// What was wrong on the bus stays an error until a reset.
+void errors_of_frames_stay(Parts& parts) {
+  parts.device.errors.clear.replace([](const auto& former, const ErrorCause& cause) {
+    if (cause.source != ErrorSource::rpdo && cause.source != ErrorSource::sync) former(cause);
+  });
+}
+
+How late_emergencies(Duration time) {
+  return [time](Parts& parts) {
+    parts.device.outbox.add_filter([time](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::emergency) return;
+      for (Outgoing& outgoing : frames) outgoing.delay += time;
+    });
   };
 }
 
@@ -148,6 +237,50 @@ VariantTable emergency_variants() {
        // Its second EMCY would come a second after each reset, in whatever case that is.
        .excludes = {"emcy-no-error-at-boot-up", "1015-1s"},
        .warns = {"EMCY-SEQ-03", "OD-1003-04", "EC-NG-08", "EC-HBC-02"}},
+      {.id = "error-ends-operational",
+       .summary = "any error ends Operational: the device is Pre-operational then",
+       .legal = "7.3.2.2: the application may change the state; 7.5.2.32: 1029h is optional",
+       .how = error_ends_operational,
+       .group = "1029",
+       .excludes = {"self-starting"},
+       .lacks = {"error behaviour"},
+       .warns = {"PDO-RX-14"}},
+      {.id = "error-prevents-operational",
+       .summary = "any error ends Operational, and while it lasts a start leads back to Pre-operational",
+       .legal = "7.3.2.2: the application may change the state; 7.5.2.32: 1029h is optional",
+       .how = error_prevents_operational,
+       .group = "1029",
+       .excludes = {"self-starting"},
+       .lacks = {"error behaviour"},
+       .warns = {"PDO-RX-14"}},
+      {.id = "1003-records-error-resets",
+       .summary = "EMCY 0000h is recorded in 1003h, too",
+       .legal = "OD-1003-15 tolerates it",
+       .how = [](Parts& node) { node.emergency.choices.error_resets_recorded = true; },
+       .warns = {"OD-1003-15"}},
+      {"1015-runs-from-setting",
+       "the first EMCY waits for the inhibit time, too, from its setting on",
+       "7.2.7.1: the time is the least between two; nothing is said of the first",
+       [](Parts& node) { node.emergency.choices.inhibited_from_setting = true; },
+       {},
+       {"1015"}},
+      {.id = "emcy-once-for-a-kind",
+       .summary = "errors of one kind are one error: the first is reported, and the end of the last",
+       .legal = "7.2.7.1: once for an error; PDO-RX-14 warns",
+       .how = one_flag_for_a_kind,
+       .warns = {"PDO-RX-14"}},
+      {.id = "emcy-for-each-frame",
+       .summary = "each SYNC or RPDO of a wrong length is an error of its own",
+       .legal = "EMCY-SEQ-01: once for an error event",
+       .how = an_error_for_each_frame,
+       .excludes = {"emcy-once-for-a-kind"}},
+      {.id = "errors-of-frames-stay",
+       .summary = "an error of a SYNC or an RPDO stays until a reset",
+       .legal = "7.2.7: when an error is over, the device says",
+       .how = errors_of_frames_stay,
+       .warns = {"EMCY-SEQ-02", "PDO-RX-14"}},
+      {"emcy-late-20ms", "EMCYs are sent 20 ms late", "7.2.7: no time is given",
+       late_emergencies(std::chrono::milliseconds(20))},
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},
       {.id = "emcy-no-error-at-boot-up",

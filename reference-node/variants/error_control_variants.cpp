@@ -47,6 +47,27 @@ VariantTable error_control_variants() {
        .warns = {"OD-1016-06"}},
       {"heartbeat-at-state-change", "one more heartbeat when the state changes", "EC-HBP-06",
        [](Parts& node) { node.producer.choices.at_state_change = true; }},
+      {"heartbeat-restarts-at-state-change",
+       "a heartbeat when the state changes, from which the period counts", "EC-HBP-06",
+       [](Parts& node) {
+         node.producer.choices.at_state_change = node.producer.choices.restarts_at_change = true;
+       }},
+      {"heartbeat-first-early",
+       "the first heartbeat comes half a period after boot-up",
+       "EC-HBP-05",
+       [](Parts& node) { node.producer.choices.first_early = true; },
+       {},
+       {"heartbeat-at-once"}},
+      {"heartbeat-from-the-last", "a new period counts from the last heartbeat", "EC-HBP-09",
+       [](Parts& node) { node.producer.choices.from_last = true; }},
+      {"consumer-pauses-in-stopped",
+       "monitoring ends in Stopped, and begins with the next heartbeat behind it", "EC-HBC",
+       [](Parts& node) {
+         node.nmt.on_change = [&node, former = node.nmt.on_change](NmtState from) {
+           former(from);
+           if (node.device.state == NmtState::stopped || from == NmtState::stopped) node.consumer.on_reset();
+         };
+       }},
       {"heartbeat-at-once", "the first heartbeat right after 1017h was written, and after boot-up",
        "EC-HBP-02, EC-HBP-05", [](Parts& node) { node.producer.choices.at_once = true; }},
       // What a busy bus adds must stay inside the tolerance of 10 %.

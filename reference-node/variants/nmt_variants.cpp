@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boot-up and the NMT state machine, where the standard leaves the when to the device.
 #include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "variants/tools.hpp"
@@ -42,6 +46,43 @@ How program_cycle(Duration cycle) {
   };
 }
 
+constexpr std::uint32_t lss_request = 0x7E5;
+
+/// A program that has room for one frame of each CAN-ID between two of its cycles.
+How newest_frame_in(Duration cycle) {
+  return [cycle](Parts& parts) {
+    parts.sdo.choices.block = false;
+    parts.device.inbox.add_filter([&device = parts.device, cycle](std::vector<Frame>& frames) {
+      const BusTime next = device.now + (cycle - device.now.time_since_epoch() % cycle);
+      // LSS has requests of several frames without an answer between them.
+      std::erase_if(frames, [&](const Frame& frame) {
+        if (frame.id == lss_request) return false;
+        device.inbox.put_newest(frame, next);
+        return true;
+      });
+    });
+  };
+}
+
+/// The command waits in the driver until the program looks for one.
+void obeys_behind_start_up(Parts& parts) {
+  const auto waiting = std::make_shared<std::optional<Frame>>();
+  parts.device.inbox.add_filter([&device = parts.device, waiting](std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) {
+      if (device.state == NmtState::initialising && frame.id == 0 && !frame.remote && frame.size() == 2)
+        *waiting = frame;
+    }
+  });
+  parts.nmt.on_boot_up = [&parts, waiting, former = parts.nmt.on_boot_up] {
+    former();
+    const auto command = std::exchange(*waiting, std::nullopt);
+    constexpr std::uint8_t reset_node = 0x81;
+    constexpr std::uint8_t reset_communication = 0x82;
+    if (command && command->data[0] != reset_node && command->data[0] != reset_communication)
+      parts.nmt.on_command(*command);
+  };
+}
+
 }  // namespace
 
 VariantTable nmt_variants() {
@@ -65,6 +106,15 @@ VariantTable nmt_variants() {
        .group = "late",
        .excludes = {"nmt-latency", "sdo-gap-at-once", "analog-inputs-noisy", "turnaround"},
        .warns = {"SDO-BUP-17", "SYNC-CON-09"}},
+      {.id = "newest-frame-in-5ms",
+       .summary = "frames are looked at once in 5 ms, and of one CAN-ID only the newest",
+       .legal = "CiA 301 gives no times",
+       .how = newest_frame_in(5ms),
+       .group = "late",
+       .excludes = {"nmt-latency", "analog-inputs-noisy", "turnaround", "sdo-block"},
+       .lacks = {"block sdo"}},
+      {"start-up-obeys-later", "a start, stop or enter pre-operational of the start-up is obeyed behind it",
+       "7.3.2.2.1: nothing is said of commands in Initialisation", obeys_behind_start_up},
       {"self-starting", "goes on into Operational after boot-up, as its 1F80h says",
        "CiA 302-2, 1F80h bit 2 = 0; NMT-BOOT-07 does not apply", start_by_itself},
   };

@@ -344,6 +344,27 @@ VariantTable pdo_variants() {
        .legal = "PDO-TX-14 tolerates it",
        .how = [](Parts& node) { node.pdos.tpdo.choices.sends_at_start_value = false; },
        .warns = {"PDO-TX-14"}},
+      {"tpdo-in-the-middle", "a TPDO of type n comes with SYNC n / 2 + 1 first", "PDO-TX-06",
+       [](Parts& node) { node.pdos.tpdo.choices.sends_in_the_middle = true; }},
+      {"tpdo-when-set", "a TPDO when Operational is entered, and when its parameters are written there",
+       "PDO-TX-07, PDO-TX-08",
+       [](Parts& node) {
+         node.pdos.tpdo.choices.initial_event = node.pdos.tpdo.choices.sent_when_set = true;
+       }},
+      {"tpdo-timer-from-the-last", "a new event time counts from the last TPDO",
+       "7.5.2.37: the longest interval", [](Parts& node) { node.pdos.tpdo.choices.timer_goes_on = true; }},
+      {"tpdo-on-write", "a write of what is mapped is an event, also of the value that there is",
+       "7.5.2.37: what an event is, the device and its profile say",
+       [](Parts& node) { node.pdos.tpdo.choices.write_is_event = true; }},
+      {"tpdo-inhibit-in-10-ms", "inhibit times are rounded up to 10 ms", "7.5.2.37: the shortest interval",
+       [](Parts& node) {
+         node.pdos.tpdo.parameters.rules.inhibit_time.replace(
+             [](const auto& former, const PdoParameters& pdo, std::int64_t value) {
+               return former(pdo, (value + 99) / 100 * 100);
+             });
+       }},
+      {"rpdo-length-at-sync", "the length of a synchronous RPDO is judged with the SYNC", "PDO-RX-06",
+       [](Parts& node) { node.pdos.rpdo.choices.judged_at_sync = true; }},
       {"rpdo-too-long-reported", "an RPDO that is too long causes EMCY 8220h", "PDO-RX-07",
        [](Parts& node) { node.pdos.rpdo.choices.too_long_reported = true; }},
       {"1400-bit-30", "bit 30 of the COB-ID of an RPDO is set", "OD-1400-14: do not care",

@@ -1,9 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <functional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "variants/variant.hpp"
 
 namespace refnode {
+
+namespace {
+
+/// A device with the habits of one stack, all at once: what goes with one of them goes with it.
+Variant like(std::string_view id, std::string_view summary, const VariantTable& all,
+             const std::vector<std::string_view>& habits) {
+  Variant row{.id = id,
+              .summary = summary,
+              .legal = "all of these at once, each for its own reason",
+              .how = {},
+              .group = "stack"};
+  std::vector<std::function<void(Parts&)>> changes;
+  const auto add = [](std::vector<std::string_view>& to, const std::vector<std::string_view>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (const std::string_view habit : habits) {
+    const auto found = std::ranges::find(all, habit, &Variant::id);
+    if (found == all.end()) continue;
+    changes.push_back(found->how);
+    row.excludes.push_back(found->id);
+    if (!found->group.empty()) row.excludes.push_back(found->group);
+    add(row.excludes, found->excludes);
+    add(row.lacks, found->lacks);
+    add(row.gains, found->gains);
+    add(row.warns, found->warns);
+  }
+  row.how = [changes = std::move(changes)](Parts& parts) {
+    for (const auto& change : changes) change(parts);
+  };
+  return row;
+}
+
+VariantTable stacks(const VariantTable& all) {
+  return {
+      like("like-canopennode", "habits of CANopenNode", all,
+           {"heartbeat-restarts-at-state-change",
+            "heartbeat-at-once",
+            "emcy-once-for-a-kind",
+            "emcy-manufacturer-bytes",
+            "1003-records-error-resets",
+            "error-reset-for-each",
+            "1015-runs-from-setting",
+            "error-prevents-operational",
+            "consumer-boot-up-loss",
+            "consumer-pauses-in-stopped",
+            "guarding-absent",
+            "1028-absent",
+            "tpdo-when-set",
+            "tpdo-in-the-middle",
+            "tpdo-without-remote-frames",
+            "rpdo-length-at-sync",
+            "rpdo-too-long-reported",
+            "sync-loss-reported",
+            "sync-with-data-ignored",
+            "sdo-busy-0504-0001",
+            "sdo-gap-at-once",
+            "lss-address-in-any-order",
+            "lss-without-identify",
+            "lss-without-identify-non-configured"}),
+      like("like-c-open", "habits of c-open", all,
+           {"heartbeat-from-the-last", "tpdo-timer-from-the-last", "emcy-for-each-frame",
+            "error-reset-for-each", "sdo-block-absent", "abort-lock-0800-0022", "lss-without-fastscan",
+            "lss-without-identify-non-configured", "1400-bit-30", "boot-up-at-once"}),
+      like("like-lely", "habits of lely-core", all,
+           {"emcy-for-each-frame", "error-reset-for-each", "rpdo-too-long-reported",
+            "abort-map-order-0609-0030", "sdo-busy-0800-0022", "tpdo-29-bit", "consumer-boot-up-new-start",
+            "locked-by-former-value"}),
+      like("like-canfestival", "habits of CanFestival", all,
+           {"emcy-once-for-a-kind", "emcy-dropped-in-stopped", "tpdo-initial", "sdo-time-out-10s",
+            "sdo-block-absent", "1015-absent", "1019-absent", "1029-absent", "1028-absent", "lss-absent",
+            "sdo-toggle-errors-ignored"}),
+      like("like-canopen-stack", "habits of canopen-stack of Embedded Office", all,
+           {"error-reset-for-each", "emcy-dropped-in-stopped", "1015-absent", "1028-absent", "1029-absent",
+            "guarding-absent", "tpdo-on-write", "tpdo-without-remote-frames", "1019-absent",
+            "tpdo-inhibit-in-10-ms", "sdo-time-out-10s", "boot-up-at-once"}),
+  };
+}
+
+}  // namespace
 
 std::span<const Variant> variants() {
   static const VariantTable all = [] {
@@ -14,6 +97,7 @@ std::span<const Variant> variants() {
           sdo_variants(), cob_id_variants()}) {
       for (Variant& row : table) joined.push_back(std::move(row));
     }
+    for (Variant& row : stacks(joined)) joined.push_back(std::move(row));
     return joined;
   }();
   return all;
