@@ -380,6 +380,10 @@ class SendSync final : public Action {
       // A value that can be read from 1019h: without a counter a SYNC has no data.
       if (*number > 0xFF) return fail_scenario("a SYNC counts in one byte");
       if (*number > 1) overflow = static_cast<std::uint8_t>(*number);
+    } else if (const auto counts = session.read({Index(0x1019), SubIndex(0)}); counts && counts->number) {
+      // A SYNC of another length may be an error to the device.
+      if (*counts->number > 1 && *counts->number <= 240)
+        overflow = static_cast<std::uint8_t>(*counts->number);
     }
     auto frame = can::data_frame(id, overflow ? Bytes{1} : Bytes());
     frame.extended = canopen::is_extended(cob_id);
@@ -402,7 +406,7 @@ class SendSync final : public Action {
  private:
   TimeReference every_;
   std::optional<std::uint64_t> count_;
-  Expression overflow_;  ///< empty: without counter
+  Expression overflow_;  ///< empty: as 1019h says
 };
 
 constexpr Verb table[] = {
@@ -421,7 +425,7 @@ constexpr Verb table[] = {
      "- mapped_data: {pdo: $pdo, save: held}", &PdoMapping::parse_data},
     {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.",
      "(word): once\nevery: time between two\ncount: how many\ncounter: overflow value: each has one byte that counts 1 to this and 1 again; 0: "
-     "no data",
+     "no data. Without it as 1019h says",
      "- send_sync: once\n- send_sync: {every: 50 ms, count: 10}\n- send_sync: {every: 50 ms, count: 10, counter: 4}",
      &SendSync::parse},
 };

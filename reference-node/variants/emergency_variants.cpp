@@ -126,10 +126,10 @@ void an_error_for_each_frame(Parts& parts) {
   };
 }
 
-/// What was wrong on the bus stays an error until a reset.
+/// A frame that was wrong, or an RPDO that was late, stays an error until a reset.
 void errors_of_frames_stay(Parts& parts) {
   parts.device.errors.clear.replace([](const auto& former, const ErrorCause& cause) {
-    if (cause.source != ErrorSource::rpdo && cause.source != ErrorSource::sync) former(cause);
+    if (cause.code >> 8U != 0x82) former(cause);
   });
 }
 
@@ -242,7 +242,7 @@ VariantTable emergency_variants() {
        .legal = "7.3.2.2: the application may change the state; 7.5.2.32: 1029h is optional",
        .how = error_ends_operational,
        .group = "1029",
-       .excludes = {"self-starting"},
+       .excludes = {"self-starting", "outputs-fall"},
        .lacks = {"error behaviour"},
        .warns = {"PDO-RX-14"}},
       {.id = "error-prevents-operational",
@@ -250,7 +250,7 @@ VariantTable emergency_variants() {
        .legal = "7.3.2.2: the application may change the state; 7.5.2.32: 1029h is optional",
        .how = error_prevents_operational,
        .group = "1029",
-       .excludes = {"self-starting"},
+       .excludes = {"self-starting", "outputs-fall"},
        .lacks = {"error behaviour"},
        .warns = {"PDO-RX-14"}},
       {.id = "1003-records-error-resets",
@@ -279,8 +279,11 @@ VariantTable emergency_variants() {
        .legal = "7.2.7: when an error is over, the device says",
        .how = errors_of_frames_stay,
        .warns = {"EMCY-SEQ-02", "PDO-RX-14"}},
-      {"emcy-late-20ms", "EMCYs are sent 20 ms late", "7.2.7: no time is given",
-       late_emergencies(std::chrono::milliseconds(20))},
+      {.id = "emcy-late-20ms",
+       .summary = "EMCYs are sent 20 ms late",
+       .legal = "7.2.7: no time is given",
+       .how = late_emergencies(std::chrono::milliseconds(20)),
+       .excludes = {"emcy-low-voltage-at-boot-up"}},
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},
       {.id = "emcy-no-error-at-boot-up",

@@ -346,11 +346,14 @@ VariantTable pdo_variants() {
        .warns = {"PDO-TX-14"}},
       {"tpdo-in-the-middle", "a TPDO of type n comes with SYNC n / 2 + 1 first", "PDO-TX-06",
        [](Parts& node) { node.pdos.tpdo.choices.sends_in_the_middle = true; }},
-      {"tpdo-when-set", "a TPDO when Operational is entered, and when its parameters are written there",
+      {"tpdo-when-set",
+       "a TPDO when Operational is entered, and when its parameters are written there",
        "PDO-TX-07, PDO-TX-08",
        [](Parts& node) {
          node.pdos.tpdo.choices.initial_event = node.pdos.tpdo.choices.sent_when_set = true;
-       }},
+       },
+       {},
+       {"late"}},
       {"tpdo-timer-from-the-last", "a new event time counts from the last TPDO",
        "7.5.2.37: the longest interval", [](Parts& node) { node.pdos.tpdo.choices.timer_goes_on = true; }},
       {"tpdo-on-write", "a write of what is mapped is an event, also of the value that there is",

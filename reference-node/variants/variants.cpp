@@ -27,9 +27,9 @@ Variant like(std::string_view id, std::string_view summary, const VariantTable& 
     const auto found = std::ranges::find(all, habit, &Variant::id);
     if (found == all.end()) continue;
     changes.push_back(found->how);
-    row.excludes.push_back(found->id);
-    if (!found->group.empty()) row.excludes.push_back(found->group);
-    add(row.excludes, found->excludes);
+    for (const Variant& other : all) {
+      if (!compatible(*found, other)) row.excludes.push_back(other.id);
+    }
     add(row.lacks, found->lacks);
     add(row.gains, found->gains);
     add(row.warns, found->warns);
