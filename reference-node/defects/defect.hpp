@@ -75,6 +75,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable sdo_channel_defects();
 [[nodiscard]] DefectTable sdo_length_defects();
 [[nodiscard]] DefectTable sdo_turn_defects();
+[[nodiscard]] DefectTable sdo_leftover_defects();
 [[nodiscard]] DefectTable dictionary_abort_defects();
 [[nodiscard]] DefectTable dictionary_defects();
 [[nodiscard]] DefectTable emergency_history_defects();

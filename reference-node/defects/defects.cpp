@@ -30,6 +30,7 @@ std::span<const Defect> defects() {
                                        sdo_channel_defects,
                                        sdo_length_defects,
                                        sdo_turn_defects,
+                                       sdo_leftover_defects,
                                        dictionary_abort_defects,
                                        dictionary_defects,
                                        emergency_history_defects,

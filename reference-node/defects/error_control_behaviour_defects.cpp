@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the error behaviour (1029h).
+#include <algorithm>
 #include <memory>
 
+#include "defects/heartbeats.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -48,6 +50,24 @@ void tpdos_outlive_operational(Parts& parts) {
   parts.device.works.replace([left](const auto& former, Service service, NmtState state) {
     return (service == Service::tpdo && *left) || former(service, state);
   });
+}
+
+/// What is lost beside a node that is lost already changes nothing.
+void behaves_with_first_loss_only(Parts& parts) {
+  parts.consumer.on_loss = [&parts, former = parts.consumer.on_loss] {
+    const auto lost = std::ranges::count(parts.emergency.active(), ErrorSource::heartbeat, &ErrorCause::source);
+    if (lost <= 1 && former) former();
+  };
+}
+
+/// Behind a loss every entry waits for a heartbeat again.
+void loss_ends_monitoring(Parts& parts) {
+  parts.consumer.on_loss = [&parts, former = parts.consumer.on_loss] {
+    for (std::uint8_t sub = 1; sub <= consumer_entries(parts); ++sub) {
+      if (parts.consumer.due(sub)) parts.consumer.on_written(sub);
+    }
+    if (former) former();
+  };
 }
 
 }  // namespace
@@ -113,6 +133,14 @@ DefectTable error_control_behaviour_defects() {
        "TPDOs go on when a lost heartbeat has ended Operational",
        {"PDO-TX-02"},
        Change(tpdos_outlive_operational)},
+      {"1029-second-loss-changes-nothing",
+       "A node that is lost while another one is lost already does not end Operational",
+       {"EC-EB-01"},
+       Change(behaves_with_first_loss_only)},
+      {"1016-loss-ends-monitoring-of-others",
+       "When a node is lost the others are not monitored until their next heartbeat",
+       {"EC-EB-01", "EC-HBC-13"},
+       Change(loss_ends_monitoring)},
   };
 }
 

@@ -20,6 +20,20 @@ constexpr std::uint8_t toggle_bit = 0x80;
 
 GuardingRules& of_guarding(Parts& parts) { return parts.guarding.rules; }
 
+void ends_operational_whatever(Parts& parts) {
+  parts.guarding.on_loss = [&parts] {
+    if (parts.device.state == NmtState::operational) parts.nmt.enter(NmtState::pre_operational);
+  };
+}
+
+void tells_life_guarding_again(const FilterContext& context, std::vector<Outgoing>& frames) {
+  constexpr std::uint8_t by_guarding = 4;
+  if (context.service != Service::emergency || frames.empty()) return;
+  const Frame frame = frames.front().frame;
+  if (frame.data[0] == 0x30 && frame.data[1] == 0x81 && frame.data[4] == by_guarding)
+    frames.push_back({frame, std::chrono::milliseconds(200)});
+}
+
 /// In Operational, where such a timer runs.
 void ends_with_event_timers(Parts& parts) {
   parts.guarding.rules.life_time.replace(
@@ -386,6 +400,28 @@ DefectTable life_rows() {
        "Life guarding does not work with stored parameters until they are written",
        {"EC-NG-07", "OD-RST-04"},
        Change(guards_with_written_parameters_only)},
+      {"life-guarding-ignores-1029",
+       "Guarding that stays away ends Operational, whatever 1029h:01 says",
+       {"EC-EB-02", "EC-EB-03"},
+       Change(ends_operational_whatever)},
+      {"life-time-factor-7-bits",
+       "Of the life time factor seven bits count",
+       {"EC-NG-07"},
+       decides(of_guarding, &GuardingRules::life_time,
+               [](const auto& former, std::uint64_t time, std::uint64_t factor) {
+                 return former(time, factor & 0x7FU);
+               })},
+      {"life-time-factor-1-is-off",
+       "With the life time factor 1 there is no life guarding",
+       {"EC-NG-07"},
+       decides(of_guarding, &GuardingRules::life_time,
+               [](const auto& former, std::uint64_t time, std::uint64_t factor) {
+                 return former(time, factor == 1 ? 0 : factor);
+               })},
+      {"life-guarding-event-told-again",
+       "While guarding stays away the event is told again after 200 ms",
+       {"EMCY-SEQ-01"},
+       Filter(tells_life_guarding_again)},
   };
 }
 

@@ -294,6 +294,10 @@ DefectTable error_control_monitoring_defects() {
        "An entry of 1016h that was stored monitors nobody until it is written",
        {"EC-HBC-03", "OD-RST-04"},
        Change(monitors_written_entries_only)},
+      {"heartbeat-put-off-by-nmt-command",
+       "With every change of the NMT state the time to the next heartbeat begins anew",
+       {"EC-HBP-10"},
+       ahead_of_state_change([](Parts& parts) { parts.producer.on_boot_up(); })},
   };
 }
 
