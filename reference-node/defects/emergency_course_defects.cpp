@@ -214,6 +214,31 @@ void valid_until_written(Parts& parts) {
       [written](const auto& former, std::uint32_t value) { return written->empty() || former(value); });
 }
 
+/// Behind the message of an end there is no inhibit time.
+void end_begins_no_inhibit_time(Parts& parts) {
+  const auto end = std::make_shared<bool>(false);
+  parts.device.outbox.add_filter([end](const FilterContext& context, const std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency || frames.empty()) return;
+    const Frame& frame = frames.front().frame;
+    *end = frame.data[0] == 0 && frame.data[1] == 0;
+  });
+  parts.emergency.rules.inhibit_time.replace([end](const auto& former, std::int64_t value) {
+    return *end ? Duration::zero() : former(value);
+  });
+}
+
+/// An EMCY shows the bits of its own error, whatever else is wrong.
+void shows_own_bits(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency) return;
+    for (Outgoing& outgoing : frames) {
+      auto& data = outgoing.frame.data;
+      const auto code = static_cast<std::uint16_t>(data[0] | (data[1] << 8U));
+      if (code != 0) data[2] = parts.emergency.rules.register_bits(code);
+    }
+  });
+}
+
 }  // namespace
 
 DefectTable emergency_course_defects() {
@@ -278,6 +303,21 @@ DefectTable emergency_course_defects() {
        "A change of the NMT state ends the inhibit time of 1015h",
        {"EMCY-INH-01"},
        Change(inhibit_time_ends_with_the_state)},
+      {"1015-15-bits",
+       "Of the inhibit time of EMCY 15 bits count",
+       {"EMCY-INH-01"},
+       Change([](Parts& parts) {
+         parts.emergency.rules.inhibit_time.replace(
+             [](const auto& former, std::int64_t value) { return former(value & 0x7FFF); });
+       })},
+      {"emcy-end-begins-no-inhibit-time",
+       "The message that all errors are gone begins no inhibit time",
+       {"EMCY-INH-01"},
+       Change(end_begins_no_inhibit_time)},
+      {"emcy-register-of-own-error-only",
+       "The error register in an EMCY has the bits of that error only",
+       {"EMCY-FMT-03"},
+       Change(shows_own_bits)},
       {"1014-stored-valid-bit-ignored",
        "An EMCY that was stored as not valid is sent until 1014h is written",
        {"OD-1014-08"},

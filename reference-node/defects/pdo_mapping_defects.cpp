@@ -143,6 +143,34 @@ void uses_the_default_until_written(Parts& parts) {
       });
 }
 
+/// A count of mapped objects is taken if `fits` says so of the bits they make up, too long or not.
+Change counts_bits(std::uint16_t first, bool (*fits)(std::size_t bits)) {
+  return [first, fits](Parts& parts) {
+    for (std::uint16_t index = first; index <= first + last_pdo; ++index) {
+      checking(index, 0, [index, fits](Parts& node, const Check& former, ByteView bytes) -> Accepted {
+        const Accepted done = former(bytes);
+        if (done || done.error() != abort_code::mapping_too_long) return done;
+        std::size_t bits = 0;
+        for (std::uint8_t sub = 1; sub <= conform::load_le(bytes); ++sub)
+          bits += node.device.dictionary.number(index, sub) & 0xFFU;
+        return fits(bits) ? Accepted() : done;
+      })(parts);
+    }
+  };
+}
+
+/// What is received for a placeholder of these types is as long as `bits` says.
+Change skips(std::uint16_t signed_type, std::uint16_t unsigned_type, std::uint8_t bits) {
+  return decides(rpdo_parameters, &PdoRules::mapping,
+                 [=](const auto& former, const PdoParameters& pdo, const std::vector<Mapped>& counted) {
+                   std::vector<Mapped> all = former(pdo, counted);
+                   for (Mapped& mapped : all) {
+                     if (mapped.index == signed_type || mapped.index == unsigned_type) mapped.bits = bits;
+                   }
+                   return all;
+                 });
+}
+
 }  // namespace
 
 DefectTable pdo_mapping_defects() {
@@ -330,6 +358,34 @@ DefectTable pdo_mapping_defects() {
        "TPDOs are sent with the default mapping until 1A00h:00 is written, whatever was stored",
        {"OD-RST-04"},
        Change(uses_the_default_until_written)},
+      {"1a00-bits-counted-in-8-bits",
+       "The bits that are mapped to a TPDO are counted in eight bits: 256 are none",
+       {"OD-1A00-09"},
+       counts_bits(0x1A00, [](std::size_t bits) { return bits % 256 <= 64; })},
+      {"1600-bits-counted-in-8-bits",
+       "The bits that are mapped to an RPDO are counted in eight bits: 256 are none",
+       {"OD-1600-09"},
+       counts_bits(0x1600, [](std::size_t bits) { return bits % 256 <= 64; })},
+      {"1a00-72-bits-taken",
+       "A mapping of nine bytes is taken for a TPDO",
+       {"OD-1A00-09"},
+       counts_bits(0x1A00, [](std::size_t bits) { return bits <= 72; })},
+      {"1600-72-bits-taken",
+       "A mapping of nine bytes is taken for an RPDO",
+       {"OD-1600-09"},
+       counts_bits(0x1600, [](std::size_t bits) { return bits <= 72; })},
+      {"rpdo-placeholder-of-16-bits-skips-8",
+       "A placeholder of 16 bits skips one byte of an RPDO",
+       {"PDO-MAP-15"},
+       skips(0x0003, 0x0006, 8)},
+      {"rpdo-placeholder-of-32-bits-skips-16",
+       "A placeholder of 32 bits skips two bytes of an RPDO",
+       {"PDO-MAP-15"},
+       skips(0x0004, 0x0007, 16)},
+      {"rpdo-placeholder-integer8-skips-nothing",
+       "The placeholder INTEGER8 skips no byte of an RPDO",
+       {"PDO-MAP-15"},
+       skips(0x0002, 0x0002, 0)},
   };
 }
 

@@ -222,6 +222,27 @@ void locked_by_a_wrong_signature(Parts& parts) {
   with_boot_up([locked](Parts&) { *locked = false; })(parts);
 }
 
+/// In Operational a right command is confirmed and nothing is done.
+Change does_nothing_in_operational(std::uint16_t index, std::uint32_t signature) {
+  return checking_all(index, [signature](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) {
+    const bool right = bytes.size() == 4 && conform::load_le(bytes) == signature;
+    if (right && parts.device.state == NmtState::operational) return Accepted();
+    return former(bytes);
+  });
+}
+
+/// With the communication parameters stored anew the application parameters in the memory are gone.
+Change stores_one_group_only() {
+  return checking(0x1010, 2, [](Parts& parts, const Check& former, ByteView bytes) -> Accepted {
+    const Accepted done = former(bytes);
+    if (!done) return done;
+    Images images = parts.store.memory->images();
+    images.erase(Group::application);
+    if (!parts.store.memory->replace(std::move(images))) return refuse(abort_code::hardware_error);
+    return {};
+  });
+}
+
 }  // namespace
 
 DefectTable storage_defects() {
@@ -448,6 +469,18 @@ DefectTable storage_defects() {
        "What is stored behind \"load\" is confirmed, and the defaults come with the reset",
        {"OD-1010-10"},
        Change(restore_outlives_save)},
+      {"1010-confirmed-without-effect-in-operational",
+       "In Operational \"save\" is confirmed and nothing is stored",
+       {"OD-1010-15"},
+       does_nothing_in_operational(0x1010, 0x65766173)},
+      {"1011-confirmed-without-effect-in-operational",
+       "In Operational \"load\" is confirmed and nothing is restored",
+       {"OD-1011-10"},
+       does_nothing_in_operational(0x1011, 0x64616F6C)},
+      {"1010-communication-erases-application",
+       "Storing the communication parameters erases the application parameters that were stored",
+       {"OD-1010-12"},
+       stores_one_group_only()},
       {"1010-locked-by-wrong-signature",
        "Behind a wrong signature 1010h refuses the right one, until a reset",
        {"OD-1010-07"},

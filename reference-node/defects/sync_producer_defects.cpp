@@ -230,6 +230,13 @@ DefectTable switch_rows() {
 
 DefectTable period_rows() {
   return {
+      {"1006-24-bits",
+       "Of the SYNC period 24 bits count",
+       {"SYNC-PRO-01"},
+       Change([](Parts& parts) {
+         parts.sync_producer.rules.period.replace(
+             [](const auto& former, std::int64_t value) { return former(value & 0xFFFFFF); });
+       })},
       {"sync-period-in-ms",
        "1006h counts milliseconds",
        {"SYNC-PRO-01", "OD-1006-05", "OD-1005-09"},
