@@ -222,9 +222,8 @@ void end_begins_no_inhibit_time(Parts& parts) {
     const Frame& frame = frames.front().frame;
     *end = frame.data[0] == 0 && frame.data[1] == 0;
   });
-  parts.emergency.rules.inhibit_time.replace([end](const auto& former, std::int64_t value) {
-    return *end ? Duration::zero() : former(value);
-  });
+  parts.emergency.rules.inhibit_time.replace(
+      [end](const auto& former, std::int64_t value) { return *end ? Duration::zero() : former(value); });
 }
 
 /// An EMCY shows the bits of its own error, whatever else is wrong.
@@ -303,10 +302,7 @@ DefectTable emergency_course_defects() {
        "A change of the NMT state ends the inhibit time of 1015h",
        {"EMCY-INH-01"},
        Change(inhibit_time_ends_with_the_state)},
-      {"1015-15-bits",
-       "Of the inhibit time of EMCY 15 bits count",
-       {"EMCY-INH-01"},
-       Change([](Parts& parts) {
+      {"1015-15-bits", "Of the inhibit time of EMCY 15 bits count", {"EMCY-INH-01"}, Change([](Parts& parts) {
          parts.emergency.rules.inhibit_time.replace(
              [](const auto& former, std::int64_t value) { return former(value & 0x7FFF); });
        })},

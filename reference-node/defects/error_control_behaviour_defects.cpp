@@ -55,7 +55,8 @@ void tpdos_outlive_operational(Parts& parts) {
 /// What is lost beside a node that is lost already changes nothing.
 void behaves_with_first_loss_only(Parts& parts) {
   parts.consumer.on_loss = [&parts, former = parts.consumer.on_loss] {
-    const auto lost = std::ranges::count(parts.emergency.active(), ErrorSource::heartbeat, &ErrorCause::source);
+    const auto lost =
+        std::ranges::count(parts.emergency.active(), ErrorSource::heartbeat, &ErrorCause::source);
     if (lost <= 1 && former) former();
   };
 }

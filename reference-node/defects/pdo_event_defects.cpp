@@ -84,10 +84,11 @@ Change writes_type_quietly(std::uint16_t index) {
 
 /// Whether a mapped object has changed is seen by what `looked_at` makes of the data.
 Change sees_change_by(Bytes (*looked_at)(const Bytes&)) {
-  return decides(tpdo_traffic, &TransmitPdoRules::is_event,
-                 [looked_at](const auto& former, const PdoParameters& pdo, const Bytes& sent, const Bytes& now) {
-                   return former(pdo, sent, now) && looked_at(sent) != looked_at(now);
-                 });
+  return decides(
+      tpdo_traffic, &TransmitPdoRules::is_event,
+      [looked_at](const auto& former, const PdoParameters& pdo, const Bytes& sent, const Bytes& now) {
+        return former(pdo, sent, now) && looked_at(sent) != looked_at(now);
+      });
 }
 
 Bytes sum_of(const Bytes& data) {
@@ -95,24 +96,26 @@ Bytes sum_of(const Bytes& data) {
   for (const std::uint8_t byte : data) sum = static_cast<std::uint8_t>(sum + byte);
   return {sum};
 }
-Bytes first_four_of(const Bytes& data) { return {data.begin(), data.begin() + std::min<std::ptrdiff_t>(4, std::ssize(data))}; }
+Bytes first_four_of(const Bytes& data) {
+  return {data.begin(), data.begin() + std::min<std::ptrdiff_t>(4, std::ssize(data))};
+}
 
 /// TPDOs without an inhibit time wait for the end of the one that another TPDO has begun.
 void shares_inhibit_time(Parts& parts) {
-  parts.device.outbox.add_filter([&parts, until = BusTime{}](const FilterContext& context,
-                                                             std::vector<Outgoing>& frames) mutable {
-    if (context.service != Service::tpdo || frames.empty()) return;
-    const ObjectDictionary& od = parts.device.dictionary;
-    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
-      if ((od.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
-      const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
-      if (own > Duration::zero()) {
-        until = context.now + own;
-      } else if (context.now < until) {
-        for (Outgoing& outgoing : frames) outgoing.delay = until - context.now;
-      }
-    }
-  });
+  parts.device.outbox.add_filter(
+      [&parts, until = BusTime{}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+        if (context.service != Service::tpdo || frames.empty()) return;
+        const ObjectDictionary& od = parts.device.dictionary;
+        for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+          if ((od.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
+          const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
+          if (own > Duration::zero()) {
+            until = context.now + own;
+          } else if (context.now < until) {
+            for (Outgoing& outgoing : frames) outgoing.delay = until - context.now;
+          }
+        }
+      });
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of what one SDO transfer leaves to the next: toggle bit, position, data, sequence number, size, CRC.
-// And of what holds for one kind of transfer only: sizes that are cut, values that are not looked at or not
-// put into effect.
+// Defects of what one SDO transfer leaves to the next: toggle bit, position, data, sequence number, size,
+// CRC. And of what holds for one kind of transfer only: sizes that are cut, values that are not looked at or
+// not put into effect.
 #include <cstddef>
 #include <functional>
 #include <memory>

@@ -230,10 +230,7 @@ DefectTable switch_rows() {
 
 DefectTable period_rows() {
   return {
-      {"1006-24-bits",
-       "Of the SYNC period 24 bits count",
-       {"SYNC-PRO-01"},
-       Change([](Parts& parts) {
+      {"1006-24-bits", "Of the SYNC period 24 bits count", {"SYNC-PRO-01"}, Change([](Parts& parts) {
          parts.sync_producer.rules.period.replace(
              [](const auto& former, std::int64_t value) { return former(value & 0xFFFFFF); });
        })},
