@@ -22,7 +22,7 @@ Change deaf_to_state(std::uint8_t state) {
 }
 
 template <typename Rules>
-Change takes_time_for(Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule,
+Change takes_time_for(Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::*rule,
                       std::int64_t (*other)(std::int64_t)) {
   return decides(part, rule,
                  [other](const auto& former, std::int64_t value) { return former(other(value)); });
@@ -224,6 +224,17 @@ DefectTable error_control_monitoring_defects() {
        "Two entries of 1016h for one node are accepted when their times differ",
        {"OD-1016-06"},
        compares_whole_entries()},
+      {"hbc-begins-with-own-heartbeat",
+       "Writing 1017h begins the monitoring of other nodes, whether or not they were heard",
+       {"EC-HBC-02"},
+       after_writing(0x1017, 0,
+                     [](Parts& parts, const Written& former) {
+                       former();
+                       constexpr std::uint8_t operational = 5;
+                       for (std::uint8_t sub = 1; sub <= 4; ++sub)
+                         parts.consumer.on_heartbeat(
+                             monitored_node(parts.device.dictionary.number(0x1016, sub)), operational);
+                     })},
       {"hbc-other-entry-ends-monitoring",
        "Writing another entry of 1016h ends the monitoring of the first",
        {"EC-HBC-13"},
