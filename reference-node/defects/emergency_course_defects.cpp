@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
@@ -238,6 +239,21 @@ void shows_own_bits(Parts& parts) {
   });
 }
 
+/// Of several errors the register, and every EMCY, shows the bits of one: `which` of those that are present.
+Change shows_bits_of_one(const ErrorCause& (*which)(const std::vector<ErrorCause>& present)) {
+  return [which](Parts& parts) {
+    const auto shown = [&parts, which]() -> std::uint8_t {
+      const auto& present = parts.emergency.active();
+      return present.empty() ? 0 : parts.emergency.rules.register_bits(which(present).code);
+    };
+    reading(0x1001, 0, [shown](Parts&, const Read&) -> Upload { return Bytes{shown()}; })(parts);
+    parts.device.outbox.add_filter([shown](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::emergency) return;
+      for (Outgoing& outgoing : frames) outgoing.frame.data[2] = shown();
+    });
+  };
+}
+
 }  // namespace
 
 DefectTable emergency_course_defects() {
@@ -302,7 +318,18 @@ DefectTable emergency_course_defects() {
        "A change of the NMT state ends the inhibit time of 1015h",
        {"EMCY-INH-01"},
        Change(inhibit_time_ends_with_the_state)},
-      {"1015-15-bits", "Of the inhibit time of EMCY 15 bits count", {"EMCY-INH-01"}, Change([](Parts& parts) {
+      {"1001-bits-of-first-error-only",
+       "Of several errors the error register shows the bits of the first",
+       {"OD-1001-05"},
+       shows_bits_of_one([](const std::vector<ErrorCause>& present) -> const ErrorCause& { return present.front(); })},
+      {"1001-bits-of-last-error-only",
+       "Of several errors the error register shows the bits of the last",
+       {"OD-1001-05"},
+       shows_bits_of_one([](const std::vector<ErrorCause>& present) -> const ErrorCause& { return present.back(); })},
+      {"1015-15-bits",
+       "Of the inhibit time of EMCY 15 bits count",
+       {"EMCY-INH-01"},
+       Change([](Parts& parts) {
          parts.emergency.rules.inhibit_time.replace(
              [](const auto& former, std::int64_t value) { return former(value & 0x7FFF); });
        })},

@@ -345,6 +345,12 @@ DefectTable error_control_heartbeat_defects() {
          const std::uint8_t last = consumer_entries(parts);
          return is_heartbeat(frame) && node_at(parts, last) == producer_of(frame);
        })},
+      {"hbc-third-entry-not-monitored",
+       "What the third entry of 1016h names is not monitored",
+       {"EC-HBC-13"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return is_heartbeat(frame) && node_at(parts, 3) == producer_of(frame);
+       })},
       {"hbc-node-127-not-monitored",
        "An entry of 1016h for node 127 is taken and not monitored",
        {"EC-HBC-03"},

@@ -309,6 +309,12 @@ DefectTable lss_defects() {
        Change([](Parts& parts) {
          if (Entry* entry = parts.device.dictionary.entry(0x1014, 0)) entry->adds_node_id = false;
        })},
+      {"1200-response-cob-id-keeps-former-node-id",
+       "1200h:02 keeps the CAN-ID of the former node-ID",
+       {"LSS-CN-04", "OD-RST-06"},
+       Change([](Parts& parts) {
+         if (Entry* entry = parts.device.dictionary.entry(0x1200, 2)) entry->adds_node_id = false;
+       })},
       {"lss-bit-rate-125-refused",
        "The bit rate of 125 kbit/s is refused",
        {"LSS-BT-01"},

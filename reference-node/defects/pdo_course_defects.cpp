@@ -292,6 +292,43 @@ void waiting_change_outlives_operational(Parts& parts) {
   })(parts);
 }
 
+/// What the mapping of an RPDO holds beyond its count receives what comes beyond the mapped bytes, where that is
+/// as long as the object.
+void fills_beyond_the_count(Parts& parts) {
+  misreads([](Parts& node, Frame& frame) {
+    ObjectDictionary& od = node.device.dictionary;
+    if (frame.extended || frame.remote || node.device.state != NmtState::operational) return;
+    for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+      const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
+      if (frame.id != (od.number(static_cast<std::uint16_t>(0x1400 + number), 1) & 0x7FFU)) continue;
+      const auto count = static_cast<std::uint8_t>(od.number(mapping, 0));
+      std::size_t at = 0;
+      for (std::uint8_t sub = 1; sub <= count; ++sub) at += (od.number(mapping, sub) & 0xFFU) / 8;
+      const Mapped next = Mapped::unpack(od.number(mapping, static_cast<std::uint8_t>(count + 1)));
+      Entry* entry = od.entry(next.index, next.sub);
+      if (count == 0 || entry == nullptr || !entry->rx_mappable) continue;
+      if (frame.size() < at + entry->value.size()) continue;
+      const auto from = frame.data.begin() + static_cast<std::ptrdiff_t>(at);
+      entry->value.assign(from, from + std::ssize(entry->value));
+    }
+  })(parts);
+}
+
+/// The acceptance filter of RPDOs compares ten bits; what belongs to another service has been taken out before.
+void compares_ten_bits(Parts& parts) {
+  misreads([](Parts& node, Frame& frame) {
+    constexpr std::uint32_t highest_bit = 0x400;
+    constexpr std::uint32_t first_of_sdo = 0x580;
+    if (frame.extended || frame.remote || frame.id <= sync_can_id || frame.id >= first_of_sdo) return;
+    for (std::uint16_t index = 0x1400; index <= 0x1400 + last_pdo; ++index) {
+      if (node.device.dictionary.number(index, 1) == (frame.id ^ highest_bit)) {
+        frame.id ^= highest_bit;
+        return;
+      }
+    }
+  })(parts);
+}
+
 }  // namespace
 
 DefectTable pdo_course_defects() {
@@ -374,6 +411,14 @@ DefectTable pdo_course_defects() {
        "Of several changes within the inhibit time the first one is sent at its end",
        {"PDO-TX-01"},
        Change(sends_the_first_change)},
+      {"rpdo-fills-beyond-the-count",
+       "A longer RPDO fills what its mapping holds beyond the number of mapped objects",
+       {"PDO-RX-07"},
+       Change(fills_beyond_the_count)},
+      {"rpdo-can-id-10-bits",
+       "The CAN-ID of an RPDO is compared in ten bits",
+       {"OD-1400-11"},
+       Change(compares_ten_bits)},
       {"tpdo-waiting-sent-when-not-valid",
        "A change that waits for the inhibit time is sent although the TPDO is not valid any more",
        {"OD-1800-06", "OD-1800-09"},

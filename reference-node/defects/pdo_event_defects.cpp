@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -116,6 +117,43 @@ void shares_inhibit_time(Parts& parts) {
           }
         }
       });
+}
+
+/// A TPDO waits until its inhibit time is over, counted from the start of Operational.
+void inhibits_from_the_start(Parts& parts) {
+  const auto started = std::make_shared<BusTime>();
+  ahead_of_state_change([started](Parts& node) {
+    if (node.device.state == NmtState::operational) *started = node.device.now;
+  })(parts);
+  parts.device.outbox.add_filter([&parts, started](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo || frames.empty()) return;
+    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+      if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
+      const BusTime end = *started + std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
+      if (context.now < end) {
+        for (Outgoing& outgoing : frames) outgoing.delay = end - context.now;
+      }
+    }
+  });
+}
+
+/// An inhibit time that is running holds the TPDO back until its end, whatever is written meanwhile.
+void inhibit_time_outlives_change(Parts& parts) {
+  const auto until = std::make_shared<std::map<std::uint32_t, BusTime>>();
+  ahead_of_state_change([until](Parts&) { until->clear(); })(parts);
+  parts.device.outbox.add_filter([&parts, until](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo || frames.empty()) return;
+    const std::uint32_t id = frames.front().frame.id;
+    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+      if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != id) continue;
+      const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
+      if (own > Duration::zero()) {
+        (*until)[id] = context.now + own;
+      } else if (context.now < (*until)[id]) {
+        for (Outgoing& outgoing : frames) outgoing.delay = (*until)[id] - context.now;
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -338,6 +376,14 @@ DefectTable pdo_event_defects() {
        "A change behind the first four bytes of a TPDO is no event",
        {"PDO-TX-08"},
        sees_change_by(first_four_of)},
+      {"tpdo-inhibit-time-from-the-start",
+       "The inhibit time of a TPDO runs from the start of Operational, whether it was sent or not",
+       {"PDO-TX-08"},
+       Change(inhibits_from_the_start)},
+      {"tpdo-inhibit-time-outlives-change",
+       "The inhibit time that runs goes on where the TPDO was switched off and on with another one",
+       {"PDO-TX-08"},
+       Change(inhibit_time_outlives_change)},
       {"tpdo-inhibit-time-shared",
        "The inhibit time of one TPDO holds back the others as well",
        {"PDO-TX-08"},

@@ -162,6 +162,16 @@ void segmented_size_left(Parts& parts) {
     return former(received, *untold ? told->value_or(most) : most);
   });
 }
+void refuses_eight_untold_bytes(Parts& parts) {
+  const auto untold = std::make_shared<bool>(false);
+  of_segments(parts).granted.replace([untold](const auto& former, Multiplexer mux, Size announced) {
+    *untold = !announced;
+    return former(mux, announced);
+  });
+  of_segments(parts).fits.replace([untold](const auto& former, std::size_t received, std::size_t most) {
+    return former(received, most) && !(*untold && received == 8 && most == 8);
+  });
+}
 void block_size_left(Parts& parts) {
   const auto told = std::make_shared<Size>();
   auto& rules = parts.sdo.rules.block_download;
@@ -343,6 +353,10 @@ DefectTable sdo_leftover_defects() {
        "Of the size that a block download tells 24 bits count",
        {"SDO-BDN-12"},
        [](Parts& parts) { block_size_cut(parts, 24); }},
+      {"segmented-download-of-8-bytes-needs-size",
+       "A segmented download that tells no size cannot have eight bytes",
+       {"SDO-SDN-02"},
+       Change(refuses_eight_untold_bytes)},
       {"block-download-lower-number-taken",
        "A segment with a lower number than the last one is taken, and counting goes on from there",
        {"SDO-BDN-07"},
