@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/baseline.hpp"
+#include "engine/liveness.hpp"
 
 namespace conform::engine {
 namespace {
@@ -28,7 +29,8 @@ Result<void> LastingErrors::look() {
 
 Result<void> LastingErrors::end_those_of(const result::CaseResult& result) {
   if (auto done = let_emcy_end(result.first_frame); !done) return done;
-  return clear_what_stays(result);
+  if (auto done = clear_what_stays(result); !done) return done;
+  return await_error_reset(result.first_frame);
 }
 
 Result<bool> LastingErrors::has_errors() {
@@ -67,6 +69,40 @@ Result<void> LastingErrors::let_emcy_end(std::size_t from) {
     if (!latest || *latest + inhibit + margin <= session.now()) return {};
     if (auto waited = session.wait_until(*latest + inhibit + margin); !waited) return waited;
   }
+  return {};
+}
+
+/// An error that has gone may be told of later (EMCY 0000h): in the next case it would be an EMCY out of
+/// nowhere.
+Result<void> LastingErrors::await_error_reset(std::size_t from) {
+  constexpr auto patience = std::chrono::milliseconds(500);
+  constexpr int most_in_vain = 3;
+  if (in_vain_ >= most_in_vain || !run_.may(scenario::Risk::config)) return {};
+  auto& session = run_.session;
+  const auto& frames = run_.recorder.capture().frames();
+  const auto restarted = is_boot_up_of(run_.profile.node);
+  for (auto i = frames.size();; --i) {
+    // Nothing was told, or a reset has made the device forget.
+    if (i == from || restarted(frames[i - 1])) return {};
+    const auto& frame = frames[i - 1].frame;
+    if (frames[i - 1].direction != can::Direction::received || !frame.is_data(session.emcy_can_id()) ||
+        frame.size() != 8)
+      continue;
+    if (frame.data[0] == 0 && frame.data[1] == 0) return {};
+    break;
+  }
+  const auto next = frames.size();
+  auto stays = has_errors();
+  if (!stays) return std::unexpected(stays.error());
+  if (*stays) return {};
+  auto told = run_.recorder.find(
+      next,
+      [id = session.emcy_can_id()](const can::CapturedFrame& captured) {
+        return captured.direction == can::Direction::received && captured.frame.is_data(id);
+      },
+      session.now() + patience);
+  if (!told) return std::unexpected(told.error());
+  if (!*told) ++in_vain_;
   return {};
 }
 

@@ -42,12 +42,15 @@ bool holds(const Actual& actual, const Bytes& written) {
 
 /// 00h is a visible character as well, and ends or fills the text of many a device; no description can say
 /// so.
-Bytes as_described(const Actual& actual) {
-  Bytes data = actual.data;
-  if (actual.type == canopen::DataType::visible_string) {
-    while (!data.empty() && data.back() == 0) data.pop_back();
-  }
-  return data;
+Bytes without_end(Bytes text) {
+  while (!text.empty() && text.back() == 0) text.pop_back();
+  return text;
+}
+
+/// Whether an entry holds what its description says of it.
+bool as_described(const Actual& actual, const Bytes& described) {
+  if (actual.type != canopen::DataType::visible_string) return actual.data == described;
+  return without_end(actual.data) == without_end(described);
 }
 
 Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
@@ -105,7 +108,7 @@ Result<bool> meets(const Demand& demand, const Actual& actual, Scope& scope) {
     if (!value) return std::unexpected(value.error());
     mask = *value;
   } else if (wanted->bytes) {
-    return *wanted->bytes == (demand.value.is_declared() ? as_described(actual) : actual.data);
+    return demand.value.is_declared() ? as_described(actual, *wanted->bytes) : *wanted->bytes == actual.data;
   } else if (wanted->word) {
     return std::ranges::equal(*wanted->word, actual.data, {}, {},
                               [](std::uint8_t byte) { return static_cast<char>(byte); });

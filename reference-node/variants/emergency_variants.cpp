@@ -34,6 +34,33 @@ void fill_manufacturer_bytes(Parts& parts) {
   });
 }
 
+/// A queue of its own, or a filter for errors that come and go.
+How late(std::function<Duration(std::uint16_t code)> by) {
+  return [by = std::move(by)](Parts& parts) {
+    parts.device.outbox.add_filter([by](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::emergency) return;
+      for (Outgoing& outgoing : frames)
+        outgoing.delay += by(static_cast<std::uint16_t>(conform::load_le(outgoing.frame.bytes().first(2))));
+    });
+  };
+}
+
+/// What follows from the loss is an error of the maker's own.
+void second_error_of_a_loss(Parts& parts) {
+  const auto followed = [](const ErrorCause& cause) { return cause.code == 0x8130; };
+  const auto second = [](const ErrorCause& cause) {
+    return ErrorCause{0xFF30, cause.source, cause.instance};
+  };
+  parts.device.errors.raise.replace([=](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+    former(cause, detail);
+    if (followed(cause)) former(second(cause), detail);
+  });
+  parts.device.errors.clear.replace([=](const auto& former, const ErrorCause& cause) {
+    if (followed(cause)) former(second(cause));
+    former(cause);
+  });
+}
+
 /// Some power is missing, which is of interest in Operational only.
 void error_in_operational(Parts& parts) {
   parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
@@ -176,13 +203,16 @@ VariantTable emergency_variants() {
        .legal = "7.2.7.1: an EMCY when the error occurs; NMT-FSA-01: 1001h shows it",
        .how = error_in_operational,
        .excludes = {"self-starting"}},
-      {"emcy-late-20ms", "EMCYs leave 20 ms after their error", "7.2.7: no time is set",
-       [](Parts& parts) {
-         parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
-           if (context.service != Service::emergency) return;
-           for (Outgoing& outgoing : frames) outgoing.delay += std::chrono::milliseconds(20);
-         });
-       }},
+      {"emcy-late-90ms", "EMCYs leave 90 ms after their error", "7.2.7: no time is set",
+       late([](std::uint16_t) { return std::chrono::milliseconds(90); }), "emcy-late"},
+      {"emcy-0000-late-300ms", "the end of an error is told 300 ms later", "7.2.7: no time is set",
+       late([](std::uint16_t code) { return std::chrono::milliseconds(code == 0 ? 300 : 0); }), "emcy-late"},
+      {"emcy-second-of-the-maker",
+       "a second error, FF30h, goes with each loss of a heartbeat or of the guarding",
+       "7.2.7: table 26 leaves FFxxh to the device",
+       second_error_of_a_loss,
+       {},
+       {"emcy-absent-nothing-is-an-error", "1003"}},
       {"1015-absent", "no EMCY inhibit time", "7.5.2.18: optional", absent({0x1015}), "1015"},
       {"1014-const", "the COB-ID of EMCY cannot be changed", "OD-1014-09",
        access(0x1014, 0, Access::constant)},

@@ -110,6 +110,12 @@ VariantTable pdo_variants() {
        .group = "rpdo"},
       {"tpdos-start-at-sync-3", "TPDOs wait for SYNC 3 by default", "7.5.2.37: a SYNC start value",
        of_all(0x1800, [](std::uint16_t index) { return preset(index, 6, 3); }), "1800-timers"},
+      {"tpdos-start-at-sync-2-const", "TPDOs wait for SYNC 2, which cannot be changed",
+       "7.5.2.37: a SYNC start value",
+       of_all(
+           0x1800,
+           [](std::uint16_t index) { return both(preset(index, 6, 2), access(index, 6, Access::constant)); }),
+       "1800-timers"},
       {"rpdos-deadline-200ms", "a deadline of 200 ms for every RPDO by default", "OD-1400-20: an event timer",
        of_all(0x1400, [](std::uint16_t index) { return preset(index, 5, 200); }), "1400-subs"},
       {"1403-const", "COB-ID, inhibit time and mapping of the last RPDO cannot be changed",

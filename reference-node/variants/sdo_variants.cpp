@@ -252,7 +252,7 @@ VariantTable sdo_variants() {
        "7.2.4.3.6: n tells how many bytes of a segment hold no data",
        choose([](SdoChoices& c) { c.upload_segment = 1; }),
        "upload-segment",
-       {"sdo-expedited-only", "sdo-short-in-segments", "turnaround"}},
+       {"sdo-expedited-only", "turnaround"}},
       {"sdo-toggle-errors-ignored", "a segment with the wrong toggle bit is ignored",
        "SDO-SUP-05, -06; SDO-SDN-04, -05", choose([](SdoChoices& c) { c.toggle_errors_ignored = true; })},
       {.id = "sdo-block-absent",
@@ -272,7 +272,7 @@ VariantTable sdo_variants() {
        "7.2.4.2.12: optional",
        choose([](SdoChoices& c) { c.block_upload_from = 50; }),
        "sdo-block-upload",
-       {"sdo-block", "sdo-expedited-only", "manufacturer", "domain"}},
+       {"sdo-block", "sdo-expedited-only"}},
       // Somewhere there has to be a DOMAIN.
       {"sdo-block-download-of-domains",
        "block download of DOMAINs only: 0504 0001h for anything else",
