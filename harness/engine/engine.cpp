@@ -238,7 +238,7 @@ class Run {
     const auto before = run_.recorder.capture().size();
     if (auto ready = reach_baseline(run_, scenario); !ready) return ready;
     if (run_.may(scenario::Risk::config)) putting_back_.after_resets();
-    if (auto calm = errors_.let_emcy_end(before); !calm) return calm;
+    if (auto calm = errors_.let_end(before); !calm) return calm;
     life_.note_losses();
     return life_.note_restarts();
   }

@@ -33,6 +33,11 @@ Result<void> LastingErrors::end_those_of(const result::CaseResult& result) {
   return await_error_reset(result.first_frame);
 }
 
+Result<void> LastingErrors::let_end(std::size_t from) {
+  if (auto done = let_emcy_end(from); !done) return done;
+  return await_error_reset(from);
+}
+
 Result<bool> LastingErrors::has_errors() {
   const auto held = run_.session.peek(error_register);
   if (!held) return std::unexpected(held.error());

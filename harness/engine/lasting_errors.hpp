@@ -19,13 +19,13 @@ class LastingErrors {
   /// Behind a case: what the inhibit time still holds back would be taken for an EMCY of the next one, and an
   /// error that stays would make the next trigger silent.
   [[nodiscard]] Result<void> end_those_of(const result::CaseResult& result);
-  /// What the inhibit time holds back since frame `from`: behind a case, and behind a reset that brings an
-  /// EMCY.
-  [[nodiscard]] Result<void> let_emcy_end(std::size_t from);
+  /// Behind a reset that brings an EMCY: what the inhibit time holds back, and the end of the error.
+  [[nodiscard]] Result<void> let_end(std::size_t from);
 
  private:
   [[nodiscard]] Result<bool> has_errors();
   [[nodiscard]] bool has_raised_errors(std::size_t from) const;
+  [[nodiscard]] Result<void> let_emcy_end(std::size_t from);
   [[nodiscard]] Result<void> clear_what_stays(const result::CaseResult& result);
   [[nodiscard]] Result<void> await_error_reset(std::size_t from);
 

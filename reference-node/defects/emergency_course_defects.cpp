@@ -321,15 +321,14 @@ DefectTable emergency_course_defects() {
       {"1001-bits-of-first-error-only",
        "Of several errors the error register shows the bits of the first",
        {"OD-1001-05"},
-       shows_bits_of_one([](const std::vector<ErrorCause>& present) -> const ErrorCause& { return present.front(); })},
+       shows_bits_of_one(
+           [](const std::vector<ErrorCause>& present) -> const ErrorCause& { return present.front(); })},
       {"1001-bits-of-last-error-only",
        "Of several errors the error register shows the bits of the last",
        {"OD-1001-05"},
-       shows_bits_of_one([](const std::vector<ErrorCause>& present) -> const ErrorCause& { return present.back(); })},
-      {"1015-15-bits",
-       "Of the inhibit time of EMCY 15 bits count",
-       {"EMCY-INH-01"},
-       Change([](Parts& parts) {
+       shows_bits_of_one(
+           [](const std::vector<ErrorCause>& present) -> const ErrorCause& { return present.back(); })},
+      {"1015-15-bits", "Of the inhibit time of EMCY 15 bits count", {"EMCY-INH-01"}, Change([](Parts& parts) {
          parts.emergency.rules.inhibit_time.replace(
              [](const auto& former, std::int64_t value) { return former(value & 0x7FFF); });
        })},

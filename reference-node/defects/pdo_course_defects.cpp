@@ -292,8 +292,8 @@ void waiting_change_outlives_operational(Parts& parts) {
   })(parts);
 }
 
-/// What the mapping of an RPDO holds beyond its count receives what comes beyond the mapped bytes, where that is
-/// as long as the object.
+/// What the mapping of an RPDO holds beyond its count receives what comes beyond the mapped bytes, where that
+/// is as long as the object.
 void fills_beyond_the_count(Parts& parts) {
   misreads([](Parts& node, Frame& frame) {
     ObjectDictionary& od = node.device.dictionary;
@@ -314,7 +314,8 @@ void fills_beyond_the_count(Parts& parts) {
   })(parts);
 }
 
-/// The acceptance filter of RPDOs compares ten bits; what belongs to another service has been taken out before.
+/// The acceptance filter of RPDOs compares ten bits; what belongs to another service has been taken out
+/// before.
 void compares_ten_bits(Parts& parts) {
   misreads([](Parts& node, Frame& frame) {
     constexpr std::uint32_t highest_bit = 0x400;

@@ -125,35 +125,37 @@ void inhibits_from_the_start(Parts& parts) {
   ahead_of_state_change([started](Parts& node) {
     if (node.device.state == NmtState::operational) *started = node.device.now;
   })(parts);
-  parts.device.outbox.add_filter([&parts, started](const FilterContext& context, std::vector<Outgoing>& frames) {
-    if (context.service != Service::tpdo || frames.empty()) return;
-    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
-      if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
-      const BusTime end = *started + std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
-      if (context.now < end) {
-        for (Outgoing& outgoing : frames) outgoing.delay = end - context.now;
-      }
-    }
-  });
+  parts.device.outbox.add_filter(
+      [&parts, started](const FilterContext& context, std::vector<Outgoing>& frames) {
+        if (context.service != Service::tpdo || frames.empty()) return;
+        for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+          if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
+          const BusTime end = *started + std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
+          if (context.now < end) {
+            for (Outgoing& outgoing : frames) outgoing.delay = end - context.now;
+          }
+        }
+      });
 }
 
 /// An inhibit time that is running holds the TPDO back until its end, whatever is written meanwhile.
 void inhibit_time_outlives_change(Parts& parts) {
   const auto until = std::make_shared<std::map<std::uint32_t, BusTime>>();
   ahead_of_state_change([until](Parts&) { until->clear(); })(parts);
-  parts.device.outbox.add_filter([&parts, until](const FilterContext& context, std::vector<Outgoing>& frames) {
-    if (context.service != Service::tpdo || frames.empty()) return;
-    const std::uint32_t id = frames.front().frame.id;
-    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
-      if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != id) continue;
-      const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
-      if (own > Duration::zero()) {
-        (*until)[id] = context.now + own;
-      } else if (context.now < (*until)[id]) {
-        for (Outgoing& outgoing : frames) outgoing.delay = (*until)[id] - context.now;
-      }
-    }
-  });
+  parts.device.outbox.add_filter(
+      [&parts, until](const FilterContext& context, std::vector<Outgoing>& frames) {
+        if (context.service != Service::tpdo || frames.empty()) return;
+        const std::uint32_t id = frames.front().frame.id;
+        for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+          if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != id) continue;
+          const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
+          if (own > Duration::zero()) {
+            (*until)[id] = context.now + own;
+          } else if (context.now < (*until)[id]) {
+            for (Outgoing& outgoing : frames) outgoing.delay = (*until)[id] - context.now;
+          }
+        }
+      });
 }
 
 }  // namespace

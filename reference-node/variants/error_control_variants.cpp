@@ -24,14 +24,17 @@ VariantTable error_control_variants() {
        preset(0x1017, 0, 1000), "1017"},
       {"1017-const", "the heartbeat time is fixed to 100 ms", "7.5.2.20: rw or const",
        both(preset(0x1017, 0, 100), access(0x1017, 0, Access::constant)), "1017"},
-      {"1017-in-pre-operational-only", "the heartbeat time cannot be changed in Operational: 0800 0022h",
+      {"1017-in-pre-operational-only",
+       "the heartbeat time cannot be changed in Operational: 0800 0022h",
        "7.2.4.3.17: 0800 0022h, the present device state",
        also_checked(0x1017, 0,
                     [](const Parts& parts, ByteView) -> Accepted {
                       if (parts.device.state == NmtState::operational)
                         return refuse(abort_code::device_state);
                       return {};
-                    })},
+                    }),
+       {},
+       {"self-starting"}},
       {"abort-1016-reserved-0609-0031", "reserved bits of 1016h are a value too high", "OD-1016-12",
        [](Parts& node) { node.consumer.choices.reserved_bits = abort_code::value_too_high; },
        "1016-reserved"},

@@ -343,7 +343,7 @@ VariantTable objects_variants() {
        "7.4.1: process data is the application's",
        noisy_inputs,
        {},
-       {}},
+       {"turnaround"}},
       {"outputs-fall", "outputs are 0 as soon as Operational is left",
        "CiA 401; 7.3.2.2: what the outputs do there is the device's", outputs_fall},
       {.id = "abort-outputs-0800-0022",
