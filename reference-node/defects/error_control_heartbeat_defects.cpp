@@ -20,7 +20,7 @@ ErrorBehaviourRules& of_error_behaviour(Parts& parts) { return parts.error_behav
 
 /// A time is that many per cent of what the rule says.
 template <typename Rules>
-Change lasts(int percent, Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::*rule) {
+Change lasts(int percent, Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule) {
   return decides(part, rule,
                  [percent](const auto& former, std::int64_t value) { return former(value) * percent / 100; });
 }

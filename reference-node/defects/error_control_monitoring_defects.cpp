@@ -22,7 +22,7 @@ Change deaf_to_state(std::uint8_t state) {
 }
 
 template <typename Rules>
-Change takes_time_for(Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::*rule,
+Change takes_time_for(Rules& (*part)(Parts&), Rule<Duration(std::int64_t)> Rules::* rule,
                       std::int64_t (*other)(std::int64_t)) {
   return decides(part, rule,
                  [other](const auto& former, std::int64_t value) { return former(other(value)); });

@@ -88,7 +88,7 @@ Change left_by(Way way, Use use) {
 using Kept = std::shared_ptr<Left>;
 
 /// Where a transfer was left behind an odd number of segments, the next one begins with toggle bit 1.
-Change toggle_left(SegmentedRules::Toggle SegmentedRules::*rule, Way way) {
+Change toggle_left(SegmentedRules::Toggle SegmentedRules::* rule, Way way) {
   const auto use = [rule](Parts& parts, const Kept& left) {
     (of_segments(parts).*rule).replace([left](const auto& former, bool toggle, bool due) {
       const Left was = std::exchange(*left, left->behind ? Left{} : *left);
@@ -219,7 +219,7 @@ void block_size_cut(Parts& parts, unsigned bits) {
 
 /// While `store` runs, one hook of the entry is not there.
 template <typename Hook, typename Store>
-Accepted without(Parts& parts, Multiplexer mux, Hook Entry::*hook, Store store) {
+Accepted without(Parts& parts, Multiplexer mux, Hook Entry::* hook, Store store) {
   Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
   if (entry == nullptr || entry->command) return store();
   const Hook kept = std::exchange(entry->*hook, Hook{});
@@ -228,7 +228,7 @@ Accepted without(Parts& parts, Multiplexer mux, Hook Entry::*hook, Store store) 
   return done;
 }
 template <typename Hook>
-Change segments_without(Hook Entry::*hook) {
+Change segments_without(Hook Entry::* hook) {
   return [hook](Parts& parts) {
     of_segments(parts).store.replace([&parts, hook](const auto& former, Multiplexer mux, ByteView data) {
       return without(parts, mux, hook, [&] { return former(mux, data); });
@@ -236,7 +236,7 @@ Change segments_without(Hook Entry::*hook) {
   };
 }
 template <typename Hook>
-Change blocks_without(Hook Entry::*hook) {
+Change blocks_without(Hook Entry::* hook) {
   return [hook](Parts& parts) {
     parts.sdo.rules.block_download.store.replace(
         [&parts, hook](const auto& former, Multiplexer mux, ByteView data) {
@@ -270,7 +270,7 @@ DefectTable left_rows() {
        {"SDO-SDN-03"},
        toggle_left(download_toggle, Way::replaced)},
       {"download-toggle-left-by-refusal",
-       "A download begins with toggle bit 1 where the one before it was refused behind an odd number of segments",
+       "A download begins with toggle bit 1 where the one before was refused behind an odd number of segments",
        {"SDO-SDN-03"},
        toggle_left(download_toggle, Way::refused)},
       {"download-toggle-left-by-stop",
