@@ -34,14 +34,19 @@ void fill_manufacturer_bytes(Parts& parts) {
   });
 }
 
-/// A queue of its own, or a filter for errors that come and go.
-How late(std::function<Duration(std::uint16_t code)> by) {
-  return [by = std::move(by)](Parts& parts) {
-    parts.device.outbox.add_filter([by](const FilterContext& context, std::vector<Outgoing>& frames) {
-      if (context.service != Service::emergency) return;
-      for (Outgoing& outgoing : frames)
-        outgoing.delay += by(static_cast<std::uint16_t>(conform::load_le(outgoing.frame.bytes().first(2))));
-    });
+/// A queue of its own, or a filter for errors that come and go. The second one waits only where no inhibit
+/// time (1015h) says how far messages are from each other.
+How late(Duration any, Duration end = {}) {
+  return [any, end](Parts& parts) {
+    parts.device.outbox.add_filter(
+        [any, end, &device = parts.device](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service != Service::emergency) return;
+          for (Outgoing& outgoing : frames) {
+            const bool of_end = conform::load_le(outgoing.frame.bytes().first(2)) == 0;
+            outgoing.delay += any;
+            if (of_end && device.time_value(0x1015, 0) == 0) outgoing.delay += end;
+          }
+        });
   };
 }
 
@@ -204,13 +209,13 @@ VariantTable emergency_variants() {
        .how = error_in_operational,
        .excludes = {"self-starting"}},
       {"emcy-late-90ms", "EMCYs leave 90 ms after their error", "7.2.7: no time is set",
-       late([](std::uint16_t) { return std::chrono::milliseconds(90); }), "emcy-late"},
+       late(std::chrono::milliseconds(90)), "emcy-late"},
       {"emcy-0000-late-300ms",
        "the end of an error is told 300 ms later",
        "7.2.7: no time is set",
-       late([](std::uint16_t code) { return std::chrono::milliseconds(code == 0 ? 300 : 0); }),
+       late({}, std::chrono::milliseconds(300)),
        "emcy-late",
-       // What is put off here knows nothing of the inhibit time, nor of Stopped.
+       // What is put off here knows nothing of Stopped.
        {"1015", "emcy-in-operational"}},
       {"emcy-second-of-the-maker",
        "a second error, FF30h, goes with each loss of a heartbeat or of the guarding",
