@@ -303,7 +303,8 @@ void fills_beyond_the_count(Parts& parts) {
       if (frame.id != (od.number(static_cast<std::uint16_t>(0x1400 + number), 1) & 0x7FFU)) continue;
       const auto count = static_cast<std::uint8_t>(od.number(mapping, 0));
       std::size_t at = 0;
-      for (std::uint8_t sub = 1; sub <= count; ++sub) at += (od.number(mapping, sub) & 0xFFU) / 8;
+      for (std::uint8_t sub = 1; sub <= count && sub <= most_mapped; ++sub)
+        at += (od.number(mapping, sub) & 0xFFU) / 8;
       const Mapped next = Mapped::unpack(od.number(mapping, static_cast<std::uint8_t>(count + 1)));
       Entry* entry = od.entry(next.index, next.sub);
       if (count == 0 || entry == nullptr || !entry->rx_mappable) continue;

@@ -151,7 +151,7 @@ Change counts_bits(std::uint16_t first, bool (*fits)(std::size_t bits)) {
         const Accepted done = former(bytes);
         if (done || done.error() != abort_code::mapping_too_long) return done;
         std::size_t bits = 0;
-        for (std::uint8_t sub = 1; sub <= conform::load_le(bytes); ++sub)
+        for (std::uint8_t sub = 1; sub <= conform::load_le(bytes) && sub <= most_mapped; ++sub)
           bits += node.device.dictionary.number(index, sub) & 0xFFU;
         return fits(bits) ? Accepted() : done;
       })(parts);

@@ -53,7 +53,6 @@ namespace {
 /// Changes what a frame carries, one mapped object after the other; `communication` is of its PDO.
 void change_values(const ObjectDictionary& od, std::uint16_t communication, Frame& frame,
                    ValueChange change) {
-  constexpr std::uint8_t most_mapped = 0x40;
   const auto mapping = static_cast<std::uint16_t>(communication + 0x200);
   const std::span<std::uint8_t> data = std::span(frame.data).first(frame.size());
   std::size_t position = 0;  // in bits

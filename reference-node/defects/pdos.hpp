@@ -17,6 +17,9 @@ inline constexpr std::uint16_t second_pdo = 1;
 inline constexpr std::uint16_t third_pdo = 2;
 inline constexpr std::uint16_t last_pdo = 3;
 
+/// Sub-index 00h of a mapping may hold more (FEh, FFh), which is no number of objects.
+inline constexpr std::uint8_t most_mapped = 0x40;
+
 /// Another decision for one PDO of a direction; for the others the rule stays as it is.
 template <typename Rules, typename Answer, typename... Given, typename Other>
 [[nodiscard]] Change decides_for(std::uint16_t number, Rules& (*part)(Parts&),
