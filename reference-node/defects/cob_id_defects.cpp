@@ -293,7 +293,7 @@ DefectTable cob_id_defects() {
        refuses(0x1800, 1, abort_code::invalid_value, is_moved)},
       {"1800-new-id-not-used",
        "The TPDO stays on its default CAN-ID",
-       {"OD-1800-11", "PDO-TX-04", "NMT-FSA-29"},
+       {"OD-1800-11", "PDO-TX-01", "PDO-TX-04", "NMT-FSA-29"},
        stays_on_default(of_tpdo)},
       {"1800-restricted-id-accepted",
        "1800h:01 accepts restricted CAN-IDs",

@@ -136,6 +136,15 @@ constexpr auto reasons = std::to_array<Reason>({
      "an RPDO that is too short for the second time is no new error there, and RPDOs are an area of their own"},
     {"sync-ignored-above-127",
      "counters up to 240 are counted by a case that takes long; the others see it by the rule about any counter"},
+    {"nmt-self-transition-resets",
+     "cases that expect a state and cases that expect a message see a reset each in their way"},
+    {"1a00-dlc-wrong",
+     "a stored TPDO is held against what was stored, and what comes back with a reset is an area of its own"},
+    {"sync-dead-after-reset",
+     "a stored TPDO is held against what was stored, and what comes back with a reset is an area of its own"},
+    {"rpdo-high-nibble-lost", "the services beside LSS are an area of their own, and an RPDO is one of them"},
+    {"life-guarding-event-told-again",
+     "told again while the case about its end is listening, it looks like an event that did not end"},
 });
 
 }  // namespace
