@@ -336,7 +336,7 @@ VariantTable sdo_variants() {
        .legal = "SDO-SUP-18, SDO-SDN-25; SDO-SUP-17 warns",
        .how = choose([](SdoChoices& c) { c.time_out = milliseconds(200); }),
        .group = "sdo-time-out",
-       .excludes = {"turnaround", "program-cycle-20ms"},
+       .excludes = {"turnaround", "program-cycle-20ms", "newest-frame-in-5ms", "sdo-sequence-spoils"},
        .warns = {"SDO-SUP-17"}},
       // With answers that take half of that time two channels at once could not be kept open.
       {"sdo-time-out-500ms",
