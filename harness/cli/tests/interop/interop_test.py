@@ -124,7 +124,7 @@ class Interop(unittest.TestCase):
             lines = file.read().splitlines()
         comments = [line for line in lines if line.startswith("#")]
         # `unsteady CASE  # reason`: what comes of it depends on the load of the machine.
-        unsteady = {line.split()[1]: line for line in lines if line.startswith("unsteady ")}
+        unsteady = {line.split(" ", 1)[1].split("  #")[0]: line for line in lines if line.startswith("unsteady ")}
 
         def compared(line):
             case = line.split(" ", 2)[2]
