@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of all defects: the tables of this folder, one after the other.
 #include <algorithm>
-#include <iterator>
 
-#include "defects/defect.hpp"
+#include "defects/tools.hpp"
 
 namespace refnode {
 
@@ -11,10 +10,7 @@ namespace {
 
 DefectTable join(std::initializer_list<DefectTable (*)()> tables) {
   DefectTable all;
-  for (const auto table : tables) {
-    DefectTable rows = table();
-    all.insert(all.end(), std::make_move_iterator(rows.begin()), std::make_move_iterator(rows.end()));
-  }
+  for (const auto table : tables) defect::append(all, table());
   return all;
 }
 

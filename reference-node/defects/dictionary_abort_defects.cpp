@@ -3,8 +3,8 @@
 // codes.
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
@@ -329,7 +329,7 @@ DefectTable length_and_range_rows() {
 DefectTable dictionary_abort_defects() {
   DefectTable rows = existence_rows();
   for (DefectTable part : {access_rows(), length_and_range_rows()}) {
-    rows.insert(rows.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+    append(rows, std::move(part));
   }
   return rows;
 }

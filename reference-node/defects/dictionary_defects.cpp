@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of single communication objects: absent entries, other access, other length, other default.
-#include <iterator>
+
+#include <utility>
 
 #include "defects/tools.hpp"
 
@@ -342,7 +343,7 @@ DefectTable communication_rows() {
 DefectTable dictionary_defects() {
   DefectTable rows = identity_rows();
   DefectTable more = communication_rows();
-  rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  append(rows, std::move(more));
   return rows;
 }
 

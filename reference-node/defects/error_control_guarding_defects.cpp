@@ -2,7 +2,6 @@
 // Defects of node guarding and life guarding (100Ch, 100Dh).
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -469,8 +468,7 @@ DefectTable entry_rows() {
 
 DefectTable error_control_guarding_defects() {
   DefectTable rows = entry_rows();
-  for (DefectTable table : {request_rows(), life_rows()})
-    rows.insert(rows.end(), std::make_move_iterator(table.begin()), std::make_move_iterator(table.end()));
+  for (DefectTable table : {request_rows(), life_rows()}) append(rows, std::move(table));
   return rows;
 }
 

@@ -101,22 +101,30 @@ Bytes first_four_of(const Bytes& data) {
   return {data.begin(), data.begin() + std::min<std::ptrdiff_t>(4, std::ssize(data))};
 }
 
+/// What a filter of TPDOs does: 18xxh:03 of the one that is sent, and the moment until which it waits.
+template <typename Until>
+auto holds_back(Parts& parts, Until until) {
+  return [&parts, until](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+    if (context.service != Service::tpdo || frames.empty()) return;
+    const std::uint32_t id = frames.front().frame.id;
+    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+      if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != id) continue;
+      const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
+      const BusTime end = until(id, context.now, own);
+      if (context.now >= end) continue;
+      for (Outgoing& outgoing : frames) outgoing.delay = end - context.now;
+    }
+  };
+}
+
 /// TPDOs without an inhibit time wait for the end of the one that another TPDO has begun.
 void shares_inhibit_time(Parts& parts) {
   parts.device.outbox.add_filter(
-      [&parts, until = BusTime{}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
-        if (context.service != Service::tpdo || frames.empty()) return;
-        const ObjectDictionary& od = parts.device.dictionary;
-        for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
-          if ((od.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
-          const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
-          if (own > Duration::zero()) {
-            until = context.now + own;
-          } else if (context.now < until) {
-            for (Outgoing& outgoing : frames) outgoing.delay = until - context.now;
-          }
-        }
-      });
+      holds_back(parts, [running = BusTime{}](std::uint32_t, BusTime now, Duration own) mutable {
+        if (own <= Duration::zero()) return running;
+        running = now + own;
+        return now;
+      }));
 }
 
 /// A TPDO waits until its inhibit time is over, counted from the start of Operational.
@@ -126,36 +134,18 @@ void inhibits_from_the_start(Parts& parts) {
     if (node.device.state == NmtState::operational) *started = node.device.now;
   })(parts);
   parts.device.outbox.add_filter(
-      [&parts, started](const FilterContext& context, std::vector<Outgoing>& frames) {
-        if (context.service != Service::tpdo || frames.empty()) return;
-        for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
-          if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != frames.front().frame.id) continue;
-          const BusTime end = *started + std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
-          if (context.now < end) {
-            for (Outgoing& outgoing : frames) outgoing.delay = end - context.now;
-          }
-        }
-      });
+      holds_back(parts, [started](std::uint32_t, BusTime, Duration own) { return *started + own; }));
 }
 
 /// An inhibit time that is running holds the TPDO back until its end, whatever is written meanwhile.
 void inhibit_time_outlives_change(Parts& parts) {
-  const auto until = std::make_shared<std::map<std::uint32_t, BusTime>>();
-  ahead_of_state_change([until](Parts&) { until->clear(); })(parts);
-  parts.device.outbox.add_filter(
-      [&parts, until](const FilterContext& context, std::vector<Outgoing>& frames) {
-        if (context.service != Service::tpdo || frames.empty()) return;
-        const std::uint32_t id = frames.front().frame.id;
-        for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
-          if ((parts.device.dictionary.number(index, 1) & 0x7FFU) != id) continue;
-          const Duration own = std::chrono::microseconds(parts.device.time_value(index, 3) * 100);
-          if (own > Duration::zero()) {
-            (*until)[id] = context.now + own;
-          } else if (context.now < (*until)[id]) {
-            for (Outgoing& outgoing : frames) outgoing.delay = (*until)[id] - context.now;
-          }
-        }
-      });
+  const auto running = std::make_shared<std::map<std::uint32_t, BusTime>>();
+  ahead_of_state_change([running](Parts&) { running->clear(); })(parts);
+  parts.device.outbox.add_filter(holds_back(parts, [running](std::uint32_t id, BusTime now, Duration own) {
+    if (own <= Duration::zero()) return (*running)[id];
+    (*running)[id] = now + own;
+    return now;
+  }));
 }
 
 }  // namespace

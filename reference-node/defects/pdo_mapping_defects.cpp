@@ -150,10 +150,7 @@ Change counts_bits(std::uint16_t first, bool (*fits)(std::size_t bits)) {
       checking(index, 0, [index, fits](Parts& node, const Check& former, ByteView bytes) -> Accepted {
         const Accepted done = former(bytes);
         if (done || done.error() != abort_code::mapping_too_long) return done;
-        std::size_t bits = 0;
-        for (std::uint8_t sub = 1; sub <= conform::load_le(bytes) && sub <= most_mapped; ++sub)
-          bits += node.device.dictionary.number(index, sub) & 0xFFU;
-        return fits(bits) ? Accepted() : done;
+        return fits(bits_held(node.device.dictionary, index, conform::load_le(bytes))) ? Accepted() : done;
       })(parts);
     }
   };

@@ -70,9 +70,7 @@ void reports_what_came_before(Parts& parts) {
         const auto& od = parts.device.dictionary;
         const std::uint64_t cob_id = od.number(static_cast<std::uint16_t>(0x1400 + number), 1);
         const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
-        std::uint64_t bits = 0;
-        for (std::uint8_t sub = 1; sub <= od.number(mapping, 0) && sub <= most_mapped; ++sub)
-          bits += od.number(mapping, sub) & 0xFFU;
+        const std::size_t bits = bits_held(od, mapping, od.number(mapping, 0));
         if ((cob_id & 0x8000'07FFU) == frame.id && !frame.remote && frame.size() * 8 < bits) *noted = true;
       }
     }

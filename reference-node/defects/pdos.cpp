@@ -73,6 +73,13 @@ void change_values(const ObjectDictionary& od, std::uint16_t communication, Fram
 
 }  // namespace
 
+std::size_t bits_held(const ObjectDictionary& od, std::uint16_t mapping, std::uint64_t count) {
+  std::size_t bits = 0;
+  for (std::uint8_t sub = 1; sub <= count && sub <= most_mapped; ++sub)
+    bits += od.number(mapping, sub) & 0xFFU;
+  return bits;
+}
+
 namespace {
 
 /// The PDO that a frame belongs to may be any one of its direction.

@@ -19,6 +19,8 @@ inline constexpr std::uint16_t last_pdo = 3;
 
 /// Sub-index 00h of a mapping may hold more (FEh, FFh), which is no number of objects.
 inline constexpr std::uint8_t most_mapped = 0x40;
+/// The bits of the first `count` entries of a mapping (16xxh, 1Axxh) as it is held, too long or not.
+[[nodiscard]] std::size_t bits_held(const ObjectDictionary& od, std::uint16_t mapping, std::uint64_t count);
 
 /// Another decision for one PDO of a direction; for the others the rule stays as it is.
 template <typename Rules, typename Answer, typename... Given, typename Other>

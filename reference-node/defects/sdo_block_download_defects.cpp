@@ -4,13 +4,13 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "defects/sdo_block_exchanges.hpp"
+#include "defects/tools.hpp"
 
 namespace refnode {
 
@@ -446,7 +446,7 @@ DefectTable end_rows() {
 DefectTable sdo_block_download_defects() {
   DefectTable rows;
   for (auto part : {frame_rows(), loss_rows(), end_rows()}) {
-    rows.insert(rows.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+    append(rows, std::move(part));
   }
   return rows;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the SDO block upload: frames, sequence numbers, CRC, acknowledges, and what ends it.
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "defects/sdo_block_exchanges.hpp"
+#include "defects/tools.hpp"
 
 namespace refnode {
 
@@ -483,7 +484,7 @@ DefectTable end_rows() {
 DefectTable sdo_block_upload_defects() {
   DefectTable rows;
   for (auto part : {frame_rows(), crc_rows(), refusal_rows(), end_rows()}) {
-    rows.insert(rows.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+    append(rows, std::move(part));
   }
   return rows;
 }

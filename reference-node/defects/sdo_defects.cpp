@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -340,7 +339,7 @@ DefectTable command_rows() {
 DefectTable sdo_defects() {
   DefectTable rows = frame_rows();
   DefectTable others = command_rows();
-  rows.insert(rows.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+  append(rows, std::move(others));
   return rows;
 }
 

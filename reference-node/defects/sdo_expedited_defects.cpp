@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of expedited transfers: length, order and completeness of up to four bytes.
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -247,7 +246,7 @@ DefectTable download_rows() {
 DefectTable sdo_expedited_defects() {
   DefectTable rows = upload_rows();
   DefectTable others = download_rows();
-  rows.insert(rows.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+  append(rows, std::move(others));
   return rows;
 }
 

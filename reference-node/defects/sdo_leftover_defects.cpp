@@ -383,7 +383,7 @@ DefectTable sdo_leftover_defects() {
        {"OD-1016-06"},
        blocks_without(&Entry::check)},
   };
-  rows.insert(rows.end(), std::make_move_iterator(other.begin()), std::make_move_iterator(other.end()));
+  append(rows, std::move(other));
   return rows;
 }
 

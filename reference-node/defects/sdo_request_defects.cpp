@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of reading requests: the server gets other bytes than those that came, or frames of others.
 #include <algorithm>
-#include <iterator>
+#include <utility>
 
 #include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
@@ -203,7 +203,7 @@ DefectTable segment_rows() {
 DefectTable sdo_request_defects() {
   DefectTable rows = expedited_rows();
   DefectTable segments = segment_rows();
-  rows.insert(rows.end(), std::make_move_iterator(segments.begin()), std::make_move_iterator(segments.end()));
+  append(rows, std::move(segments));
   return rows;
 }
 

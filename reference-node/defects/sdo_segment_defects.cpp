@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -581,7 +580,7 @@ DefectTable download_rows() {
 DefectTable sdo_segment_defects() {
   DefectTable rows = upload_rows();
   DefectTable others = download_rows();
-  rows.insert(rows.end(), std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+  append(rows, std::move(others));
   return rows;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the SYNC producer: when it sends, how often, and what it counts.
-#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -370,8 +369,7 @@ DefectTable counter_rows() {
 
 DefectTable sync_producer_defects() {
   DefectTable rows = switch_rows();
-  for (DefectTable table : {period_rows(), counter_rows()})
-    rows.insert(rows.end(), std::make_move_iterator(table.begin()), std::make_move_iterator(table.end()));
+  for (DefectTable table : {period_rows(), counter_rows()}) append(rows, std::move(table));
   return rows;
 }
 

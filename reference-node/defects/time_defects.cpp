@@ -3,8 +3,8 @@
 // other COB-IDs.
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "defects/cob_ids.hpp"
 #include "defects/hooks.hpp"
@@ -187,7 +187,7 @@ DefectTable clock_rows() {
 DefectTable time_defects() {
   DefectTable rows = clock_rows();
   DefectTable more = producer_rows();
-  rows.insert(rows.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  append(rows, std::move(more));
   return rows;
 }
 

@@ -2,8 +2,14 @@
 #include "defects/tools.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace refnode::defect {
+
+void append(DefectTable& rows, DefectTable part) {
+  rows.insert(rows.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+}
 
 DictionaryEdit absent(std::uint16_t index) {
   return [index](ObjectDictionary& od, std::uint8_t) { od.remove(index); };

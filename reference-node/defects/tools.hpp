@@ -10,6 +10,9 @@
 
 namespace refnode::defect {
 
+/// Puts the rows of a part behind those of a table.
+void append(DefectTable& rows, DefectTable part);
+
 // Dictionary edits.
 [[nodiscard]] DictionaryEdit absent(std::uint16_t index);
 [[nodiscard]] DictionaryEdit absent_sub(std::uint16_t index, std::uint8_t sub);

@@ -34,17 +34,14 @@ void fill_manufacturer_bytes(Parts& parts) {
   });
 }
 
-/// A queue of its own, or a filter for errors that come and go. The second one waits only where no inhibit
-/// time (1015h) says how far messages are from each other.
-How late(Duration any, Duration end = {}) {
-  return [any, end](Parts& parts) {
+/// The end of an error, where no inhibit time (1015h) says how far messages are from each other.
+How late_ends(Duration by) {
+  return [by](Parts& parts) {
     parts.device.outbox.add_filter(
-        [any, end, &device = parts.device](const FilterContext& context, std::vector<Outgoing>& frames) {
-          if (context.service != Service::emergency) return;
+        [by, &device = parts.device](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service != Service::emergency || device.time_value(0x1015, 0) != 0) return;
           for (Outgoing& outgoing : frames) {
-            const bool of_end = conform::load_le(outgoing.frame.bytes().first(2)) == 0;
-            outgoing.delay += any;
-            if (of_end && device.time_value(0x1015, 0) == 0) outgoing.delay += end;
+            if (conform::load_le(outgoing.frame.bytes().first(2)) == 0) outgoing.delay += by;
           }
         });
   };
@@ -165,15 +162,6 @@ void errors_of_frames_stay(Parts& parts) {
   });
 }
 
-How late_emergencies(Duration time) {
-  return [time](Parts& parts) {
-    parts.device.outbox.add_filter([time](const FilterContext& context, std::vector<Outgoing>& frames) {
-      if (context.service != Service::emergency) return;
-      for (Outgoing& outgoing : frames) outgoing.delay += time;
-    });
-  };
-}
-
 }  // namespace
 
 VariantTable emergency_variants() {
@@ -212,11 +200,11 @@ VariantTable emergency_variants() {
                     "like-canopennode", "emcy-late", "emcy-late-20ms", "rpdos-deadline-200ms",
                     "heartbeat-restarts-at-state-change"}},
       {"emcy-late-90ms", "EMCYs leave 90 ms after their error", "7.2.7: no time is set",
-       late(std::chrono::milliseconds(90)), "emcy-late"},
+       late(Service::emergency, std::chrono::milliseconds(90)), "emcy-late"},
       {"emcy-0000-late-300ms",
        "the end of an error is told 300 ms later",
        "7.2.7: no time is set",
-       late({}, std::chrono::milliseconds(300)),
+       late_ends(std::chrono::milliseconds(300)),
        "emcy-late",
        // What is put off here knows nothing of Stopped.
        {"1015", "emcy-in-operational", "error-reset-for-each", "rpdos-deadline-200ms"}},
@@ -325,7 +313,7 @@ VariantTable emergency_variants() {
       {.id = "emcy-late-20ms",
        .summary = "EMCYs are sent 20 ms late",
        .legal = "7.2.7: no time is given",
-       .how = late_emergencies(std::chrono::milliseconds(20)),
+       .how = late(Service::emergency, std::chrono::milliseconds(20)),
        .excludes = {"emcy-low-voltage-at-boot-up", "emcy-late"}},
       {"emcy-manufacturer-bytes", "bytes 3 to 7 of an EMCY are in use", "EMCY-FMT-01",
        fill_manufacturer_bytes},

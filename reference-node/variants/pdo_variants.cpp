@@ -37,15 +37,6 @@ How types(std::uint16_t first, std::uint64_t type) {
   return of_all(first, [type](std::uint16_t index) { return preset(index, 2, type); });
 }
 
-How late_tpdos(Duration time) {
-  return [time](Parts& parts) {
-    parts.device.outbox.add_filter([time](const FilterContext& context, std::vector<Outgoing>& frames) {
-      if (context.service != Service::tpdo) return;
-      for (Outgoing& outgoing : frames) outgoing.delay += time;
-    });
-  };
-}
-
 How choose_of_rpdos(void (*change)(PdoChoices&)) {
   return [change](Parts& parts) { change(parts.pdos.rpdo.parameters.choices); };
 }
@@ -227,7 +218,7 @@ VariantTable pdo_variants() {
       {.id = "tpdos-late-25ms",
        .summary = "TPDOs are sent 25 ms late",
        .legal = "7.2.2: no time is given; SYNC-CON-08, SYNC-CON-09 warn",
-       .how = late_tpdos(milliseconds(25)),
+       .how = late(Service::tpdo, milliseconds(25)),
        .group = "late",
        .excludes = {"nmt-latency"},
        .warns = {"SYNC-CON-08", "SYNC-CON-09"}},

@@ -92,6 +92,16 @@ How both(How first, How second) {
   };
 }
 
+How late(Service service, Duration by) {
+  return [service, by](Parts& parts) {
+    parts.device.outbox.add_filter(
+        [service, by](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service != service) return;
+          for (Outgoing& outgoing : frames) outgoing.delay += by;
+        });
+  };
+}
+
 How choose_of_pdos(void (*change)(PdoChoices&)) {
   return [change](Parts& parts) {
     change(parts.pdos.rpdo.parameters.choices);

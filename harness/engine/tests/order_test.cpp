@@ -15,13 +15,24 @@ namespace {
 const can::Frame some_emcy = can::data_frame(CanId(0x81), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
 
 /// Whoever writes 1 to 2000h gets an EMCY.
-void give_errors(ScriptedDevice& device) {
+void give_errors(ScriptedDevice& device, const can::Frame& emcy = some_emcy) {
   device.entries[0x200000] = {0};
   device.entries[0x101500] = {0, 0};
-  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1) self.send(some_emcy);
+  device.before = [emcy](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1) self.send(emcy);
     return false;
   };
+}
+
+/// From the last EMCY of the first of two cases to the beginning of the second.
+Duration between(const Outcome& out, const can::Frame& emcy) {
+  std::optional<BusTime> sent;
+  for (const auto& captured : out.capture.frames()) {
+    if (captured.frame.id == emcy.id) sent = captured.time;
+  }
+  REQUIRE(sent.has_value());
+  REQUIRE(out.run.cases.size() == 2);
+  return out.run.cases[1].begin - *sent;
 }
 
 can::CapturedFrame seen(BusTime time, can::Direction direction, CanId id,
@@ -70,23 +81,13 @@ TEST_CASE("what the inhibit time of a case holds back is over before the next ca
       - upload: {object: 1000h:00}
         checks: T-MUST
 )");
-  std::optional<BusTime> sent;
-  for (const auto& captured : out.capture.frames()) {
-    if (captured.frame.id == some_emcy.id) sent = captured.time;
-  }
-  REQUIRE(sent.has_value());
-  REQUIRE(out.run.cases.size() == 2);
-  CHECK(out.run.cases[1].begin - *sent >= 500ms);
+  CHECK(between(out, some_emcy) >= 500ms);
 }
 
 TEST_CASE("what the inhibit time holds back is waited for where EMCY was sent on another CAN-ID as well") {
   ScriptedDevice device;
-  give_errors(device);
-  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1)
-      self.send(can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0}));
-    return false;
-  };
+  const can::Frame moved_emcy = can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
+  give_errors(device, moved_emcy);
   const auto out = play(device, R"(
   - id: inhibits
     title: t
@@ -103,13 +104,7 @@ TEST_CASE("what the inhibit time holds back is waited for where EMCY was sent on
       - upload: {object: 1000h:00}
         checks: T-MUST
 )");
-  std::optional<BusTime> sent;
-  for (const auto& captured : out.capture.frames()) {
-    if (captured.frame.id == 0x6A0) sent = captured.time;
-  }
-  REQUIRE(sent.has_value());
-  REQUIRE(out.run.cases.size() == 2);
-  CHECK(out.run.cases[1].begin - *sent >= 500ms);
+  CHECK(between(out, moved_emcy) >= 500ms);
 }
 
 TEST_CASE("an inhibit time that a reset has ended holds up no further case") {
