@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 
+#include "canopen/cob_id.hpp"
 #include "engine/baseline.hpp"
 #include "engine/liveness.hpp"
 
@@ -12,6 +13,7 @@ namespace conform::engine {
 namespace {
 
 constexpr Multiplexer error_register{Index(0x1001), SubIndex(0)};
+constexpr Multiplexer emcy_cob_id{Index(0x1014), SubIndex(0)};
 constexpr Multiplexer emcy_inhibit_time{Index(0x1015), SubIndex(0)};
 
 }  // namespace
@@ -20,6 +22,14 @@ Result<void> LastingErrors::look() {
   auto errors = has_errors();
   if (!errors) return std::unexpected(errors.error());
   none_at_first_ = !*errors;
+  auto messages = run_.session.is_present(emcy_cob_id, false);
+  if (!messages) return std::unexpected(messages.error());
+  if (*messages) {
+    const auto held = run_.session.peek(emcy_cob_id);
+    if (!held) return std::unexpected(held.error());
+    messages = !confirmed(*held) || (load_le(held->data) & canopen::cob_id::bit31) == 0;
+  }
+  has_messages_ = *messages;
   auto inhibit = run_.session.is_present(emcy_inhibit_time, false);
   if (!inhibit) return std::unexpected(inhibit.error());
   if (!*inhibit) return {};
@@ -44,9 +54,9 @@ Result<bool> LastingErrors::has_errors() {
   return confirmed(*held) && load_le(held->data) != 0;
 }
 
-/// By a trigger of the profile, or in any other way that it sends an EMCY about.
+/// By a trigger of the profile, or in any other way that it sends an EMCY about; without EMCY nobody knows.
 bool LastingErrors::has_raised_errors(std::size_t from) const {
-  if (run_.session.find("trigger_delay") != nullptr) return true;
+  if (!has_messages_ || run_.session.find("trigger_delay") != nullptr) return true;
   const auto& frames = run_.recorder.capture().frames();
   return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
                      [this](const can::CapturedFrame& captured) {
@@ -93,7 +103,8 @@ Result<void> LastingErrors::await_error_reset(std::size_t from) {
     if (frames[i - 1].direction != can::Direction::received || !frame.is_data(session.emcy_can_id()) ||
         frame.size() != 8)
       continue;
-    if (frame.data[0] == 0 && frame.data[1] == 0) return {};
+    // The end of one of several errors is followed by that of the others.
+    if (frame.data[0] == 0 && frame.data[1] == 0 && frame.data[2] == 0) return {};
     break;
   }
   const auto next = frames.size();

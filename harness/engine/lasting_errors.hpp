@@ -13,8 +13,8 @@ class LastingErrors {
  public:
   explicit LastingErrors(RunContext& run) : run_(run) {}
 
-  /// Before the first case: whether the device tells of errors (1001h), and its inhibit time (1015h), which
-  /// the session keeps in mind.
+  /// Before the first case: whether the device tells of errors (1001h), by EMCY too (1014h), and its inhibit
+  /// time (1015h), which the session keeps in mind.
   [[nodiscard]] Result<void> look();
   /// Behind a case: what the inhibit time still holds back would be taken for an EMCY of the next one, and an
   /// error that stays would make the next trigger silent.
@@ -31,6 +31,7 @@ class LastingErrors {
 
   RunContext& run_;
   bool none_at_first_ = false;  ///< 1001h was 0 before the first case, and a reset makes it 0 again
+  bool has_messages_ = true;    ///< EMCY is there and valid (1014h)
   int in_vain_ = 0;             ///< waits for an EMCY 0000h that did not come: the device sends none
 };
 

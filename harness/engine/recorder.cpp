@@ -69,10 +69,26 @@ void Recorder::record(can::CapturedFrame frame) {
 }
 
 void Recorder::note_echo(const can::CapturedFrame& echo) {
-  const auto late = echo.time - std::exchange(free_to_send_, std::max(free_to_send_, echo.time));
+  const auto since = std::exchange(free_to_send_, std::max(free_to_send_, echo.time));
+  if (echo.time - since <= can::host_is_late) return;
+  const auto late = idle_before_last(since);
   if (late <= can::host_is_late) return;
   ++late_sendings_;
   woke(late);
+}
+
+Duration Recorder::idle_before_last(BusTime since) const {
+  // A long frame at 125 kbit/s takes 1.1 ms; at lower bit rates more, and then it is known.
+  const auto rate = transport_.info().bit_rate;
+  const Duration frame =
+      rate == 0 ? Duration(std::chrono::milliseconds(2)) : Duration(std::chrono::seconds(200)) / rate;
+  Duration idle{};
+  const auto& frames = capture_.frames();
+  for (auto i = frames.size() - 1; i > 0 && frames[i].time > since; --i) {
+    const auto gap = frames[i].time - std::max(frames[i - 1].time, since);
+    if (gap > frame) idle += gap;
+  }
+  return idle;
 }
 
 bool Recorder::is_produced(const can::Frame& frame) const {

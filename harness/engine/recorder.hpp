@@ -131,6 +131,9 @@ class Recorder {
   [[nodiscard]] std::unexpected<Error> broken(Error error);
   void woke(Duration late);
   void note_echo(const can::CapturedFrame& echo);
+  /// For so long the bus had nothing to carry between `since` and the last frame, which is ours: what others
+  /// send one behind the other keeps it waiting, and nobody is late.
+  [[nodiscard]] Duration idle_before_last(BusTime since) const;
   void record(can::CapturedFrame frame);
   [[nodiscard]] bool is_produced(const can::Frame& frame) const;
 

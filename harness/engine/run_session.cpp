@@ -277,6 +277,18 @@ void RunSession::note_command(std::size_t index) {
   ordered_ = Ordered{index, time, state, !ordered_ || time >= ordered_->sent + profile_.nmt_time};
 }
 
+BusTime RunSession::emcy_held_until() const {
+  constexpr auto margin = std::chrono::milliseconds(20);
+  if (emcy_inhibit_ == Duration::zero()) return {};
+  const auto& frames = recorder_.capture().frames();
+  for (auto i = frames.size(); i > first_frame_; --i) {
+    const auto& captured = frames[i - 1];
+    if (captured.direction == can::Direction::received && was_for_emcy(captured.frame))
+      return captured.time + emcy_inhibit_ + margin;
+  }
+  return {};
+}
+
 Duration RunSession::time_to_follow() const {
   const bool is_due = ordered_ && !at_once_ && window_.anchor < ordered_->sent + profile_.nmt_time;
   return is_due ? profile_.nmt_time : Duration(0);
@@ -423,6 +435,7 @@ void RunSession::begin_case(scenario::Risk risk) {
   journal_.clear();
   before_write_.clear();
   window_ = {recorder_.capture().size(), recorder_.now()};
+  first_frame_ = window_.first;
   object_ = nullptr;
   silence_seen_ = false;
   write_refused_ = false;

@@ -103,6 +103,7 @@ class RunSession final : public steps::Session {
   [[nodiscard]] steps::Window window() const override { return window_; }
   [[nodiscard]] Result<void> await_state() override;
   [[nodiscard]] Duration time_to_follow() const override;
+  [[nodiscard]] BusTime emcy_held_until() const override;
   [[nodiscard]] Result<steps::Window> window_after(std::string_view label) const override;
   void consume(std::size_t index) override;
   [[nodiscard]] CanId emcy_can_id() const override { return emcy_can_id_; }
@@ -248,6 +249,7 @@ class RunSession final : public steps::Session {
   CanId emcy_can_id_;
   CanId home_emcy_can_id_;           ///< after a reset
   std::vector<CanId> emcy_can_ids_;  ///< since the case began
+  std::size_t first_frame_ = 0;      ///< of the case
   Duration emcy_inhibit_{}, longest_emcy_inhibit_{};
   bool emcy_inhibit_is_known_ = true;  ///< read or written since the last reset
 };

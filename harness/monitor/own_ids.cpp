@@ -83,4 +83,13 @@ bool other_holder(const std::vector<Holder>& holders, std::uint16_t first, std::
   });
 }
 
+bool may_be_left_over(const Follower& follower, const std::vector<Holder>& holders, Entries::Key can_id,
+                      std::uint16_t first, std::uint16_t last) {
+  if (std::ranges::any_of(holders, [](const Holder& each) { return each.held == Held::yes; })) return false;
+  bool other = false;
+  follower.entries().for_holders(
+      can_id, [&](std::uint16_t index) { other = other || index < first || index > last; });
+  return other;
+}
+
 }  // namespace conform::monitor

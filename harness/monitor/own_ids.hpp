@@ -37,5 +37,9 @@ struct Holder {
 [[nodiscard]] std::vector<Holder> holders(const Follower& follower, Entries::Key can_id);
 /// Somebody but these objects of the device may send with it.
 [[nodiscard]] bool other_holder(const std::vector<Holder>& holders, std::uint16_t first, std::uint16_t last);
+/// No object is known to send with it now, and another than these has had it: the frame may be what that one
+/// had still to send when its COB-ID was changed.
+[[nodiscard]] bool may_be_left_over(const Follower& follower, const std::vector<Holder>& holders,
+                                    Entries::Key can_id, std::uint16_t first, std::uint16_t last);
 
 }  // namespace conform::monitor

@@ -270,6 +270,7 @@ class AwaitEmcy final : public Action {
     if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)
       within += *delay->duration;
     if (after_.empty()) within += session.time_to_follow();
+    within = std::max<Duration>(within, session.emcy_held_until() - window->anchor);
     const auto id = session.emcy_can_id();
     auto found = session.find_frame(
         window->first,

@@ -22,6 +22,7 @@ struct Source {
   std::string service;
 
   static std::optional<Source> parse(const yaml::Field& field, const NameCheck& names);
+  [[nodiscard]] bool is_emcy() const { return service.starts_with("emcy"); }
 
   /// Channels that a frame of the source comes through; that none comes is no ground for anything.
   [[nodiscard]] Channels rests_on() const;

@@ -177,6 +177,7 @@ class AwaitFrame final : public Action {
     // What an error brings on another CAN-ID is due as late as the EMCY itself.
     if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)
       most += *delay->duration;
+    if (source_.is_emcy()) most = std::max<Duration>(most, session.emcy_held_until() - window->anchor);
     auto found = session.find_frame(window->first, *match, window->anchor + most);
     if (!found) return std::unexpected(found.error());
     Actual out;

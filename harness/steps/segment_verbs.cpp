@@ -65,13 +65,15 @@ class Segments final : public Action {
     }
     if (initiate->size_indicated) so_far.announced = initiate->value;
     for (bool toggle = false;; toggle = !toggle) {
+      const auto seen = session.capture().frames().size();
       if (pause_ && (!pauses_ || so_far.segments < *pauses_)) {
-        const auto seen = session.capture().frames().size();
         auto waited = session.wait_until(session.now() + pause_->resolve(session.profile()));
         if (!waited) return std::unexpected(waited.error());
         if (gave_up(session, seen, so_far.out)) return so_far.out;
       }
       auto answer = exchange(session, canopen::encode_upload_segment_request(toggle), so_far.out);
+      // The end of the transfer and the request may cross: then it is the first abort that says why.
+      if (so_far.out.kind == Actual::Kind::aborted) (void)gave_up(session, seen, so_far.out);
       // Past the announced size only the mark is missing: how the server ends then is no matter of the data.
       if (so_far.complete() && (!answer || !*answer)) break;
       if (!answer || !*answer) return end(session, so_far, answer);

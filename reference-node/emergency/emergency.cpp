@@ -80,7 +80,7 @@ void Emergency::clear(const ErrorCause& cause) {
   // With further causes left the standard allows a message, but asks for none.
   if (!causes_.empty() && !choices.error_reset_for_each) return;
   if (choices.error_resets_recorded) history.record(0, cause.source, 0);
-  report({0, error_register(), 0, cause.source});
+  report({0, error_register(), 0, cause.source, device_->now + choices.error_reset_delay});
 }
 
 void Emergency::on_reset(bool whole_node) {
@@ -120,14 +120,20 @@ void Emergency::flush() {
   // What waits when 1014h becomes not valid is not sent at all.
   if (!cob_id_.valid()) pending_.clear();
   while (!pending_.empty()) {
-    if (inhibited_until_ && device_->now < *inhibited_until_) return;
+    if (const auto until = waits_until(); until && device_->now < *until) return;
     inhibited_until_.reset();
     const Message message = pending_.front();
     pending_.pop_front();
     transmit(message);
-    reported_ = message.code != 0;
+    reported_ = message.code != 0 || message.error_register != 0;
     if (inhibit_time() > Duration::zero()) inhibited_until_ = device_->now + inhibit_time();
   }
+}
+
+// What the oldest message waits for. An error that follows ends the delay of an error reset.
+std::optional<BusTime> Emergency::waits_until() const {
+  if (pending_.size() != 1 || pending_.front().due <= device_->now) return inhibited_until_;
+  return std::max(pending_.front().due, inhibited_until_.value_or(BusTime{}));
 }
 
 // Bytes 0-1 error code, 2 error register, 3-7 manufacturer: detail, source, zero.
@@ -141,12 +147,12 @@ void Emergency::transmit(const Message& message) {
 }
 
 void Emergency::on_time() {
-  if (inhibited_until_ && device_->now >= *inhibited_until_) flush();
+  if (inhibited_until_ || !pending_.empty()) flush();
 }
 
 std::optional<BusTime> Emergency::next_wakeup() const {
   if (pending_.empty() || !device_->works_now(Service::emergency)) return std::nullopt;
-  return inhibited_until_;
+  return waits_until();
 }
 
 }  // namespace refnode

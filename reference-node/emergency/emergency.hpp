@@ -20,6 +20,7 @@ struct EmergencyChoices {
   bool dropped_in_stopped = false;      ///< not made up for afterwards
   bool error_resets_recorded = false;   ///< EMCY 0000h has its field in 1003h, too
   bool inhibited_from_setting = false;  ///< the first EMCY waits, too, from boot-up or the write of 1015h on
+  Duration error_reset_delay{};         ///< EMCY 0000h waits so long, or until the next error
 };
 
 struct EmergencyRules {
@@ -65,11 +66,13 @@ class Emergency {
     std::uint8_t error_register;
     std::uint8_t detail;
     ErrorSource source;
+    BusTime due{};  ///< not before, unless another message follows
   };
   void raise(const ErrorCause& cause, std::uint8_t detail);
   void clear(const ErrorCause& cause);
   void report(const Message& message);
   void flush();
+  [[nodiscard]] std::optional<BusTime> waits_until() const;
   void begin_inhibiting();
   void transmit(const Message& message);
   [[nodiscard]] Duration inhibit_time() const;

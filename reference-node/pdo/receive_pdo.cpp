@@ -123,7 +123,9 @@ void ReceivePdo::apply(const Bytes& data) {
   std::size_t position = 0;  // in bits
   for (const Mapped& mapped : parameters_.mapping()) {
     if (position + mapped.bits > data.size() * 8) break;
-    Entry* entry = device_->dictionary.entry(mapped.index, mapped.sub);  // none: a placeholder
+    // A placeholder has no data, also where the entry of its type can be read.
+    const bool placeholder = mapped.index <= 0x1F;
+    Entry* entry = placeholder ? nullptr : device_->dictionary.entry(mapped.index, mapped.sub);
     if (entry != nullptr && entry->value.size() == whole_bytes(mapped.bits)) {
       entry->value.assign(entry->value.size(), 0);
       copy_bits(data, position, entry->value, 0, mapped.bits);

@@ -147,7 +147,9 @@ void TransmitPdo::restart() {
   if (!enabled()) return;
   const std::uint8_t type = parameters_.transmission_type();
   if (terms_->choices.sends_at_first_sync && type >= 1 && is_synchronous(type)) syncs_ = type - 1U;
-  if (terms_->choices.sends_in_the_middle && type >= 1 && is_synchronous(type)) syncs_ = (type - 1U) / 2U;
+  // Where counting begins with a start value it is that which says when the first one comes.
+  if (terms_->choices.sends_in_the_middle && !awaits_start_ && type >= 1 && is_synchronous(type))
+    syncs_ = (type - 1U) / 2U;
   reported_ = content();
   start_event_timer();
 }

@@ -34,19 +34,6 @@ void fill_manufacturer_bytes(Parts& parts) {
   });
 }
 
-/// The end of an error, where no inhibit time (1015h) says how far messages are from each other.
-How late_ends(Duration by) {
-  return [by](Parts& parts) {
-    parts.device.outbox.add_filter(
-        [by, &device = parts.device](const FilterContext& context, std::vector<Outgoing>& frames) {
-          if (context.service != Service::emergency || device.time_value(0x1015, 0) != 0) return;
-          for (Outgoing& outgoing : frames) {
-            if (conform::load_le(outgoing.frame.bytes().first(2)) == 0) outgoing.delay += by;
-          }
-        });
-  };
-}
-
 /// What follows from the loss is an error of the maker's own.
 void second_error_of_a_loss(Parts& parts) {
   const auto followed = [](const ErrorCause& cause) { return cause.code == 0x8130; };
@@ -178,6 +165,8 @@ VariantTable emergency_variants() {
        .legal = "7.2.7.1: optional",
        .how = absent({0x1014, 0x1015}),
        .group = "emcy",
+       // What ends Operational there would be told by nothing.
+       .excludes = {"like-canopennode"},
        .lacks = {"emcy"}},
       {.id = "emcy-absent-nothing-is-an-error",
        .summary = "no EMCY and no history, and 1001h stays 0 where others see a communication error",
@@ -190,6 +179,7 @@ VariantTable emergency_variants() {
                          });
                    }),
        .group = "emcy",
+       .excludes = {"like-canopennode"},
        .lacks = {"emcy"}},
       {.id = "emcy-in-operational",
        .summary = "an error of the application that is there in Operational only",
@@ -204,10 +194,9 @@ VariantTable emergency_variants() {
       {"emcy-0000-late-300ms",
        "the end of an error is told 300 ms later",
        "7.2.7: no time is set",
-       late_ends(std::chrono::milliseconds(300)),
+       [](Parts& node) { node.emergency.choices.error_reset_delay = std::chrono::milliseconds(300); },
        "emcy-late",
-       // What is put off here knows nothing of Stopped.
-       {"1015", "emcy-in-operational", "error-reset-for-each", "rpdos-deadline-200ms"}},
+       {"rpdos-deadline-200ms"}},
       {"emcy-second-of-the-maker",
        "a second error, FF30h, goes with each loss of a heartbeat or of the guarding",
        "7.2.7: table 26 leaves FFxxh to the device",

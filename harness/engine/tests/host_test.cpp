@@ -236,6 +236,25 @@ TEST_CASE("the last cyclic frame of a few is not late because nothing was sent b
   CHECK(recorder.take_lateness().waking == Duration(0));
 }
 
+TEST_CASE("A frame that waits for a full bus is not late") {
+  can::SimulatedBus bus;
+  ScriptedDevice device;
+  bus.attach(device, "scripted device");
+  Recorder recorder(bus.transport(), nullptr);
+  // At 500 kbit/s 600 frames take more than host_is_late.
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.id == 0x601)
+      for (int i = 0; i < 600; ++i) self.send(can::data_frame(CanId(0x281), {1, 2, 3, 4, 5, 6, 7, 8}));
+    return true;
+  };
+  REQUIRE(recorder.send(can::data_frame(CanId(0x601), {0x40, 0, 0x10, 0, 0, 0, 0, 0})));
+  REQUIRE(recorder.wait_until(recorder.now() + 1ms));
+  REQUIRE(recorder.send(can::data_frame(CanId(0x77E), {5})));
+  CHECK(recorder.capture().frames().back().time - recorder.capture().frames().front().time >
+        can::host_is_late);
+  CHECK(recorder.late_sendings() == 0);
+}
+
 TEST_CASE("A produced SYNC may count in its data") {
   can::SimulatedBus bus;
   ScriptedDevice device;

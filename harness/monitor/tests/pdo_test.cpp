@@ -77,6 +77,15 @@ TEST_CASE("A TPDO that was moved is judged with its new CAN-ID, where nobody els
   CHECK(moved().later("< 481: 01").told() == Told{"fail PDO-TX-02"});
 }
 
+TEST_CASE("A late EMCY on the CAN-ID that 1014h had is no TPDO that had it once, too") {
+  auto moved = [] { return Story().write(0x1800, 1, 0x6A0); };
+  const auto* message = "< 6A0: 00 00 00 00 00 00 00 00";
+  auto both = [&] { return moved().write(0x1014, 0, 0x6A0).write(0x1014, 0, 0x81); };
+  CHECK(both().later(reset).line(boot_up).later(pre_operational).later(message).told().empty());
+  CHECK(moved().later(reset).line(boot_up).later(pre_operational).later(message).told() ==
+        Told{"fail PDO-TX-02"});
+}
+
 TEST_CASE("A TPDO is as long as its mapping") {
   CHECK(configured(255).line(tpdo).told().empty());
   CHECK(configured(255).line("< 181: 01 02 03").told() == Told{"fail PDO-TX-01"});

@@ -34,4 +34,25 @@ TEST_CASE("Where an error is waited for, the end of another one is none") {
   CHECK(taken_by("- emcy: {code: errors, within: 1 s}\n") == "error");
 }
 
+TEST_CASE("An EMCY that the inhibit time holds back is waited for") {
+  const auto says = [](std::string_view text, Duration held) {
+    FakeSession session;
+    session.emcy_held += held;
+    session.trace.add({can::data_frame(CanId(0x85), {0x30, 0x81, 0x11, 0, 0, 0, 0, 0}),
+                       BusTime() + std::chrono::milliseconds(1015), can::Direction::received, ""});
+    const auto actual = parsed_steps(std::string(text)).at(0).action->run(session);
+    REQUIRE(actual);
+    return actual->decisive.has_value();
+  };
+  using std::chrono::milliseconds;
+  for (const auto* text :
+       {"- emcy: {within: 800 ms}\n", "- frame: {id: emcy error, within: 475 ms..800 ms}\n"}) {
+    INFO(text);
+    CHECK_FALSE(says(text, {}));
+    CHECK_FALSE(says(text, milliseconds(900)));
+    CHECK(says(text, milliseconds(1020)));
+  }
+  CHECK_FALSE(says("- frame: {id: 281h, within: 800 ms}\n", milliseconds(1020)));
+}
+
 }  // namespace

@@ -28,7 +28,7 @@ class FakeSession final : public Session {
   device::Dictionary known;
   can::Capture trace;
   std::vector<can::Frame> sent;
-  BusTime time{};
+  BusTime time{}, emcy_held{};
 
   // Scope
   [[nodiscard]] const Value* find(std::string_view name) const override {
@@ -147,6 +147,7 @@ class FakeSession final : public Session {
   }
   [[nodiscard]] Result<void> await_state() override { return {}; }
   [[nodiscard]] Duration time_to_follow() const override { return {}; }
+  [[nodiscard]] BusTime emcy_held_until() const override { return emcy_held; }
   [[nodiscard]] Result<void> produce(Production) override { return {}; }
   void stop_producing(std::string_view) override {}
 
