@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/lss.hpp"
+#include "engine/restore.hpp"
 #include "engine/walk_values.hpp"
 #include "scenario/query.hpp"
 
@@ -133,6 +134,14 @@ Result<Actual> CaseRunner::act(const Step& step, can::CasePart part) {
   return actual;
 }
 
+/// A write to 1010h (CiA 301, 7.5.2.13).
+bool CaseRunner::stores(const Step& step) const {
+  const auto* object = step.action->acts() ? step.action->object() : nullptr;
+  if (object == nullptr) return false;
+  const auto entry = object->resolve(session_);
+  return entry && entry->index == Index(0x1010);
+}
+
 /// Cleanup judges nothing and always runs to its end.
 Result<void> CaseRunner::run_cleanup(const Steps& list) {
   for (const auto& step : list) {
@@ -143,6 +152,11 @@ Result<void> CaseRunner::run_cleanup(const Steps& list) {
       return !holds || *holds == wanted;
     };
     if (!says(step.when, true) || !says(step.unless, false)) continue;
+    if (stores(step)) {
+      // What else the case has changed is not to be stored with it.
+      auto report = restore(session_, session_.journal());
+      if (!report) return std::unexpected(report.error());
+    }
     auto actual = act(step, can::CasePart::cleanup);
     if (!actual && session_.recorder().fault()) return std::unexpected(actual.error());
     if (actual && !step.label.empty()) session_.label(step, *actual);

@@ -51,6 +51,7 @@ class CaseRunner {
   using Steps = std::vector<steps::Step>;
 
   [[nodiscard]] Result<void> run_cleanup(const Steps& list);
+  [[nodiscard]] bool stores(const steps::Step& step) const;
 
   /// Carries out the action of a step; the frames of the capture tell of it.
   [[nodiscard]] Result<steps::Actual> act(const steps::Step& step, can::CasePart part);

@@ -140,6 +140,7 @@ class RunSession final : public steps::Session {
   /// Whether default parameters were restored (1011h, CiA 301, 7.5.2.14) since the last call.
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
+  [[nodiscard]] const std::vector<Change>& journal() const { return journal_; }
   /// The longest inhibit time (1015h) that the device was seen to hold since the case began; from the first
   /// look behind a reset on, since the reset.
   [[nodiscard]] Duration longest_emcy_inhibit() const { return longest_emcy_inhibit_; }

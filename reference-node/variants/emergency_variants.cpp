@@ -186,7 +186,7 @@ VariantTable emergency_variants() {
        .legal = "7.2.7.1: an EMCY when the error occurs; NMT-FSA-01: 1001h shows it",
        .how = error_in_operational,
        // With those that an error leads out of Operational it would never be there.
-       .excludes = {"self-starting", "error-ends-operational", "error-prevents-operational",
+       .excludes = {"self-starting", "error-ends-operational", "error-prevents-operational", "1029-stops",
                     "like-canopennode", "emcy-late", "emcy-late-20ms", "rpdos-deadline-200ms",
                     "heartbeat-restarts-at-state-change"}},
       {"emcy-late-90ms", "EMCYs leave 90 ms after their error", "7.2.7: no time is set",

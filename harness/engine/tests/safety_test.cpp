@@ -43,6 +43,29 @@ TEST_CASE("a changed value is put back after the case") {
   CHECK(out.run.notes.empty());
 }
 
+TEST_CASE("a cleanup that stores does not store what else the case has changed") {
+  ScriptedDevice device;
+  device.entries[0x101001] = {1, 0, 0, 0};
+  device.entries[0x101200] = {0x00, 0x01, 0, 0};
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: nvm
+    steps:
+      - download: {object: 1012h:00, value: 200h}
+      - download: {object: 1017h:00, value: 1000}
+        checks: T-MUST
+    cleanup:
+      - download: {object: 1012h:00, value: 100h}
+      - download: {object: 1010h:01, value: 6576 6173h}
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+  REQUIRE(device.writes.size() >= 5);
+  CHECK(std::vector(device.writes.begin(), device.writes.begin() + 5) ==
+        std::vector<std::string>{"1012h = 00 02 00 00", "1017h = E8 03", "1012h = 00 01 00 00",
+                                 "1017h = 00 00", "1010h = 73 61 76 65"});
+}
+
 TEST_CASE("an entry the profile calls untouchable is never written, whatever a scenario says") {
   auto profile = device::default_profile(NodeId(1));
   profile.untouchable.push_back({Index(0x1017), SubIndex(0)});
