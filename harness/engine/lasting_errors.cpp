@@ -38,6 +38,7 @@ Result<void> LastingErrors::look() {
 }
 
 Result<void> LastingErrors::end_those_of(const result::CaseResult& result) {
+  if (auto done = await_late_ones(result.first_frame); !done) return done;
   if (auto done = let_emcy_end(result.first_frame); !done) return done;
   if (auto done = clear_what_stays(result); !done) return done;
   return await_error_reset(result.first_frame);
@@ -65,6 +66,29 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
                               run_.session.was_for_emcy(frame) && frame.size() == 8 &&
                               (frame.data[0] != 0 || frame.data[1] != 0);
                      });
+}
+
+/// A device that takes its time with EMCYs has not sent all of those yet that the case has brought about.
+Result<void> LastingErrors::await_late_ones(std::size_t from) {
+  constexpr auto patience = std::chrono::milliseconds(150);
+  constexpr int most_in_vain = 3;
+  auto& session = run_.session;
+  const auto is_emcy = [&session](const can::CapturedFrame& captured) {
+    return captured.direction == can::Direction::received && session.was_for_emcy(captured.frame);
+  };
+  const auto& frames = run_.recorder.capture().frames();
+  const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(from);
+  if (!has_messages_ || session.emcys_due() == 0 || late_in_vain_ >= most_in_vain ||
+      std::any_of(begin, frames.end(), is_boot_up_of(run_.profile.node)))
+    return {};
+  auto seen = static_cast<std::size_t>(std::count_if(begin, frames.end(), is_emcy));
+  for (; seen < session.emcys_due(); ++seen) {
+    auto told = run_.recorder.find(frames.size(), is_emcy, session.now() + patience);
+    if (!told) return std::unexpected(told.error());
+    late_in_vain_ = *told ? 0 : late_in_vain_ + 1;
+    if (!*told) return {};
+  }
+  return {};
 }
 
 Result<void> LastingErrors::let_emcy_end(std::size_t from) {
@@ -118,8 +142,12 @@ Result<void> LastingErrors::await_error_reset(std::size_t from) {
       },
       session.now() + patience);
   if (!told) return std::unexpected(told.error());
-  if (!*told) ++in_vain_;
-  return {};
+  if (!*told) {
+    ++in_vain_;
+    return {};
+  }
+  // It began an inhibit time of its own, perhaps the one that was put back since.
+  return let_emcy_end(from);
 }
 
 /// Where the device knew of no error at first, a reset ends those of the case that did not end by themselves.

@@ -25,6 +25,7 @@ class LastingErrors {
  private:
   [[nodiscard]] Result<bool> has_errors();
   [[nodiscard]] bool has_raised_errors(std::size_t from) const;
+  [[nodiscard]] Result<void> await_late_ones(std::size_t from);
   [[nodiscard]] Result<void> let_emcy_end(std::size_t from);
   [[nodiscard]] Result<void> clear_what_stays(const result::CaseResult& result);
   [[nodiscard]] Result<void> await_error_reset(std::size_t from);
@@ -32,6 +33,7 @@ class LastingErrors {
   RunContext& run_;
   bool none_at_first_ = false;  ///< 1001h was 0 before the first case, and a reset makes it 0 again
   bool has_messages_ = true;    ///< EMCY is there and valid (1014h)
+  int late_in_vain_ = 0;        ///< waits for EMCYs that triggers of the case were to bring
   int in_vain_ = 0;             ///< waits for an EMCY 0000h that did not come: the device sends none
 };
 

@@ -289,6 +289,10 @@ BusTime RunSession::emcy_held_until() const {
   return {};
 }
 
+void RunSession::error_changed(std::uint16_t code, bool raised) {
+  if (raised ? raised_.insert(code).second : raised_.erase(code) > 0) ++emcys_due_;
+}
+
 Duration RunSession::time_to_follow() const {
   const bool is_due = ordered_ && !at_once_ && window_.anchor < ordered_->sent + profile_.nmt_time;
   return is_due ? profile_.nmt_time : Duration(0);
@@ -436,6 +440,8 @@ void RunSession::begin_case(scenario::Risk risk) {
   before_write_.clear();
   window_ = {recorder_.capture().size(), recorder_.now()};
   first_frame_ = window_.first;
+  emcys_due_ = 0;
+  raised_.clear();
   object_ = nullptr;
   silence_seen_ = false;
   write_refused_ = false;

@@ -104,6 +104,10 @@ class RunSession final : public steps::Session {
   [[nodiscard]] Result<void> await_state() override;
   [[nodiscard]] Duration time_to_follow() const override;
   [[nodiscard]] BusTime emcy_held_until() const override;
+  void error_changed(std::uint16_t code, bool raised) override;
+  /// EMCYs that are due for the triggers that the case has used; a device may send less, as it need not tell
+  /// of an error that ends while there are others.
+  [[nodiscard]] std::size_t emcys_due() const { return emcys_due_; }
   [[nodiscard]] Result<steps::Window> window_after(std::string_view label) const override;
   void consume(std::size_t index) override;
   [[nodiscard]] CanId emcy_can_id() const override { return emcy_can_id_; }
@@ -251,6 +255,8 @@ class RunSession final : public steps::Session {
   CanId home_emcy_can_id_;           ///< after a reset
   std::vector<CanId> emcy_can_ids_;  ///< since the case began
   std::size_t first_frame_ = 0;      ///< of the case
+  std::size_t emcys_due_ = 0;
+  std::set<std::uint16_t> raised_;  ///< error codes of triggers
   Duration emcy_inhibit_{}, longest_emcy_inhibit_{};
   bool emcy_inhibit_is_known_ = true;  ///< read or written since the last reset
 };

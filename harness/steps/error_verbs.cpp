@@ -53,6 +53,7 @@ std::optional<std::uint64_t> error_register(Session& session) {
 /// takes seconds for the writes.
 Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Duration& delay) {
   const auto start = session.now();
+  session.error_changed(trigger.code, true);
   if (trigger.raise) {
     auto written = write(session, trigger.raise->object, trigger.raise->bytes);
     delay = session.now() - start;
@@ -88,6 +89,7 @@ Result<Actual> raise(Session& session, const device::ErrorTrigger& trigger, Dura
 }
 
 Result<Actual> clear(Session& session, const device::ErrorTrigger& trigger) {
+  session.error_changed(trigger.code, false);
   if (trigger.clear) return write(session, trigger.clear->object, trigger.clear->bytes);
   const auto node = missed_node(session, trigger);
   auto sent = session.play_heartbeat(node, canopen::NmtState::operational);

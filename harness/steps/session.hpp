@@ -137,6 +137,8 @@ class Session : public Facts {
   [[nodiscard]] virtual Duration time_to_follow() const = 0;
   /// An EMCY that is due may come so late, as the inhibit time (1015h) runs behind the last one of this case.
   [[nodiscard]] virtual BusTime emcy_held_until() const = 0;
+  /// The error of a trigger was raised or cleared: an EMCY is due.
+  virtual void error_changed(std::uint16_t code, bool raised) = 0;
   [[nodiscard]] virtual Result<Window> window_after(std::string_view label) const = 0;
   /// The step has used the trace up to and including `index`: later steps look behind it. An index behind the
   /// last frame means all that was recorded; windows then count from now.

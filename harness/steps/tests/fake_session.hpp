@@ -148,6 +148,7 @@ class FakeSession final : public Session {
   [[nodiscard]] Result<void> await_state() override { return {}; }
   [[nodiscard]] Duration time_to_follow() const override { return {}; }
   [[nodiscard]] BusTime emcy_held_until() const override { return emcy_held; }
+  void error_changed(std::uint16_t, bool) override {}
   [[nodiscard]] Result<void> produce(Production) override { return {}; }
   void stop_producing(std::string_view) override {}
 
