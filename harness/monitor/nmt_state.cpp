@@ -8,6 +8,11 @@ void NmtState::spoke(BusTime time) {
   spoke_at_ = time;
 }
 
+void NmtState::was_first(BusTime time) {
+  if (time > first_at_ + pause_of_none) first_began_ = time;
+  first_at_ = time;
+}
+
 void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index) {
   using canopen::NmtCommand;
   if (frame.extended || frame.remote || frame.dlc != 2) {

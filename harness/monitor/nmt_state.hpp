@@ -21,6 +21,8 @@ class NmtState {
 
   /// The device sends a frame.
   void spoke(BusTime time);
+  /// A frame with a CAN-ID that goes before all that the device sends (NMT, SYNC).
+  void was_first(BusTime time);
   /// A frame with the identifier 0.
   void command(const can::Frame& frame, BusTime time, std::size_t index);
   void boot_up(BusTime time);
@@ -49,7 +51,8 @@ class NmtState {
   }
   /// The earliest time at which what the device sends at `now` may have been made.
   [[nodiscard]] BusTime made_since(BusTime now) const {
-    return now <= spoke_at_ + longest_frame ? std::min(now, queue_began_) : now;
+    const auto unhindered = now <= first_at_ + pause_of_none ? std::min(now, first_began_) : now;
+    return now <= spoke_at_ + longest_frame ? std::min(unhindered, queue_began_) : unhindered;
   }
   /// A reset was commanded and the boot-up message has not come.
   [[nodiscard]] bool booting() const { return booting_; }
@@ -65,9 +68,12 @@ class NmtState {
  private:
   /// Longer than a frame takes at 10 kbit/s: who has frames waiting pauses for less.
   static constexpr Duration longest_frame = std::chrono::milliseconds{15};
+  /// Between frames that leave no room for another one, at 125 kbit/s and more.
+  static constexpr Duration pause_of_none = std::chrono::microseconds{1200};
 
   Facts facts_;
   BusTime spoke_at_{}, queue_began_{};  ///< the last frame, and the first of those that came in one go
+  BusTime first_at_{}, first_began_{};  ///< the same of those that go before
   std::optional<canopen::NmtState> commanded_;
   BusTime commanded_at_{};
   std::optional<BusTime> booted_at_, ordered_at_;
