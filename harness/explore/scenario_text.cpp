@@ -96,6 +96,18 @@ class Writer {
     return out;
   }
 
+  /// Frames with this CAN-ID that agreed, between the beginning of the window and the one that did not.
+  [[nodiscard]] std::size_t before(const can::Frame& frame) const {
+    const auto end = last_that_acts();
+    const auto& played = finding_.played;
+    if (end == 0 || end > played.begins.size()) return 0;
+    return static_cast<std::size_t>(std::ranges::count_if(played.trace, [&](const can::CapturedFrame& each) {
+      return each.direction == can::Direction::received && each.frame.id == frame.id &&
+             each.frame.extended == frame.extended && each.frame.remote == frame.remote &&
+             each.time > played.begins[end - 1] && each.time < played.difference->time;
+    }));
+  }
+
   /// Of a frame that is due: as long as it takes with the model, because what comes later is another one.
   [[nodiscard]] Duration due_within(Duration most) const {
     const auto end = last_that_acts();
@@ -195,6 +207,11 @@ class Writer {
   void await(const Difference& difference) {
     const auto& frame = difference.what == What::surplus ? difference.came : difference.due;
     const auto window = rest_from(last_that_acts()) + margin;
+    if (const auto passed = before(frame); passed > 0) {
+      add(fmt::format("- over: {{number: 1..{}}}", passed));
+      add("  steps:");
+      add(fmt::format("    - frame: {{id: {}, within: {}}}", can_id(frame.id), to_string(window)));
+    }
     if (difference.what == What::missing) {
       add(fmt::format("- frame: {{id: {}, within: {}}}", can_id(frame.id), to_string(due_within(window))));
     } else if (difference.what == What::surplus) {

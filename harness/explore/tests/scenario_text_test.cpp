@@ -59,6 +59,25 @@ TEST_CASE("a frame that is missing is waited for from the last thing that was se
         std::string::npos);
 }
 
+TEST_CASE("frames that agreed are let pass before the one that does not") {
+  Finding found;
+  found.conversation = {
+      {.kind = Action::Kind::download, .object = {Index(0x1005), SubIndex(0)}, .data = {0x80, 0, 0, 0x40}}};
+  found.assigned = Assigned{"SYNC-PRO-04", Grade::violated};
+  auto& difference = found.played.difference.emplace();
+  difference.what = Difference::What::other_data;
+  difference.due = difference.came = can::data_frame(CanId(0x80), {1});
+  difference.came.data[0] = 0;
+  difference.time = BusTime(60ms);
+  found.played.begins = {BusTime(10ms)};
+  for (const auto at : {5ms, 20ms, 30ms, 40ms, 60ms})
+    found.played.trace.push_back({difference.due, BusTime(at), can::Direction::received, {}});
+  const auto text = scenario_file({&found, 1}, words_of_the_standard(), "x");
+  CHECK(text.contains("      - over: {number: 1..3}\n        steps:\n"
+                      "          - frame: {id: 080h, within: 50 ms}\n"
+                      "      - frame: {id: 080h, within: 50 ms}\n"));
+}
+
 TEST_CASE("an abort that names another object is held against all of its bytes") {
   Finding finding;
   finding.conversation = {request(can::data_frame(CanId(0x605), {0x60, 0, 0, 0, 0, 0, 0, 0}))};
