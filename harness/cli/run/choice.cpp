@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "base/text.hpp"
 #include "cli/run/run_source.hpp"
@@ -23,6 +27,14 @@ std::optional<std::size_t> number_of(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return out;
+}
+
+/// A file of scenarios where an id is due: how its scenarios are played.
+std::string hint_for_file(const std::string& pattern) {
+  const std::filesystem::path file(pattern);
+  if (file.extension() != ".yaml" && file.extension() != ".yml") return {};
+  const auto folder = file.has_parent_path() ? file.parent_path().string() : std::string(".");
+  return fmt::format("a file is read with its folder: --suites '{}' '{}/*'", folder, file.stem().string());
 }
 
 std::optional<engine::Shard> parse_shard(std::string_view text) {
@@ -94,10 +106,12 @@ Result<void> choose(const Choice& choice, engine::RunOptions& options) {
 Result<void> is_there(const LoadedSuites& suites, const device::Dictionary& described,
                       engine::PlanOptions plan) {
   const auto no_case = [&suites](const std::string& pattern) {
+    const std::string nothing = "nothing is selected: no scenario and no monitor is named '" + pattern + "'";
+    if (auto hint = hint_for_file(pattern); !hint.empty()) return fail(nothing, {}, std::move(hint));
     const auto ids = engine::case_ids(suites.suite);
     const std::vector<std::string_view> candidates(ids.begin(), ids.end());
     const auto near = did_you_mean(result::scenario_of(pattern), candidates);
-    return fail("nothing is selected: no scenario and no monitor is named '" + pattern + "'", {},
+    return fail(nothing, {},
                 near.empty() ? "'canopen-conform list' shows what there is"
                              : "did you mean '" + std::string(near) + "'?");
   };

@@ -142,6 +142,11 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stdout[-3000:])
             self.assertIn(f"no scenario and no monitor is named '{words[-1]}'", done.stderr)
 
+    def test_a_file_where_an_id_is_due_is_told_how_it_is_played(self):
+        done = run("run", "--simulate", "found/explored.yaml")
+        self.assertEqual(done.returncode, 2, done.stdout[-3000:])
+        self.assertIn("--suites 'found' 'explored/*'", done.stderr)
+
     def test_a_short_budget_finds_most_of_what_a_whole_run_finds(self):
         found = 0
         defects = ["1003-nonzero-write-accepted", "1017-period-a-fifth-longer", "mux-not-echoed", "1018-absent"]
