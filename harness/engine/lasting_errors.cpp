@@ -62,8 +62,7 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
   return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
                      [this](const can::CapturedFrame& captured) {
                        const auto& frame = captured.frame;
-                       return captured.direction == can::Direction::received &&
-                              run_.session.was_for_emcy(frame) && frame.size() == 8 &&
+                       return run_.session.was_emcy(captured) && frame.size() == 8 &&
                               (frame.data[0] != 0 || frame.data[1] != 0);
                      });
 }
@@ -73,9 +72,7 @@ Result<void> LastingErrors::await_late_ones(std::size_t from) {
   constexpr auto patience = std::chrono::milliseconds(150);
   constexpr int most_in_vain = 3;
   auto& session = run_.session;
-  const auto is_emcy = [&session](const can::CapturedFrame& captured) {
-    return captured.direction == can::Direction::received && session.was_for_emcy(captured.frame);
-  };
+  const auto is_emcy = [&session](const can::CapturedFrame& captured) { return session.was_emcy(captured); };
   const auto& frames = run_.recorder.capture().frames();
   const auto begin = frames.begin() + static_cast<std::ptrdiff_t>(from);
   if (!has_messages_ || session.emcys_due() == 0 || late_in_vain_ >= most_in_vain ||
@@ -98,13 +95,7 @@ Result<void> LastingErrors::let_emcy_end(std::size_t from) {
   constexpr auto margin = std::chrono::milliseconds(10);
   constexpr int most_held_back = 48;  // a case may raise and clear a dozen errors one after the other
   for (int held = 0; inhibit > Duration::zero() && held < most_held_back; ++held) {
-    std::optional<BusTime> latest;
-    const auto& frames = run_.recorder.capture().frames();
-    for (auto i = frames.size(); i > from && !latest; --i) {
-      const auto& captured = frames[i - 1];
-      if (captured.direction == can::Direction::received && session.was_for_emcy(captured.frame))
-        latest = captured.time;
-    }
+    const auto latest = session.latest_emcy(from);
     if (!latest || *latest + inhibit + margin <= session.now()) return {};
     if (auto waited = session.wait_until(*latest + inhibit + margin); !waited) return waited;
   }

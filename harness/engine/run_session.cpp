@@ -280,13 +280,16 @@ void RunSession::note_command(std::size_t index) {
 BusTime RunSession::emcy_held_until() const {
   constexpr auto margin = std::chrono::milliseconds(20);
   if (emcy_inhibit_ == Duration::zero()) return {};
+  const auto latest = latest_emcy(first_frame_);
+  return latest ? *latest + emcy_inhibit_ + margin : BusTime{};
+}
+
+std::optional<BusTime> RunSession::latest_emcy(std::size_t from) const {
   const auto& frames = recorder_.capture().frames();
-  for (auto i = frames.size(); i > first_frame_; --i) {
-    const auto& captured = frames[i - 1];
-    if (captured.direction == can::Direction::received && was_for_emcy(captured.frame))
-      return captured.time + emcy_inhibit_ + margin;
+  for (auto i = frames.size(); i > from; --i) {
+    if (was_emcy(frames[i - 1])) return frames[i - 1].time;
   }
-  return {};
+  return std::nullopt;
 }
 
 void RunSession::error_changed(std::uint16_t code, bool raised) {

@@ -153,10 +153,13 @@ class RunSession final : public steps::Session {
     home_emcy_can_id_ = emcy_can_id_ = id;
     emcy_can_ids_ = {id};
   }
-  /// Whether EMCY has had this CAN-ID (1014h) at any time since the case began.
-  [[nodiscard]] bool was_for_emcy(const can::Frame& frame) const {
-    return std::ranges::any_of(emcy_can_ids_, [&frame](CanId id) { return frame.is_data(id); });
+  /// Whether the device sent it on a CAN-ID that EMCY has had (1014h) at any time since the case began.
+  [[nodiscard]] bool was_emcy(const can::CapturedFrame& captured) const {
+    return captured.direction == can::Direction::received &&
+           std::ranges::any_of(emcy_can_ids_, [&captured](CanId id) { return captured.frame.is_data(id); });
   }
+  /// The time of the last such frame from this one on.
+  [[nodiscard]] std::optional<BusTime> latest_emcy(std::size_t from) const;
   /// `why`: what the device answered, where it is not there.
   void note_present(Multiplexer object, bool present, std::string why = {});
   void forget_presence() { present_.clear(); }

@@ -58,9 +58,10 @@ class Emergencies final : public Monitor {
     if (is_emcy(found, Held::off)) return off(seen, follower, found);
     if (!is_emcy(found)) return;
     const bool known = is_emcy(found, Held::yes);
-    if (!is_own(seen) && may_be_left_over(follower, found, seen.key(), emcy_index, emcy_index)) return;
     // What an object had queued before its CAN-ID changed has no holder any more.
-    if (!known && !is_own(seen) && seen.frame().dlc != 8) return;
+    if (!known && !is_own(seen) &&
+        (seen.frame().dlc != 8 || may_be_left_over(follower, found, seen.key(), emcy_index, emcy_index)))
+      return;
     if (known) good(valid);
     judge_state(seen, follower);
     judge_form(seen);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of single communication objects: absent entries, other access, other length, other default.
-
 #include <utility>
 
 #include "defects/tools.hpp"

@@ -147,7 +147,7 @@ void Emergency::transmit(const Message& message) {
 }
 
 void Emergency::on_time() {
-  if (inhibited_until_ || !pending_.empty()) flush();
+  if (!pending_.empty()) flush();
 }
 
 std::optional<BusTime> Emergency::next_wakeup() const {
