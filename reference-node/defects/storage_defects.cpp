@@ -33,7 +33,7 @@ Change takes_for(std::uint16_t index, std::function<Bytes(Bytes)> other) {
   });
 }
 
-Bytes reversed(Bytes signature) {
+Bytes backwards(Bytes signature) {
   std::ranges::reverse(signature);
   return signature;
 }
@@ -267,7 +267,7 @@ DefectTable storage_defects() {
       {"1010-signature-byte-order",
        "1010h wants the signature with its bytes reversed",
        {"OD-1010-07", "OD-1010-08", "STO-1010-03"},
-       takes_for(0x1010, reversed)},
+       takes_for(0x1010, backwards)},
       {"1010-wrong-signature-accepted",
        "1010h stores with any signature",
        {"OD-1010-08", "OD-1010-09", "STO-1010-02", "STO-1010-03"},
@@ -371,7 +371,7 @@ DefectTable storage_defects() {
       {"1011-signature-byte-order",
        "1011h wants the signature with its bytes reversed",
        {"OD-1011-07", "OD-1011-08", "STO-1011-08"},
-       takes_for(0x1011, reversed)},
+       takes_for(0x1011, backwards)},
       {"1011-wrong-signature-accepted",
        "1011h restores with any signature",
        {"OD-1011-08", "OD-1011-09", "STO-1011-02", "STO-1011-08"},

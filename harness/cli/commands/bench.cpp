@@ -22,8 +22,8 @@ constexpr TransferKind kinds[] = {TransferKind::expedited_upload, TransferKind::
 
 /// One line for scripts/benchmark: kind, transfers, bytes, frames, seconds, part of the limit.
 void print_row(TransferKind kind, const Throughput& row) {
-  print(fmt::format("{}\t{}\t{}\t{}\t{:.6f}\t{:.4f}\n", to_string(kind), row.transfers, row.bytes, row.frames,
-                    row.seconds(), row.share_of_limit()));
+  print(fmt::format("{}\t{}\t{}\t{}\t{:.6f}\t{:.4f}\n", transfer_name(kind), row.transfers, row.bytes,
+                    row.frames, row.seconds(), row.share_of_limit()));
 }
 
 /// Transfers when expedited; by segments a tenth of the bytes, which takes as long.

@@ -89,7 +89,7 @@ std::string mutants_words(const std::vector<MutantFate>& fates, bool verbose) {
   for (const auto& fate : fates) {
     const bool survives = fate.fate == Fate::survived && (fate.explained.empty() || is_gap(fate));
     if (!survives && !verbose) continue;
-    out += fmt::format("{} {} line {}: {}\n", survives ? "SURVIVES" : to_string(fate.fate),
+    out += fmt::format("{} {} line {}: {}\n", survives ? "SURVIVES" : fate_name(fate.fate),
                        fate.mutant->number, fate.mutant->line, explanation_key(*fate.mutant));
     if (!fate.how.empty()) out += "    " + fate.how + "\n";
     if (!fate.explained.empty()) out += "    " + fate.explained + "\n";

@@ -109,7 +109,7 @@ std::vector<Score> scores_by(const std::vector<MutantFate>& fates, const auto& g
 std::string one_mutant(const MutantFate& fate, bool survives) {
   std::string out = fmt::format(
       "<p>{} <b>{}</b> {} line {} {}: <code>{}</code> &#x2192; <code>{}</code></p>\n",
-      survives ? badge("fail", to_string(fate.fate)) : badge("warn", to_string(fate.fate)),
+      survives ? badge("fail", fate_name(fate.fate)) : badge("warn", fate_name(fate.fate)),
       fate.mutant->number, text(fate.mutant->file), fate.mutant->line, text(fate.mutant->function),
       clipped(fate.mutant->original, text_limit), clipped(fate.mutant->mutated, text_limit));
   for (const auto& each : {fate.how, fate.explained}) {
@@ -232,7 +232,7 @@ std::string throughput_section(const ProofBook& book) {
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th>{}{}<td class=\"num\">{}</td><td class=\"num\">{:.0f}</td><td class=\"num\">{:.1f}</td>"
         "<td>{}</td></tr>\n",
-        to_string(kind), number_cell(one.bytes), number_cell(one.frames),
+        transfer_name(kind), number_cell(one.bytes), number_cell(one.frames),
         reports::brief_duration(one.elapsed), static_cast<double>(one.bytes) / one.seconds(), 100 * share,
         length_bar(share));
   }

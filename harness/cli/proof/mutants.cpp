@@ -21,7 +21,7 @@ constexpr std::string_view the_run = "the run";
 
 }  // namespace
 
-std::string_view to_string(Fate fate) {
+std::string_view fate_name(Fate fate) {
   switch (fate) {
     case Fate::survived: return "survived";
     case Fate::not_reached: return "not reached";

@@ -27,7 +27,8 @@ enum class Fate : unsigned char {
           ///< mute)
   killed  ///< a requirement failed that the conformant node keeps
 };
-[[nodiscard]] std::string_view to_string(Fate fate);
+/// Not to_string, which would hide those of conform from who is in this namespace.
+[[nodiscard]] std::string_view fate_name(Fate fate);
 
 struct MutantFate {
   const Mutant* mutant = nullptr;

@@ -85,7 +85,7 @@ void add_up(const engine::Recorder& recorder, std::size_t first, std::uint32_t b
 
 }  // namespace
 
-std::string_view to_string(TransferKind kind) {
+std::string_view transfer_name(TransferKind kind) {
   switch (kind) {
     case TransferKind::expedited_upload: return "expedited upload";
     case TransferKind::expedited_download: return "expedited download";
@@ -113,7 +113,7 @@ Result<Throughput> measure(engine::Recorder& recorder, engine::SdoChannel& chann
     auto got = transfer(channel, request_of(kind, data));
     if (!got) return std::unexpected(got.error());
     if (is_upload(kind) && !expedited && *got != data)
-      return fail("the object read back is not what was written to it", std::string(to_string(kind)));
+      return fail("the object read back is not what was written to it", std::string(transfer_name(kind)));
     out.bytes += expedited ? 4 : amount;
   }
   add_up(recorder, first, recorder.transport().info().bit_rate, out);

@@ -23,7 +23,8 @@ enum class TransferKind : std::uint8_t {
   block_upload,  ///< 127 segments in a sub-block, with CRC
   block_download,
 };
-[[nodiscard]] std::string_view to_string(TransferKind kind);
+/// Not to_string, which would hide those of conform from who is in this namespace.
+[[nodiscard]] std::string_view transfer_name(TransferKind kind);
 
 struct Throughput {
   std::uint64_t bytes = 0;  ///< of the objects, without protocol
