@@ -115,9 +115,7 @@ Result<void> LastingErrors::await_error_reset(std::size_t from) {
     // Nothing was told, or a reset has made the device forget.
     if (i == from || restarted(frames[i - 1])) return {};
     const auto& frame = frames[i - 1].frame;
-    if (frames[i - 1].direction != can::Direction::received || !frame.is_data(session.emcy_can_id()) ||
-        frame.size() != 8)
-      continue;
+    if (!session.was_emcy(frames[i - 1]) || frame.size() != 8) continue;
     // The end of one of several errors is followed by that of the others.
     if (frame.data[0] == 0 && frame.data[1] == 0 && frame.data[2] == 0) return {};
     break;
@@ -127,10 +125,7 @@ Result<void> LastingErrors::await_error_reset(std::size_t from) {
   if (!stays) return std::unexpected(stays.error());
   if (*stays) return {};
   auto told = run_.recorder.find(
-      next,
-      [id = session.emcy_can_id()](const can::CapturedFrame& captured) {
-        return captured.direction == can::Direction::received && captured.frame.is_data(id);
-      },
+      next, [&session](const can::CapturedFrame& captured) { return session.was_emcy(captured); },
       session.now() + patience);
   if (!told) return std::unexpected(told.error());
   if (!*told) {

@@ -107,6 +107,33 @@ TEST_CASE("what the inhibit time holds back is waited for where EMCY was sent on
   CHECK(between(out, moved_emcy) >= 500ms);
 }
 
+TEST_CASE("the late end of an error is waited for where the error was told on another CAN-ID") {
+  ScriptedDevice device;
+  const can::Frame moved_emcy = can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
+  const can::Frame end = can::data_frame(CanId(0x81), {0, 0, 0, 0, 0, 0, 0, 0});
+  give_errors(device, moved_emcy);
+  device.before = [raise = device.before, end](ScriptedDevice& self, const can::Frame& frame, BusTime time) {
+    if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1) self.send_at(time + 300ms, end);
+    return raise(self, frame, time);
+  };
+  const auto out = play(device, R"(
+  - id: raises
+    title: t
+    risk: config
+    steps:
+      - set_cob_id: {object: 1014h:00, to: 6A0h}
+      - download: {object: 2000h:00, bytes: "01"}
+        checks: T-MUST
+  - id: next
+    title: t
+    risk: config
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(between(out, end) >= 0ms);
+}
+
 TEST_CASE("an inhibit time that a reset has ended holds up no further case") {
   ScriptedDevice device;
   give_errors(device);
