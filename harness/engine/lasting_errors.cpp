@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "canopen/cob_id.hpp"
+#include "canopen/nmt.hpp"
 #include "engine/baseline.hpp"
 #include "engine/liveness.hpp"
 
@@ -55,15 +56,19 @@ Result<bool> LastingErrors::has_errors() {
   return confirmed(*held) && load_le(held->data) != 0;
 }
 
-/// By a trigger of the profile, or in any other way that it sends an EMCY about; without EMCY nobody knows.
+/// By a trigger of the profile, or in any other way that it sends an EMCY about. Without EMCY nobody knows,
+/// and in Stopped it may send none (7.3.2.2.5, table 37).
 bool LastingErrors::has_raised_errors(std::size_t from) const {
   if (!has_messages_ || run_.session.find("trigger_delay") != nullptr) return true;
   const auto& frames = run_.recorder.capture().frames();
   return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
                      [this](const can::CapturedFrame& captured) {
                        const auto& frame = captured.frame;
-                       return run_.session.was_emcy(captured) && frame.size() == 8 &&
-                              (frame.data[0] != 0 || frame.data[1] != 0);
+                       if (run_.session.was_emcy(captured))
+                         return frame.size() == 8 && (frame.data[0] != 0 || frame.data[1] != 0);
+                       const auto shown = canopen::decode_error_control(frame, run_.profile.node);
+                       return frame == canopen::encode(canopen::NmtCommand::stop, run_.profile.node) ||
+                              (shown && shown->state == canopen::NmtState::stopped);
                      });
 }
 

@@ -337,6 +337,38 @@ TEST_CASE("a value that kills the device ends the walk at once and is named") {
              Catch::Contains("behind 03h the device does not answer any more; 97 further values"));
 }
 
+TEST_CASE("an error of Stopped, where no EMCY tells of it, is ended so that the next one can be seen") {
+  ScriptedDevice device;
+  device.entries[0x200000] = {0};
+  device.on_reset = [](ScriptedDevice& self) { self.entries[0x100100] = {0}; };
+  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    const bool was_there = self.entries[0x100100].front() != 0;
+    if (frame.is_data(CanId(0)) && frame.data[0] == 0x02) self.entries[0x100100] = {1};
+    if (frame.data[0] == 0x2F && !was_there)
+      self.send(can::data_frame(CanId(0x81), {0x00, 0x10, 1, 0, 0, 0, 0, 0}));
+    return false;
+  };
+  const auto out = play(device, R"(
+  - id: stops
+    title: t
+    risk: motion
+    steps:
+      - nmt: stop
+      - wait: 100 ms
+      - nmt: pre-operational
+      - upload: {object: 1000h:00}
+        checks: T-OTHER
+  - id: looks
+    title: t
+    risk: motion
+    steps:
+      - download: {object: 2000h:00, bytes: "01"}
+      - frame: {id: emcy, within: 100 ms}
+        checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
+}
+
 TEST_CASE("an error that does not clear is ended by a reset, so that the next one can be seen") {
   ScriptedDevice device;
   device.entries[0x200000] = {0};
