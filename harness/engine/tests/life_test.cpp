@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Devices that start by themselves, need their time to start, hang, or are two.
+#include <algorithm>
+
 #include "bench.hpp"
 
 using namespace conform;
@@ -341,10 +343,14 @@ TEST_CASE("an error of Stopped, where no EMCY tells of it, is ended so that the 
   ScriptedDevice device;
   device.entries[0x200000] = {0};
   device.on_reset = [](ScriptedDevice& self) { self.entries[0x100100] = {0}; };
-  device.before = [](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    const bool was_there = self.entries[0x100100].front() != 0;
-    if (frame.is_data(CanId(0)) && frame.data[0] == 0x02) self.entries[0x100100] = {1};
-    if (frame.data[0] == 0x2F && !was_there)
+  bool was_stopped = false;
+  device.before = [&was_stopped](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    // What befell it in Stopped, once.
+    if (!was_stopped && std::ranges::find(self.nmt, 0x02) != self.nmt.end()) {
+      was_stopped = true;
+      self.entries[0x100100] = {1};
+    }
+    if (frame.data[0] == 0x2F && self.entries[0x100100].front() == 0)
       self.send(can::data_frame(CanId(0x81), {0x00, 0x10, 1, 0, 0, 0, 0, 0}));
     return false;
   };
