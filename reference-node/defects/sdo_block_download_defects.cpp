@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <expected>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -135,6 +136,19 @@ Change expects_crc(std::uint16_t (*other)(ByteView data)) {
 Change checks_crc(bool (*when)(bool agreed)) {
   return decides(of_block_download, &Rules::crc_checked,
                  [when](const auto&, bool agreed) { return when(agreed); });
+}
+/// The CRC is looked at while the whole download fits into one sub-block.
+void checks_crc_of_one_sub_block(Parts& parts) {
+  const auto received = std::make_shared<std::size_t>(0);
+  Rules& rules = of_block_download(parts);
+  rules.fits.replace([received](const auto& former, std::size_t size, const Terms& terms) {
+    *received = size;
+    return former(size, terms);
+  });
+  rules.crc_checked.replace([received](const auto& former, bool agreed) {
+    constexpr std::size_t largest_sub_block = 127 * std::size_t{7};
+    return former(agreed) && *received < largest_sub_block;
+  });
 }
 /// The entry has the value by the time its CRC turns out to be wrong.
 Change stores_before_crc_check() {
@@ -438,6 +452,19 @@ DefectTable end_rows() {
          if (wrong && !frames.empty()) frames.front().frame.data = {0x00};
          watch.see(e, frames);
        })},
+      {"sdo-bdn-crc-checked-in-one-sub-block",
+       "The CRC of a block download of more than one sub-block is not checked",
+       {"SDO-BDN-03"},
+       Change(checks_crc_of_one_sub_block)},
+      {"sdo-bdn-compares-segments",
+       "A block download with fewer bytes than were told is taken where the number of segments is right",
+       {"SDO-BDN-14"},
+       decides(of_block_download, &Rules::value,
+               [](const auto& former, Bytes data, const Terms& terms) -> std::expected<Bytes, AbortCode> {
+                 BlockDownloadTerms untold = terms;
+                 if ((data.size() + 6) / 7 * 7 >= terms.announced.value_or(0)) untold.announced.reset();
+                 return former(std::move(data), untold);
+               })},
   };
 }
 

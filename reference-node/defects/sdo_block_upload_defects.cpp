@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the SDO block upload: frames, sequence numbers, CRC, acknowledges, and what ends it.
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -41,6 +42,30 @@ Filter end_frame(Change change) {
     if (!is_upload_end(e, frames)) return;
     for (Outgoing& outgoing : frames) change(e, outgoing.frame.data);
   });
+}
+
+/// What comes again behind an acknowledge of 0 is the sub-block before.
+Filter sends_the_sub_block_before() {
+  using SubBlock = std::map<std::uint8_t, Data>;  // by sequence number
+  return on_exchange(
+      [now = SubBlock{}, before = SubBlock{}, again = false](const SdoExchange& e, Frames& frames) mutable {
+        if (block_upload_initiated(e)) {
+          now.clear();
+          before.clear();
+          again = false;
+        } else if (is_upload_segment(e, frames)) {
+          Data& segment = frames.front().frame.data;
+          if (const auto former = before.find(e.sequence); again && former != before.end()) {
+            std::copy(former->second.begin() + 1, former->second.end(), segment.begin() + 1);
+          } else {
+            now[e.sequence] = segment;
+          }
+        } else if (is_acknowledge_of_client(e, frames)) {
+          again = e.request[1] == 0;
+          if (again) return;
+          before = std::exchange(now, {});
+        }
+      });
 }
 
 /// The CRC of the end frame, where one was agreed, by another rule. `rule` gets the upload and the number of
@@ -476,6 +501,10 @@ DefectTable end_rows() {
          if (replays && at < old.size()) frames.front().frame.data = old[at];
          ++at;
        })},
+      {"sdo-bup-acknowledge-of-0-goes-back-too-far",
+       "An acknowledge of 0 in a later sub-block makes the server send the data of the sub-block before",
+       {"SDO-BUP-14"},
+       sends_the_sub_block_before()},
   };
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of additional SDO servers (1201h-127Fh) and of the parameters of SDO clients (1280h-12FFh).
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -40,6 +41,17 @@ DictionaryEdit dynamic_stored() {
       for (auto& [sub, entry] : object.entries) entry.not_stored_now = nullptr;
     }
   };
+}
+/// What a request leaves open stands in the buffer of the channel since the one before.
+void completes_short_frames(Parts& parts) {
+  misreads([buffers = std::make_shared<std::map<std::uint8_t, Frame>>()](Parts& node, Frame& frame) {
+    const std::uint8_t channel = channel_of(node, frame).value_or(0);
+    if (channel == 0) return;
+    Frame& buffer = (*buffers)[channel];
+    std::ranges::copy(frame.bytes(), buffer.data.begin());
+    frame.data = buffer.data;
+    frame.dlc = 8;
+  })(parts);
 }
 /// The default server takes the requests of all channels; it answers where the latest has come from.
 Change shares_the_default_server() {
@@ -297,6 +309,18 @@ DefectTable sdo_channel_defects() {
        "A transfer that is given up on one channel ends those on all others",
        {"SDO-MUL-04"},
        Change(gives_up_all_at_once)},
+      {"additional-sdo-completes-short-frames",
+       "An additional SDO server completes a request that is too short with bytes of the one before",
+       {"SDO-ERR-06"},
+       Change(completes_short_frames)},
+      {"additional-sdo-abort-names-no-object",
+       "An additional SDO server refuses a segment of a download without the object that it was for",
+       {"SDO-SDN-04"},
+       patch(
+           [](const SdoExchange& e) {
+             return on_additional_channel(e) && e.step == SdoStep::download_segment && e.aborted.has_value();
+           },
+           [](const SdoExchange&, std::array<std::uint8_t, 8>& data) { data[1] = data[2] = data[3] = 0; })},
   };
 }
 

@@ -572,6 +572,13 @@ DefectTable download_rows() {
        "NMT stop stores what has come of a segmented download",
        {"SDO-SDN-18"},
        Change(stores_half_when_stopped)},
+      {"sdo-seg-download-compares-segments",
+       "A segmented download with fewer bytes than were told is taken where the number of segments is right",
+       {"SDO-SDN-08"},
+       decides(of_segments, &SegmentedRules::complete,
+               [](const auto& former, std::size_t received, std::size_t announced) {
+                 return former((received + 6) / 7 * 7, announced);
+               })},
   };
 }
 
