@@ -50,6 +50,40 @@ Change inhibit_of(Duration (*as)(std::int64_t value)) {
       [as](const auto&, const PdoParameters&, std::int64_t value) -> Duration { return as(value); });
 }
 
+/// What an event timer sends does not come where a SYNC has come since the TPDO before.
+void timers_restarted_by_sync(Parts& parts) {
+  struct Sent {
+    BusTime at{};
+    conform::Bytes data;
+  };
+  const auto sent_by_timer = [&od = parts.device.dictionary](std::uint32_t can_id) {
+    for (std::uint16_t index = 0x1800; index <= 0x1800 + last_pdo; ++index) {
+      if ((od.number(index, 1) & 0x1FFF'FFFFU) == can_id)
+        return is_event_driven(od.number(index, 2)) && od.number(index, 5) != 0;
+    }
+    return false;
+  };
+  const auto sync = std::make_shared<std::optional<BusTime>>();
+  parts.sync.on_sync = [former = parts.sync.on_sync, sync, &parts](std::optional<std::uint8_t> counter) {
+    *sync = parts.device.now;
+    former(counter);
+  };
+  parts.device.outbox.add_filter([sync, sent_by_timer, before = std::map<std::uint32_t, Sent>{}](
+                                     const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+    if (context.service != Service::tpdo || frames.empty()) return;
+    const Frame& frame = frames.front().frame;
+    if (!sent_by_timer(frame.id)) return;
+    const conform::Bytes data(frame.bytes().begin(), frame.bytes().end());
+    Sent& last = before[frame.id];
+    const bool by_timer = data == last.data && *sync != context.now;
+    if (by_timer && *sync && **sync > last.at) {
+      last.at = context.now;
+      return frames.clear();
+    }
+    last = {context.now, data};
+  });
+}
+
 Change sends_with_event(std::uint8_t type) {
   return decides(tpdo_traffic, &TransmitPdoRules::sent_with_event,
                  [type](const auto& former, const PdoParameters& pdo) {
@@ -300,6 +334,10 @@ DefectTable pdo_event_defects() {
          if (frame.id == 0x600U + parts.device.node_id && parts.device.state == NmtState::operational)
            parts.pdos.on_boot_up();
        })},
+      {"tpdo-event-timer-restarted-by-sync",
+       "Every SYNC restarts the event timers",
+       {"PDO-TX-09"},
+       Change(timers_restarted_by_sync)},
       {"tpdo-type-0-sent-with-event",
        "A TPDO of type 00h is sent with the event, without a SYNC",
        {"PDO-TX-07"},

@@ -343,6 +343,20 @@ DefectTable pdo_receive_traffic_defects() {
            return !late && former(pdo, received, mapped);
          });
        })},
+      {"rpdo-synchronous-too-long-discarded",
+       "A synchronous RPDO that is too long is discarded",
+       {"PDO-RX-07"},
+       decides(rpdo_traffic, &ReceivePdoRules::processed,
+               [](const auto& former, const PdoParameters& pdo, std::size_t received, std::size_t mapped) {
+                 const bool discarded = is_synchronous(pdo.transmission_type()) && received > mapped;
+                 return !discarded && former(pdo, received, mapped);
+               })},
+      {"rpdo-without-data-unnoticed",
+       "An RPDO without data is taken for no RPDO",
+       {"PDO-RX-06"},
+       deaf_to([](Parts&, const Frame& frame) {
+         return frame.size() == 0 && !frame.remote && frame.id > 0x180 && frame.id < 0x580;
+       })},
   };
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "defects/pdos.hpp"
 #include "defects/tools.hpp"
@@ -279,6 +280,16 @@ DefectTable pdo_sync_defects() {
        "The inhibit time holds back synchronous TPDOs as well",
        {"PDO-TX-05"},
        Change(inhibits_synchronous)},
+      {"tpdo-sync-start-value-once",
+       "A TPDO waits for its SYNC start value once; behind another start it counts from the first SYNC on",
+       {"PDO-TX-14"},
+       decides_by<std::set<std::uint16_t>>(
+           tpdo_traffic, &TransmitPdoRules::counting_begins,
+           [](std::set<std::uint16_t>& begun, const auto& former, const PdoParameters& pdo, Counter counter) {
+             const bool begins = former(pdo, counter) || begun.contains(pdo.number());
+             if (begins) begun.insert(pdo.number());
+             return begins;
+           })},
   };
 }
 
