@@ -154,6 +154,20 @@ void restores_without_node_id(Parts& parts) {
   });
 }
 
+/// Behind "load" the next reset restores everything, whichever it is.
+void any_reset_restores(Parts& parts) {
+  const auto loading = std::make_shared<bool>(false);
+  checking_all(0x1011, [loading](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+    const Accepted loaded = former(bytes);
+    if (loaded) *loading = true;
+    return loaded;
+  })(parts);
+  parts.store.rules.reset_loads.replace([loading](const auto& former, Group group, bool whole_node) {
+    return former(group, whole_node) || *loading;
+  });
+  with_boot_up([loading](Parts&) { *loading = false; })(parts);
+}
+
 /// Entries for which `left_out` holds are no parameters to 1010h.
 DictionaryEdit leaves_out(bool (*left_out)(std::uint16_t index, std::uint8_t sub)) {
   return [left_out](ObjectDictionary& od, std::uint8_t) {
@@ -485,6 +499,24 @@ DefectTable storage_defects() {
        "Behind a wrong signature 1010h refuses the right one, until a reset",
        {"OD-1010-07"},
        Change(locked_by_a_wrong_signature)},
+      {"1011-any-reset-restores",
+       "Behind \"load\" reset communication restores the application parameters, too",
+       {"OD-1011-10", "OD-1011-13"},
+       Change(any_reset_restores)},
+      {"1010-rpdo-mapping-not-stored",
+       "The mapping of RPDOs is not stored",
+       {"OD-1010-10"},
+       leaves_out([](std::uint16_t index, std::uint8_t) { return index >= 0x1600 && index < 0x1800; })},
+      {"1010-last-monitored-node-not-stored",
+       "Of 1016h the first entry alone is stored",
+       {"OD-1010-10"},
+       leaves_out([](std::uint16_t index, std::uint8_t sub) { return index == 0x1016 && sub > 1; })},
+      {"1010-sync-start-value-not-stored",
+       "The SYNC start value of TPDOs is not stored",
+       {"OD-1010-10"},
+       leaves_out([](std::uint16_t index, std::uint8_t sub) {
+         return index >= 0x1800 && index < 0x1A00 && sub == 6;
+       })},
   };
 }
 
