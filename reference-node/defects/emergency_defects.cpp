@@ -20,6 +20,24 @@ bool is_error_reset(const Outgoing& outgoing) {
   return outgoing.frame.data[0] == 0 && outgoing.frame.data[1] == 0;
 }
 
+/// What a lost heartbeat has set in 1001h only its return clears.
+void register_outlives_reset(Parts& parts) {
+  const auto left = std::make_shared<std::uint8_t>(0);
+  parts.device.errors.raise.replace([left, &parts](const auto& former, const ErrorCause& cause, auto detail) {
+    former(cause, detail);
+    if (cause.source == ErrorSource::heartbeat) *left = parts.emergency.error_register();
+  });
+  parts.device.errors.clear.replace([left](const auto& former, const ErrorCause& cause) {
+    if (cause.source == ErrorSource::heartbeat) *left = 0;
+    former(cause);
+  });
+  reading(0x1001, 0, [left](Parts&, const Read& former) {
+    Upload shown = former();
+    if (shown) shown->front() |= *left;
+    return shown;
+  })(parts);
+}
+
 /// Other bits of the error register for an error than those of table 54.
 Change sets_bits(int (*changed)(std::uint8_t bits)) {
   return decides(rules_of, &EmergencyRules::register_bits, [changed](const auto& former, std::uint16_t code) {
@@ -255,6 +273,41 @@ DefectTable emergency_defects() {
                                                     {0x00, 0x10, 0, 0, 0, 0, 0, 0}),
                            {}});
        })},
+      {"1001-outlives-reset-communication",
+       "The bits of 1001h for a lost heartbeat stay over reset communication",
+       {"OD-1001-06"},
+       Change(register_outlives_reset)},
+      {"1001-empty-while-emcy-not-valid",
+       "1001h shows no error while 1014h is not valid",
+       {"OD-1001-05"},
+       reading(0x1001, 0,
+               [](Parts& parts, const Read& former) -> Upload {
+                 const bool off = (parts.device.dictionary.number(0x1014, 0) & 0x8000'0000U) != 0;
+                 return off ? Upload(Bytes{0}) : former();
+               })},
+      {"errors-unnoticed-in-operational",
+       "An error of the application that begins in Operational is not noticed",
+       {"EMCY-SEQ-01", "OD-1001-05"},
+       Change([](Parts& parts) {
+         parts.device.errors.raise.replace(
+             [&parts](const auto& former, const ErrorCause& cause, auto detail) {
+               const bool application = cause.source == ErrorSource::application;
+               if (!application || parts.device.state != NmtState::operational) former(cause, detail);
+             });
+       })},
+      {"errors-stay-in-operational",
+       "An error of the application does not end in Operational",
+       {"OD-1001-06"},
+       Change([](Parts& parts) {
+         parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {
+           const bool application = cause.source == ErrorSource::application;
+           if (!application || parts.device.state != NmtState::operational) former(cause);
+         });
+       })},
+      {"emcy-silent-in-operational",
+       "No EMCY is sent in Operational",
+       {"EMCY-SEQ-01"},
+       mute(Service::emergency, NmtState::operational)},
   };
 }
 

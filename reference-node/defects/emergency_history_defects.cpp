@@ -232,6 +232,14 @@ DefectTable emergency_history_defects() {
          errors.erase(repeated.begin(), repeated.end());
          return errors;
        })},
+      {"1003-any-count-in-operational",
+       "In Operational any value that is written to 1003h:00 is confirmed",
+       {"OD-1003-06"},
+       checking(0x1003, 0,
+                [](Parts& parts, const Check& former, ByteView bytes) -> Accepted {
+                  const Accepted taken = former(bytes);
+                  return parts.device.state == NmtState::operational ? Accepted{} : taken;
+                })},
   };
 }
 

@@ -13,6 +13,15 @@ using namespace defect;
 
 namespace {
 
+void reads_the_behaviour_with_the_state(Parts& parts) {
+  const auto held = std::make_shared<std::uint64_t>(parts.device.dictionary.number(0x1029, 1));
+  const auto read = [held](Parts& node) { *held = node.device.dictionary.number(0x1029, 1); };
+  ahead_of_state_change(read)(parts);
+  with_boot_up(read)(parts);
+  parts.error_behaviour.rules.next_state.replace(
+      [held](const auto& former, std::uint64_t, NmtState present) { return former(*held, present); });
+}
+
 /// Every value of the type is taken.
 DictionaryEdit without_limits(std::uint16_t index, std::uint8_t sub) {
   return [index, sub](ObjectDictionary& od, std::uint8_t) {
@@ -142,6 +151,10 @@ DefectTable error_control_behaviour_defects() {
        "When a node is lost the others are not monitored until their next heartbeat",
        {"EC-EB-01", "EC-HBC-13"},
        Change(loss_ends_monitoring)},
+      {"1029-read-with-the-state",
+       "1029h:01 counts as it was when the NMT state was entered",
+       {"EC-EB-02"},
+       Change(reads_the_behaviour_with_the_state)},
   };
 }
 

@@ -15,6 +15,18 @@ using namespace defect;
 
 namespace {
 
+/// Heartbeats in Operational do not count where 1016h was written since Operational was entered.
+void monitors_what_was_written_before(Parts& parts) {
+  const auto written = std::make_shared<bool>(false);
+  after_writing_all(0x1016, [written](Parts& node, const Written& former, std::uint8_t) {
+    *written = *written || node.device.state == NmtState::operational;
+    former();
+  })(parts);
+  ahead_of_state_change([written](Parts&) { *written = false; })(parts);
+  with_boot_up([written](Parts&) { *written = false; })(parts);
+  deaf_to([written](Parts&, const Frame& frame) { return *written && is_heartbeat(frame); })(parts);
+}
+
 /// Heartbeats that show this state are not taken for one.
 Change deaf_to_state(std::uint8_t state) {
   return deaf_to(
@@ -309,6 +321,17 @@ DefectTable error_control_monitoring_defects() {
        "With every change of the NMT state the time to the next heartbeat begins anew",
        {"EC-HBP-10"},
        ahead_of_state_change([](Parts& parts) { parts.producer.on_boot_up(); })},
+      {"1017-without-effect-in-operational",
+       "A heartbeat time that is written in Operational has no effect until the next reset",
+       {"EC-HBP-02", "EC-HBP-04"},
+       after_writing(0x1017, 0,
+                     [](Parts& parts, const Written& former) {
+                       if (parts.device.state != NmtState::operational) former();
+                     })},
+      {"1016-without-effect-in-operational",
+       "A node whose entry was written in Operational is not monitored until the next change of the state",
+       {"EC-HBC-03"},
+       Change(monitors_what_was_written_before)},
   };
 }
 

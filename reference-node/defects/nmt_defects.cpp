@@ -365,6 +365,13 @@ DefectTable nmt_defects() {
          if (parts.device.state == NmtState::stopped && frame.data[0] == reset_node)
            frame.data[0] = reset_communication;
        })},
+      {"nmt-stop-to-all-ignored-in-preop",
+       "In Pre-operational stop to all nodes is ignored",
+       {"NMT-FSA-14"},
+       deaf_to([](Parts& parts, const Frame& frame) {
+         return parts.device.state == NmtState::pre_operational && is_command(frame, stop) &&
+                frame.data[1] == 0;
+       })},
   };
 }
 

@@ -179,6 +179,13 @@ DefectTable clock_rows() {
        {"OD-1013-05"},
        decides(of_clock, &ClockRules::ticks,
                [](const auto& former, Duration elapsed) { return former(elapsed) / 1000; })},
+      {"1012-without-effect-in-operational",
+       "Bit 30 of 1012h that is written in Operational has no effect there",
+       {"TIME-PRO-01"},
+       after_writing(0x1012, 0,
+                     [](Parts& parts, const std::function<void()>& former) {
+                       if (parts.device.state != NmtState::operational) former();
+                     })},
   };
 }
 
