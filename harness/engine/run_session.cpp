@@ -352,7 +352,7 @@ Result<void> RunSession::send_unguarded(const can::Frame& frame) {
   if (!sent) return std::unexpected(sent.error());
   note_sent(*sent);
   if (commands) note_command(*sent);
-  if (!frame.remote && !frame.extended) channel_.note_sent(CanId(frame.id));
+  if (!frame.remote && !frame.extended) channel_.note_sent(frame);
   if (requests && frame.size() > 0 && frame.data[0] == 0x80)
     channel_.note_abort(recorder_.capture().frames()[*sent].time);
   return {};

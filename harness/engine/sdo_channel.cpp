@@ -24,6 +24,16 @@ constexpr Duration longest_answer = std::chrono::seconds(3);
 /// ... but a device that often is silent must not cost hours.
 constexpr Duration most_patience = std::chrono::seconds(60);
 constexpr int times_in_vain = 2;
+/// Transfers that a conversation can have left open: that of its first request where a later one was not
+/// heard, that of the later one, and one between them.
+constexpr std::size_t most_opened = 3;
+
+/// Command byte of a request that begins a transfer.
+bool initiates(std::uint8_t command) {
+  const unsigned specifier = command >> 5U;
+  return specifier == 1 || specifier == 2 || (specifier == 5 && (command & 0x03U) == 0) ||
+         (specifier == 6 && (command & 0x01U) == 0);
+}
 
 auto is_response(CanId id) {
   return [id](const can::CapturedFrame& captured) {
@@ -86,19 +96,37 @@ void SdoChannel::dirty(Line& line, bool late_answers) {
   line.state = late_answers || line.state == State::late_answers ? State::late_answers : State::open;
 }
 
+void SdoChannel::note_sent(const can::Frame& frame) {
+  auto& entries = sent_by_hand_[CanId(frame.id)];
+  if (frame.size() < 4 || !initiates(frame.data[0])) return;
+  const auto object = canopen::sdo_multiplexer(frame.bytes());
+  if (std::ranges::find(entries, object) != entries.end()) return;
+  // Segments of a sub-block look like requests, too: the first entries are real, and so may be the last.
+  if (entries.size() == most_opened) entries.pop_back();
+  entries.push_back(object);
+}
+
 void SdoChannel::heed_sent_by_hand(CanId request, Line& line) {
-  if (sent_by_hand_.erase(request) > 0 && line.state == State::idle) line.state = State::open;
+  const auto sent = sent_by_hand_.extract(request);
+  if (sent.empty()) return;
+  if (line.state == State::idle) line.state = State::open;
+  line.opened = sent.mapped();
 }
 
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
   if (line.state == State::idle) return {};
   const bool late = std::exchange(line.state, State::idle) == State::late_answers;
   // An abort is never answered; after it, answers to what was before must not be taken for answers to what
-  // comes.
-  const auto abort =
-      canopen::encode_abort(line.latest.value_or(Multiplexer{Index(0), SubIndex(0)}), AbortCode(0x0800'0000));
-  auto sent = recorder_.send(can::data_frame(ids.request, abort));
-  if (!sent) return std::unexpected(sent.error());
+  // comes. It names the entry of the transfer (7.2.4.3.17), and a server may take it for nothing else: where
+  // a request may have been refused, or not have ended the transfer before it, each of them is named.
+  auto entries = std::exchange(line.opened, {});
+  if (entries.empty()) entries.push_back(line.latest.value_or(Multiplexer{Index(0), SubIndex(0)}));
+  Result<std::size_t> sent = 0;
+  for (const auto entry : entries) {
+    const auto abort = canopen::encode_abort(entry, AbortCode(0x0800'0000));
+    sent = recorder_.send(can::data_frame(ids.request, abort));
+    if (!sent) return std::unexpected(sent.error());
+  }
   aborted_at_.reset();
   const auto begin = line.asked_at;
   const auto from = *sent;

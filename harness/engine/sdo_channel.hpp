@@ -64,9 +64,9 @@ class SdoChannel {
   }
   /// The device has started since: what was lost while it booted says nothing about its answers.
   void forget_silences() { mute_.clear(); }
-  /// A frame went out that no transfer sent: whatever it opened on a channel is ended before the next
+  /// A data frame went out that no transfer sent: whatever it opened on a channel is ended before the next
   /// transfer.
-  void note_sent(CanId request) { sent_by_hand_.insert(request); }
+  void note_sent(const can::Frame& frame);
   /// A request was aborted at this time by a frame that no transfer sent.
   void note_abort(BusTime time) { aborted_at_ = time; }
   /// An abort is not answered; a server that does it all the same gets the time for it, so that its answer is
@@ -98,6 +98,7 @@ class SdoChannel {
     State state = State::idle;
     std::optional<Multiplexer> stale;   ///< entry whose answer is overdue
     std::optional<Multiplexer> latest;  ///< entry of the latest transfer, for the abort that ends it
+    std::vector<Multiplexer> opened;    ///< entries for which a conversation may have left a transfer open
     BusTime asked_at{};                 ///< when the request went out whose answer is overdue
   };
   [[nodiscard]] Line& default_line() { return lines_.at(default_ids_); }
@@ -120,8 +121,9 @@ class SdoChannel {
   KnownSize known_size_;
   OnValue on_value_;
   Duration timeout_, quiet_;
-  Duration slowest_{}, latest_{};      ///< answers: the slowest, and the latest one
-  std::set<CanId> sent_by_hand_;       ///< requests of conversations since the last transfer on that channel
+  Duration slowest_{}, latest_{};  ///< answers: the slowest, and the latest one
+  /// Channels with frames of conversations since the last transfer, and the entries their requests named.
+  std::map<CanId, std::vector<Multiplexer>> sent_by_hand_;
   Duration patience_spent_{};          ///< on answers that never came
   std::map<Multiplexer, int> mute_;    ///< entries for which all patience was in vain, and how often
   std::optional<BusTime> aborted_at_;  ///< by a conversation; the server has not been given time since

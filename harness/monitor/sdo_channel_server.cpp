@@ -109,7 +109,10 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
   }
   if (!aborted_ || !is_abort(frame) || count_ == 0) return false;
   const auto aborted = *std::exchange(aborted_, std::nullopt);
-  if (asked || aborted != got) {
+  // A transfer of this object has been opened since: a server answers in order, and it is that which ends.
+  const bool opened_since =
+      transfer_.kind != Kind::none && transfer_.kind != Kind::unclear && transfer_.object == got;
+  if (asked || aborted != got || opened_since) {
     // Whoever was asked last; an abort of an unknown command may name anything.
     spare_ = pending_[count_ - 1].has_multiplexer() ? object_of(pending_[count_ - 1].data) : got;
     return false;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The SDO server: what it offers, how it words its answers, and how long it takes.
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "sdo/frames.hpp"
 #include "variants/tools.hpp"
 
 namespace refnode {
@@ -99,6 +103,87 @@ void refuse_reserved_bits(Parts& parts) {
         refused = upload || download;
         if (!refused) return;
         for (Outgoing& outgoing : frames) outgoing.frame.data = {0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05};
+      });
+}
+
+/// The transfer that runs on the channel of a request.
+std::optional<Multiplexer> running_on(const SdoServer& server) {
+  if (const auto* upload = server.running<SegmentedUpload>()) return upload->mux();
+  if (const auto* download = server.running<SegmentedDownload>()) return download->mux();
+  if (const auto* upload = server.running<BlockUpload>()) return upload->mux();
+  if (const auto* download = server.running<BlockDownload>()) return download->mux();
+  return std::nullopt;
+}
+bool is_request(const conform::can::Frame& frame) {
+  return !frame.extended && !frame.remote && frame.size() == 8;
+}
+
+/// An abort that names another object than that of the transfer is about another transfer.
+void aborts_of_its_object(Parts& parts) {
+  parts.device.inbox.add_filter([&parts](std::vector<conform::can::Frame>& frames) {
+    std::erase_if(frames, [&parts](const auto& frame) {
+      if (!is_request(frame) || frame.data[0] != 0x80) return false;
+      const SdoServer* server = parts.sdo.server_of(frame);
+      const auto running = server == nullptr ? std::nullopt : running_on(*server);
+      return running && *running != mux_of(frame.data);
+    });
+  });
+}
+
+/// The abort that refuses a new request names the transfer that it ends.
+void busy_names_the_transfer(Parts& parts) {
+  const auto running = std::make_shared<std::map<std::uint8_t, Multiplexer>>();
+  parts.device.inbox.add_filter([&parts, running](std::vector<conform::can::Frame>& frames) {
+    for (const auto& frame : frames) {
+      const SdoServer* server = is_request(frame) ? parts.sdo.server_of(frame) : nullptr;
+      if (server == nullptr) continue;
+      running->erase(server->channel());
+      if (const auto mux = running_on(*server)) (*running)[server->channel()] = *mux;
+    }
+  });
+  parts.device.outbox.add_filter([running](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->aborted != abort_code::command_unknown) return;
+    const SdoStep step = context.sdo->step;
+    const auto former = running->find(context.sdo->channel);
+    if (former == running->end()) return;
+    if (step != SdoStep::upload_initiate && step != SdoStep::download_initiate &&
+        step != SdoStep::block_upload_initiate && step != SdoStep::block_download_initiate)
+      return;
+    const SdoData named = with_mux(0x80, former->second);
+    for (Outgoing& outgoing : frames) std::copy_n(named.begin(), 4, outgoing.frame.data.begin());
+  });
+}
+
+/// A segment that is not the next one ends the download.
+void gap_refused(Parts& parts) {
+  parts.device.inbox.add_filter([&parts](std::vector<conform::can::Frame>& frames) {
+    for (auto& frame : frames) {
+      const SdoServer* server = is_request(frame) ? parts.sdo.server_of(frame) : nullptr;
+      const auto* transfer = server == nullptr ? nullptr : server->running<BlockDownload>();
+      if (transfer == nullptr || !transfer->in_sub_block() || frame.data[0] == 0x80) continue;
+      // Number 0 is one that cannot be, and refused as such.
+      if ((frame.data[0] & 0x7FU) != transfer->sequence() + 1U) frame.data[0] = 0;
+    }
+  });
+}
+
+/// Whether the entry can be written is asked when the data are there, not when they are announced.
+Accepted leave_to_the_end(const Accepted& granted) {
+  if (granted || granted.error() == abort_code::no_object || granted.error() == abort_code::no_sub_index ||
+      granted.error() == abort_code::read_only)
+    return {};
+  return granted;
+}
+void segments_checked_at_the_end(Parts& parts) {
+  parts.sdo.rules.segmented.granted.replace(
+      [](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
+        return leave_to_the_end(former(mux, announced));
+      });
+}
+void blocks_checked_at_the_end(Parts& parts) {
+  parts.sdo.rules.block_download.may_begin.replace(
+      [](const auto& former, Multiplexer mux, std::optional<std::size_t> size) {
+        return leave_to_the_end(former(mux, size));
       });
 }
 
@@ -313,6 +398,40 @@ VariantTable sdo_variants() {
        "block-size"},
       // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is
       // then taken for the begin of the next: only a quick server can do that, and only with one block size.
+      {.id = "sdo-segments-checked-at-the-end",
+       .summary = "a segmented download to what cannot be written is refused with its last segment",
+       .legal = "SDO-SDN-21; SDO-SDN-22 warns",
+       .how = segments_checked_at_the_end,
+       .excludes = {"sdo-expedited-only"},
+       .warns = {"SDO-SDN-22"}},
+      {.id = "sdo-blocks-checked-at-the-end",
+       .summary = "a block download to what cannot be written is refused at its end",
+       .legal = "SDO-BDN-23, tolerated",
+       .how = blocks_checked_at_the_end,
+       .excludes = {"sdo-block", "sdo-expedited-only"},
+       .warns = {"SDO-BDN-23"}},
+      {.id = "sdo-gap-refused",
+       .summary = "a segment of a block download that is not the next one is refused at once: 0504 0003h",
+       .legal = "SDO-BDN-07, tolerated; table 22",
+       .how = gap_refused,
+       .excludes = {"sdo-gap-at-once", "sdo-sequence-ignored", "sdo-sequence-spoils", "sdo-block",
+                    "block-code"},
+       .warns = {"SDO-BDN-07", "SDO-BDN-08", "SDO-BDN-09"}},
+      // A client that sends anything does not know which absent object a block download was begun for.
+      {"sdo-abort-of-its-object-only",
+       "an abort that names another object than that of the transfer ends nothing",
+       "7.2.4.3.17: the abort names the object of the transfer",
+       aborts_of_its_object,
+       {},
+       {"sdo-blocks-checked-at-the-end"}},
+      {.id = "sdo-busy-names-transfer",
+       .summary = "a new initiate request while a transfer is open is refused by an abort of that transfer",
+       .legal = "SDO-SUP-11, -12, SDO-SDN-17, SDO-BUP-29, tolerated",
+       .how = both(busy_names_the_transfer,
+                   choose([](SdoChoices& c) { c.initiate_while_busy = abort_code::command_unknown; })),
+       .group = "sdo-busy",
+       .warns = {"SDO-SUP-11", "SDO-SUP-12", "SDO-SDN-17", "SDO-BUP-29", "SDO-BUP-25", "SDO-BDN-25",
+                 "SDO-SUP-18", "SDO-SDN-25", "SDO-GEN-20"}},
       {"sdo-gap-at-once",
        "a gap in a sub-block is acknowledged at once",
        "SDO-BDN-07",
@@ -331,6 +450,16 @@ VariantTable sdo_variants() {
        .how = choose([](SdoChoices& c) { c.time_out.reset(); }),
        .group = "sdo-time-out",
        .warns = {"SDO-BDN-25"}},
+      // Whoever answers late, or hands over a whole sub-block, would give up before the client can go on; and
+      // where a frame was ignored a client waits longer before it says so.
+      {.id = "sdo-time-out-25ms",
+       .summary = "a transfer ends after 25 ms of silence",
+       .legal = "SDO-SUP-18, SDO-SDN-25; SDO-SUP-17 warns",
+       .how = choose([](SdoChoices& c) { c.time_out = milliseconds(25); }),
+       .group = "sdo-time-out",
+       .excludes = {"turnaround", "program-cycle-20ms", "newest-frame-in-5ms", "sdo-sequence-spoils",
+                    "sdo-toggle-errors-ignored", "sdo-sub-block-queued"},
+       .warns = {"SDO-SUP-17"}},
       {.id = "sdo-time-out-200ms",
        .summary = "a transfer ends after 200 ms of silence",
        .legal = "SDO-SUP-18, SDO-SDN-25; SDO-SUP-17 warns",

@@ -83,6 +83,21 @@ VariantTable stacks(const VariantTable& all) {
            {"error-reset-for-each", "emcy-dropped-in-stopped", "1015-absent", "1028-absent", "1029-absent",
             "guarding-absent", "tpdo-on-write", "tpdo-without-remote-frames", "1019-absent",
             "tpdo-inhibit-in-10-ms", "sdo-time-out-10s", "boot-up-at-once"}),
+      like("like-python-canopen", "habits of canopen for Python", all,
+           {"heartbeat-at-once", "boot-up-at-once", "guarding-absent", "1015-absent", "1019-absent",
+            "1028-absent", "1029-absent", "lss-absent", "sdo-no-time-out", "sdo-segments-checked-at-the-end",
+            "sdo-servers-absent", "sdo-client-absent", "tpdo-without-remote-frames",
+            "abort-too-long-0607-0010", "abort-too-short-0607-0010"}),
+      like("like-durand", "habits of durand", all,
+           {"heartbeat-at-once", "boot-up-at-once", "guarding-absent", "1019-absent", "1028-absent",
+            "1029-absent", "lss-address-in-any-order", "lss-without-store", "sdo-no-time-out",
+            "sdo-gap-refused", "sdo-abort-of-its-object-only", "tpdo-initial", "tpdo-without-remote-frames",
+            "abort-too-long-0607-0010", "abort-too-short-0607-0010"}),
+      like("like-zencan", "habits of zencan", all,
+           {"boot-up-at-once", "guarding-absent", "1019-absent", "1028-absent", "1029-absent",
+            "sdo-busy-names-transfer", "sdo-time-out-25ms", "sdo-sequence-ignored",
+            "sdo-segments-checked-at-the-end", "sdo-blocks-checked-at-the-end", "sdo-servers-absent",
+            "sdo-client-absent", "tpdo-without-remote-frames"}),
   };
 }
 
