@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the LSS slave (CiA 305) in what several frames make up: what one address leaves behind for the
 // next, and what becomes of a node-ID that was configured.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "defects/hooks.hpp"
 
@@ -48,6 +50,21 @@ Change answers_the_last_frame_again() {
     const std::uint8_t before = std::exchange(last, frame.data[0]);
     if (before == identify_serial_high && last == identify_serial_high) identify(parts);
   });
+}
+
+/// The parts of an address stay behind one that was not the slave's: what comes alone stands for all of them.
+Change keeps_the_address() {
+  return [](Parts& parts) {
+    parts.device.inbox.add_filter(
+        [kept = std::array<std::optional<Frame>, 3>{}](std::vector<Frame>& frames) mutable {
+          if (frames.size() != 1 || !is_request(frames[0])) return;
+          const auto frame = frames[0];
+          const unsigned part = frame.data[0] - unsigned{selective_vendor};
+          if (part < 3) kept[part] = frame;
+          if (part != 3 || !kept[0] || !kept[1] || !kept[2]) return;
+          frames = {*kept[0], *kept[1], *kept[2], frame};
+        });
+  };
 }
 
 /// A scan that begins behind one that was given up waits for the part that was due there.
@@ -159,6 +176,10 @@ DefectTable lss_sequence_defects() {
        "The last frame of identify remote slave is answered once more when it comes alone",
        {"LSS-GEN-08"},
        answers_the_last_frame_again()},
+      {"lss-address-kept",
+       "The first three parts of an LSS address stay, and the fourth one alone is answered",
+       {"LSS-SS-03", "LSS-SS-04"},
+       keeps_the_address()},
       {"lss-fastscan-goes-on",
        "A fastscan that begins behind one that was given up goes on with that",
        {"LSS-FS-03"},

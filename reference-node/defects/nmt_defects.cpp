@@ -49,6 +49,53 @@ Change misreads_commands(std::function<void(Parts&, Frame&)> change) {
   });
 }
 
+/// States of CiA 301's predecessors: 50h sleep, 60h standby.
+Change sleeps() {
+  return [](Parts& parts) {
+    const auto asleep = std::make_shared<std::uint8_t>(std::uint8_t{0});
+    misreads_commands([asleep](Parts& node, Frame& frame) {
+      if (frame.size() != 2 || (frame.data[1] != 0 && frame.data[1] != node.device.node_id)) return;
+      const std::uint8_t command = frame.data[0];
+      constexpr std::uint8_t awake[] = {start, stop, pre_operational, reset_node, reset_communication};
+      if (command == 0x50 || command == 0x60) *asleep = command;
+      if (std::ranges::find(awake, command) != std::end(awake)) *asleep = 0;
+    })(parts);
+    parts.device.outbox.add_filter([asleep](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::heartbeat || *asleep == 0) return;
+      for (Outgoing& each : frames) each.frame.data[0] = *asleep;
+    });
+  };
+}
+
+/// The server is switched on by the way into Pre-operational alone.
+Change stays_off_behind_stopped() {
+  return [](Parts& parts) {
+    const auto off = std::make_shared<bool>(false);
+    with_boot_up([off](Parts&) { *off = false; })(parts);
+    ahead_of_state_change([off](Parts& node) {
+      if (node.device.state == NmtState::stopped) *off = true;
+      if (node.device.state == NmtState::pre_operational) *off = false;
+    })(parts);
+    deaf_to([off](Parts& node, const Frame& frame) {
+      return *off && !frame.extended && node.sdo.server_of(frame) != nullptr;
+    })(parts);
+  };
+}
+
+Change initialises_until_commanded() {
+  return [](Parts& parts) {
+    const auto waits = std::make_shared<bool>(false);
+    misreads_commands([waits](Parts& node, Frame& frame) {
+      if (frame.size() != 2 || (frame.data[1] != 0 && frame.data[1] != node.device.node_id)) return;
+      *waits = frame.data[0] == reset_node || frame.data[0] == reset_communication;
+    })(parts);
+    parts.device.outbox.add_filter([waits](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::heartbeat || !*waits) return;
+      for (Outgoing& each : frames) each.frame.data[0] = 0;
+    });
+  };
+}
+
 /// A frame for which `when` holds acts like reset node.
 Change restarts_on(std::function<bool(const Frame&, std::uint8_t node_id)> when) {
   return misreads([when = std::move(when)](Parts& parts, Frame& frame) {
@@ -290,6 +337,18 @@ DefectTable nmt_defects() {
          constexpr std::uint8_t known[] = {start, stop, pre_operational, reset_node, reset_communication};
          if (std::ranges::find(known, frame.data[0]) == std::end(known)) frame.data[0] = stop;
        })},
+      {"nmt-sleep-and-standby-obeyed",
+       "The commands 50h and 60h put the node into states of their own, which the heartbeat shows",
+       {"NMT-FSA-16"},
+       sleeps()},
+      {"sdo-deaf-from-stopped-to-operational",
+       "NMT start in Stopped leaves the SDO server off",
+       {"SDO-GEN-14", "NMT-FSA-22"},
+       stays_off_behind_stopped()},
+      {"heartbeat-initialising-behind-a-reset",
+       "Behind a reset the heartbeat shows 00h until the next NMT command",
+       {"NMT-BOOT-06", "NMT-BOOT-10", "EC-HBP-06"},
+       initialises_until_commanded()},
       {"nmt-short-frame-accepted",
        "Commands without node-ID are obeyed",
        {"NMT-FSA-17"},

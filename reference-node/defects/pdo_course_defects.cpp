@@ -169,6 +169,61 @@ void sends_the_first_length(Parts& parts) {
 }
 
 /// The number of SYNCs is compared for equality, and a type that is written leaves it as it is.
+/// What came before Operational waits in the mailbox, and is taken when it is entered.
+void takes_what_came_before(Parts& parts) {
+  const auto waiting = std::make_shared<std::map<std::uint32_t, Frame>>();
+  misreads([waiting](Parts& node, Frame& frame) {
+    if (is_rpdo(frame) && node.device.state != NmtState::operational) (*waiting)[frame.id] = frame;
+  })(parts);
+  with_boot_up([waiting](Parts&) { waiting->clear(); })(parts);
+  ahead_of_state_change([waiting](Parts& node) {
+    if (node.device.state != NmtState::operational) return;
+    for (const auto& [id, frame] : *waiting) node.device.inbox.put(frame, node.device.now);
+    waiting->clear();
+  })(parts);
+}
+
+/// The count of SYNCs does not begin anew with the PDO that it has sent.
+void sends_with_all_that_follow(Parts& parts) {
+  const auto reached = std::make_shared<std::set<const PdoParameters*>>();
+  with_boot_up([reached](Parts&) { reached->clear(); })(parts);
+  ahead_of_state_change([reached](Parts&) { reached->clear(); })(parts);
+  parts.pdos.tpdo.rules.sent_at_sync.replace(
+      [reached](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        const std::uint8_t type = pdo.transmission_type();
+        if (type < 1 || !is_synchronous(type)) return former(pdo, syncs, event);
+        if (former(pdo, syncs, event)) reached->insert(&pdo);
+        return reached->contains(&pdo);
+      });
+}
+
+/// With Operational the first four TPDOs have the CAN-IDs of the pre-defined connection set again.
+void back_to_default_can_ids(Parts& parts) {
+  const auto moved = std::make_shared<std::map<std::uint32_t, std::uint32_t>>();
+  ahead_of_state_change([moved](Parts& node) {
+    moved->clear();
+    if (node.device.state != NmtState::operational) return;
+    for (std::uint16_t i = 0; i < 4; ++i) {
+      const auto id = node.device.dictionary.number(static_cast<std::uint16_t>(0x1800 + i), 1) & 0x7FFU;
+      (*moved)[static_cast<std::uint32_t>(id)] = 0x180U + 0x100U * i + node.device.node_id;
+    }
+  })(parts);
+  for (std::uint16_t i = 0; i < 4; ++i) {
+    after_writing(static_cast<std::uint16_t>(0x1800 + i), 1,
+                  [moved](Parts&, const std::function<void()>& former) {
+                    former();
+                    moved->clear();
+                  })(parts);
+  }
+  parts.device.outbox.add_filter([moved](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo) return;
+    for (Outgoing& each : frames) {
+      const auto former = moved->find(each.frame.id);
+      if (former != moved->end()) each.frame.id = former->second;
+    }
+  });
+}
+
 void waits_for_the_very_number(Parts& parts) {
   auto& rules = parts.pdos.tpdo.rules;
   rules.takes_effect.replace([](const auto& former, const PdoParameters& pdo) {
@@ -385,6 +440,18 @@ DefectTable pdo_course_defects() {
        "A synchronous RPDO that came in Pre-operational takes effect with the first SYNC in Operational",
        {"PDO-RX-02"},
        Change(waits_for_operational)},
+      {"rpdo-of-other-states-taken-at-start",
+       "What an RPDO brought before Operational takes effect when it is entered",
+       {"PDO-RX-02"},
+       Change(takes_what_came_before)},
+      {"tpdo-with-every-sync-behind-the-nth",
+       "A TPDO of type n is sent with the n-th SYNC and with all that follow",
+       {"PDO-TX-06"},
+       Change(sends_with_all_that_follow)},
+      {"tpdo-can-id-back-at-start",
+       "With NMT start a TPDO that was moved is sent with its default CAN-ID",
+       {"OD-1800-11", "PDO-TX-04"},
+       Change(back_to_default_can_ids)},
       {"rpdo-length-of-the-first",
        "An RPDO that is mapped anew in Operational needs as many bytes as before",
        {"PDO-MAP-22", "PDO-RX-01"},

@@ -222,6 +222,12 @@ DefectTable frame_rows() {
        "The end frame of a block upload always tells that the last segment is full",
        {"SDO-BUP-22", "SDO-BUP-01"},
        end_frame([](const SdoExchange&, Data& data) { data[0] &= 0xE3U; })},
+      {"block-upload-full-last-segment-claims-nothing",
+       "The end frame of a block upload whose last segment is full tells that it holds nothing",
+       {"SDO-BUP-22", "SDO-BUP-01"},
+       end_frame([](const SdoExchange&, Data& data) {
+         if ((data[0] & 0x1CU) == 0) data[0] |= 0x1CU;
+       })},
       {"block-upload-confirmation-answered",
        "The client's confirmation of a block upload is answered",
        {"SDO-BUP-24", "SDO-GEN-04"},

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defects of the order of requests: what comes for a transfer that another one has replaced, and frames of a
-// block upload that are not due.
+// Defects of the order of requests: what comes for a transfer that another one has replaced, frames of a
+// block transfer that are not due, and aborts that end nothing.
+#include <cstdint>
+#include <memory>
+#include <utility>
+
 #include "defects/sdo_block_exchanges.hpp"
 
 namespace refnode {
@@ -27,6 +31,70 @@ bool acknowledge_not_due(const SdoExchange& e) {
 }
 bool confirmation_not_due(const SdoExchange& e) { return e.step == SdoStep::block_upload_end && not_due(e); }
 
+/// Where a block upload of the default server stands.
+enum class Stage : std::uint8_t { none, offered, segments, ended };
+std::shared_ptr<Stage> watch_block_upload(Parts& parts) {
+  const auto stage = std::make_shared<Stage>(Stage::none);
+  parts.device.outbox.add_filter(on_exchange([stage](const SdoExchange& e, Frames& frames) {
+    if (e.channel != 0) return;
+    if (e.aborted || is_client_abort(e) || begins_transfer(e) || is_end_confirmation(e, frames))
+      *stage = Stage::none;
+    if (block_upload_initiated(e)) *stage = Stage::offered;
+    if (is_upload_segment(e, frames)) *stage = Stage::segments;
+    if (is_upload_end(e, frames)) *stage = Stage::ended;
+  }));
+  return stage;
+}
+
+/// The server looks for acknowledges only: whatever else comes sends the sub-block.
+void takes_anything_for_a_start(Parts& parts) {
+  misreads([stage = watch_block_upload(parts)](Parts& node, Frame& frame) {
+    if (channel_of(node, frame) != 0) return;
+    const auto* transfer = transfer_of<BlockUpload>(node, frame);
+    const bool due = (frame.data[0] & 0x03U) == 2 || frame.data[0] == 0x80;
+    if (transfer == nullptr || due) return;
+    if (*stage == Stage::offered) frame.data = {0xA3};
+    if (*stage == Stage::segments) frame.data = {0xA2, 0, transfer->block_size()};
+  })(parts);
+}
+/// Behind the end frame it waits for one frame more, and does not look at it.
+void takes_anything_for_the_confirmation(Parts& parts) {
+  misreads([stage = watch_block_upload(parts)](Parts& node, Frame& frame) {
+    if (channel_of(node, frame) != 0) return;
+    const bool running = transfer_of<BlockUpload>(node, frame) != nullptr && frame.data[0] != 0x80;
+    if (running && *stage == Stage::ended) frame.data = {0xA1};
+  })(parts);
+}
+
+/// What is sent again begins with 1; the server waits for the number behind the one that it acknowledged.
+void counts_on_behind_a_gap(Parts& parts) {
+  struct Memory {
+    std::uint8_t gap_behind = 0, base = 0, number = 0;
+  };
+  parts.sdo.rules.block_download.follows.replace(
+      [memory = std::make_shared<Memory>()](const auto& former, std::uint8_t number, std::uint8_t last) {
+        Memory& m = *memory;
+        if (number <= std::exchange(m.number, number)) m.base = std::exchange(m.gap_behind, std::uint8_t{0});
+        if (last == 0 && m.base != 0) return number == m.base + 1;
+        if (!former(number, last) && number > last) m.gap_behind = last;
+        return former(number, last);
+      });
+}
+
+/// A client abort is answered where nothing was open that it could end.
+void answers_aborts_when_idle(Parts& parts) {
+  const auto open = std::make_shared<bool>(false);
+  misreads([open](Parts& node, Frame& frame) {
+    const SdoServer* server = server_asked(node, frame);
+    if (server != nullptr) *open = server->busy();
+  })(parts);
+  parts.device.outbox.add_filter([open](const FilterContext& context, Frames& frames) {
+    if (context.sdo == nullptr || context.sdo->channel != 0 || *open) return;
+    if (is_client_abort(*context.sdo))
+      frames.push_back(response(context, {0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05}));
+  });
+}
+
 }  // namespace
 
 DefectTable sdo_turn_defects() {
@@ -51,6 +119,22 @@ DefectTable sdo_turn_defects() {
        "A confirmation that is not due ends a block upload without a word",
        {"SDO-BUP-20"},
        silent(confirmation_not_due)},
+      {"block-upload-takes-anything-for-a-start",
+       "In a block upload every request but its acknowledges sends the sub-block",
+       {"SDO-BUP-29", "SDO-BUP-20"},
+       Change(takes_anything_for_a_start)},
+      {"block-upload-takes-anything-for-its-confirmation",
+       "Behind the end frame of a block upload the next request is lost, whatever it is",
+       {"SDO-BUP-29"},
+       Change(takes_anything_for_the_confirmation)},
+      {"block-download-counts-on-behind-a-gap",
+       "Behind a gap a block download waits for the next number, where what is sent again begins with 1",
+       {"SDO-BDN-07"},
+       Change(counts_on_behind_a_gap)},
+      {"client-abort-answered-when-idle",
+       "A client abort is answered with an abort when no transfer is open",
+       {"SDO-ERR-03"},
+       Change(answers_aborts_when_idle)},
   };
 }
 
