@@ -20,7 +20,8 @@ SLOW = ("tbf", "rate", "128kbit", "burst", "32", "limit", "16000")
 # Two frames a second.
 CRAWLING = ("tbf", "rate", "256bit", "burst", "32", "limit")
 MOST_FUTILE = 100  # a second
-MOST_BUSY = 0.05
+# Who spins takes a whole processor; beside busy neighbours each of the few writes takes longer.
+MOST_BUSY = 0.15
 # send(): how often it found no room, for how long that went on, and what the processor did meanwhile; a line at the end.
 SHIM = r"""
 #define _GNU_SOURCE
