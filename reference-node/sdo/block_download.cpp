@@ -30,6 +30,11 @@ SdoReply BlockDownload::segment(const SdoData& frame, BusTime now) {
   heard_at_ = now;
   if (skips_to_first_ && number != 1) return std::nullopt;
   skips_to_first_ = false;
+  if (choices_->first_segment_awaited && taken_ == 0 && number != 1) return std::nullopt;
+  if (choices_->entry_looked_at_late && data_.empty()) {
+    if (const Accepted granted = rules_->may_begin(terms_.mux, terms_.announced); !granted)
+      return refuse(granted.error());
+  }
   if (!spoiled_ && rules_->follows(number, taken_)) {
     data_.insert(data_.end(), frame.begin() + 1, frame.end());
     taken_ = number;

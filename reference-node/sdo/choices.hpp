@@ -21,6 +21,11 @@ struct SdoChoices {
   bool upload_size_indicated = true;   ///< segmented and block upload; false: bytes 4-7 stay zero
   std::size_t upload_segment = 7;      ///< segmented upload: bytes in each segment but the last, 1 to 7
   bool toggle_errors_ignored = false;  ///< true: no reply to a repeated segment in place of 0503 0000h
+  bool former_mux_in_aborts =
+      false;  ///< what names no entry is refused with the multiplexer of the last that did
+  bool reserved_bits_refused = false;  ///< 0504 0001h for a command byte with one of its reserved bits set
+  bool entry_looked_at_late =
+      false;  ///< a download begins whatever its entry is; its first segment is refused
 
   /// Answer to a new initiate request while a transfer is open, which it ends; nullopt: the new one is
   /// served.
@@ -33,6 +38,7 @@ struct SdoChoices {
   std::uint8_t block_size = 127;          ///< download: segments per sub-block, 1 to 127
   std::uint8_t next_block_size = 0;       ///< download: block size in acknowledges; 0: the same
   bool ack_gap_at_once = false;           ///< download: acknowledge at a gap, not at the end of the sub-block
+  bool first_segment_awaited = false;     ///< download: what comes in place of segment 1 is no segment at all
   bool invalid_sequence_ignored = false;  ///< download: wait at sequence number 0 or above the block size
   bool invalid_sequence_spoils = false;   ///< and acknowledge none of the sub-block, so that it comes again
   bool sub_block_queued = false;          ///< upload: the driver takes up to 64 segments at once

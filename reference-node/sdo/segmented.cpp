@@ -42,6 +42,9 @@ SdoReply SegmentedDownload::segment(const SdoData& request, const ObjectDictiona
   const std::size_t count = 7U - ((request[0] >> 1U) & 0x07U);
   const bool last = (request[0] & last_bit) != 0;
   const std::size_t most = announced_.value_or(dictionary.capacity(mux_));
+  if (choices_->entry_looked_at_late && data_.empty()) {
+    if (const Accepted granted = rules_->granted(mux_, announced_); !granted) return refuse(granted.error());
+  }
 
   data_.insert(data_.end(), request.begin() + 1, request.begin() + 1 + static_cast<std::ptrdiff_t>(count));
   if (!rules_->fits(data_.size(), most)) return refuse(abort_code::length_too_high);

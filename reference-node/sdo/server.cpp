@@ -26,6 +26,19 @@ constexpr unsigned block_acknowledge = 2;
 constexpr unsigned crc_bit = 0x04;
 constexpr unsigned size_bit = 0x02;
 
+/// Whether a bit is set that the command specifier leaves unused (7.2.4.3.3 to 7.2.4.3.16).
+bool has_reserved_bits(std::uint8_t request) {
+  const auto subcommand = request & 0x03U;
+  switch (request >> 5U) {
+    case download_initiate_request: return (request & 0x10U) != 0;
+    case upload_initiate_request: return (request & 0x1FU) != 0;
+    case upload_segment_request: return (request & 0x0FU) != 0;
+    case block_upload_request: return (request & (subcommand == block_initiate ? 0x18U : 0x1CU)) != 0;
+    case block_download_request: return (request & ((request & 0x01U) != 0 ? 0x02U : 0x18U)) != 0;
+    default: return false;
+  }
+}
+
 }  // namespace
 
 void SdoServer::on_request(const Frame& frame, std::uint32_t response_id) {
@@ -47,6 +60,8 @@ SdoReply SdoServer::serve(SdoExchange& exchange) {
     // 80h would be sequence number 0: the one frame that cannot be a segment.
     if (exchange.request[0] != 0x80) return block_segment(exchange, *receiving);
   }
+  if (choices_->reserved_bits_refused && has_reserved_bits(exchange.request[0]))
+    return out_of_place(exchange);
   switch (command) {
     case download_segment_request:
       exchange.step = SdoStep::download_segment;
@@ -69,12 +84,13 @@ SdoReply SdoServer::serve(SdoExchange& exchange) {
       return std::nullopt;
     case block_upload_request: return block_upload(exchange);
     case block_download_request: return block_download(exchange);
-    default: return refuse(abort_code::command_unknown);
+    default:
+      return choices_->former_mux_in_aborts ? out_of_place(exchange) : refuse(abort_code::command_unknown);
   }
 }
 
 SdoReply SdoServer::out_of_place(SdoExchange& exchange) const {
-  exchange.mux = running_mux().value_or(Multiplexer{});
+  exchange.mux = running_mux().value_or(choices_->former_mux_in_aborts ? former_mux_ : Multiplexer{});
   return refuse(abort_code::command_unknown);
 }
 
@@ -133,8 +149,10 @@ SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
   if (!choices_->segmented) return refuse(abort_code::command_unknown);
   std::optional<std::size_t> announced;
   if (sized) announced = size_field(exchange.request);
-  const Accepted granted = rules_->segmented.granted(exchange.mux, announced);
-  if (!granted) return refuse(granted.error());
+  if (!choices_->entry_looked_at_late) {
+    const Accepted granted = rules_->segmented.granted(exchange.mux, announced);
+    if (!granted) return refuse(granted.error());
+  }
   transfer_ = SegmentedDownload(*choices_, rules_->segmented, exchange.mux, announced);
   return confirmation;
 }
@@ -194,8 +212,10 @@ SdoReply SdoServer::initiate_block_download(SdoExchange& exchange) {
   const std::uint8_t command = exchange.request[0];
   std::optional<std::size_t> announced;
   if ((command & size_bit) != 0) announced = size_field(exchange.request);
-  const Accepted granted = rules_->block_download.may_begin(exchange.mux, announced);
-  if (!granted) return refuse(granted.error());
+  if (!choices_->entry_looked_at_late) {
+    const Accepted granted = rules_->block_download.may_begin(exchange.mux, announced);
+    if (!granted) return refuse(granted.error());
+  }
   auto reply = with_mux(static_cast<std::uint8_t>(0xA0U | (choices_->crc ? crc_bit : 0U)), exchange.mux);
   reply[4] = choices_->block_size;
   transfer_ = BlockDownload(*choices_, rules_->block_download,
@@ -240,6 +260,7 @@ bool SdoServer::transfer_finished() const {
 }
 
 void SdoServer::conclude(SdoExchange& exchange, const SdoReply& reply) {
+  if (exchange.step != SdoStep::other) former_mux_ = exchange.mux;
   std::optional<SdoData> data;
   if (reply) {
     data = *reply;

@@ -80,7 +80,8 @@ class SdoServer {
   std::uint8_t channel_;
   std::uint32_t response_id_ = 0;
   Transfer transfer_;
-  BusTime active_at_{};  ///< last frame of the running transfer, in either direction
+  Multiplexer former_mux_{};  ///< of the latest request that was one
+  BusTime active_at_{};       ///< last frame of the running transfer, in either direction
   SegmentPacer pacer_;
 };
 

@@ -506,6 +506,32 @@ VariantTable sdo_variants() {
                            AbortCode(0x08000021)),
       {"sdo-reserved-bits-refused", "reserved bits of a block initiate are refused, without a multiplexer",
        "SDO-BUP-28, SDO-BDN-27: 0504 0001h; SDO-ERR-04 is about an object", refuse_reserved_bits},
+      {"sdo-all-reserved-bits-refused",
+       "a request with reserved bits in its command byte is refused: 0504 0001h",
+       "7.2.4.3: reserved bits are 0 in what a client sends",
+       choose([](SdoChoices& c) { c.reserved_bits_refused = true; }),
+       {},
+       // Another code for it would have to be named by each rule about reserved bits.
+       {"sdo-reserved-bits-refused", "command-code"}},
+      {.id = "sdo-former-mux-in-aborts",
+       .summary = "what names no entry is refused with the multiplexer of the last that did",
+       .legal = "7.2.4.3.17: an abort has a multiplexer, an unknown command has none; SDO-ERR-04 warns",
+       .how = choose([](SdoChoices& c) { c.former_mux_in_aborts = true; }),
+       .warns = {"SDO-ERR-04"}},
+      {.id = "sdo-entry-looked-at-late",
+       .summary =
+           "a segmented or block download is begun whatever its entry is, and refused with its first segment",
+       .legal = "7.2.4.3.17: an abort may come at any time; SDO-SDN-22, SDO-BDN-23 warn",
+       .how = choose([](SdoChoices& c) { c.entry_looked_at_late = true; }),
+       // Whether block download is offered is asked of the initiate.
+       .excludes = {"sdo-block-download-of-domains"},
+       .warns = {"SDO-SDN-22", "SDO-BDN-23"}},
+      {"sdo-first-segment-awaited",
+       "where segment 1 of a sub-block is lost, the others are no segments, and 700 ms later none is acknowledged",
+       "7.2.4.3.10: an acknowledge of 0", choose([](SdoChoices& c) {
+         c.first_segment_awaited = true;
+         c.sub_block_time_out = milliseconds(700);
+       })},
       {.id = "abort-block-0504-0001",
        .summary = "block sizes and sequence numbers that cannot be are unknown commands",
        .legal = "SDO-BUP-09 to -12, SDO-BDN-10, -11, tolerated",
