@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the COB-ID parameters 1005h, 1012h, 1014h, 1400h:01 and 1800h:01.
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "defects/cob_ids.hpp"
 #include "defects/tools.hpp"
@@ -45,6 +48,37 @@ Accepted takes_restricted_with_bit31(Parts&, const Check& former, ByteView bytes
 void compares_ten_bits_of_time(Parts& parts, Frame& frame) {
   const std::uint64_t cob_id = parts.device.dictionary.number(0x1012, 0);
   if (!frame.remote && !frame.extended && ((frame.id ^ cob_id) & 0x7FFU) == 1) frame.id ^= 1U;
+}
+
+/// What comes on the CAN-ID that the entry named before is taken, too.
+Change hears_former_can_id(std::uint16_t index, std::uint8_t sub) {
+  struct Known {
+    std::uint32_t now = 0;
+    std::uint32_t former = 0;
+  };
+  return Reading([index, sub, known = std::make_shared<Known>()](Parts& parts, std::vector<Frame>& frames) {
+    const auto named = static_cast<std::uint32_t>(parts.device.dictionary.number(index, sub)) & 0x7FFU;
+    if (named != known->now) *known = {.now = named, .former = known->now};
+    std::vector<Frame> again;
+    for (const Frame& frame : frames) {
+      const bool other = frame.extended || frame.remote || known->former == 0;
+      if (other || frame.id != known->former) continue;
+      again.push_back(frame);
+      again.back().id = named;
+    }
+    frames.insert(frames.end(), again.begin(), again.end());
+  });
+}
+
+/// A CAN-ID that lacks the node-ID to be the default one is read with it.
+Change reads_with_node_id(std::uint16_t index, std::uint32_t base) {
+  return reading(index, 1, [base](Parts& parts, const Read& former) {
+    Upload value = former();
+    if (!value || value->size() != 4) return value;
+    const std::uint64_t number = conform::load_le(*value);
+    if ((number & 0x7FFU) == base) conform::store_le(std::span(*value), number + parts.device.node_id);
+    return value;
+  });
 }
 
 /// The lowest bit of a CAN-ID may be changed at any time.
@@ -102,6 +136,30 @@ DefectTable cob_id_defects() {
        "The node goes on listening on 080h after 1005h was changed",
        {"OD-1005-07", "SYNC-COB-02", "OD-1005-09"},
        stays_on_default(of_sync)},
+      {"1005-former-id-used-too",
+       "A SYNC on the CAN-ID that 1005h named before is used, too",
+       {"OD-1005-07", "SYNC-COB-02"},
+       hears_former_can_id(0x1005, 0)},
+      {"1012-former-id-used-too",
+       "A TIME on the CAN-ID that 1012h named before is used, too",
+       {"TIME-CON-01"},
+       hears_former_can_id(0x1012, 0)},
+      {"1400-former-id-used-too",
+       "An RPDO that was moved is received on its former CAN-ID, too",
+       {"OD-1400-11"},
+       hears_former_can_id(0x1400, 1)},
+      {"1403-former-id-used-too",
+       "RPDO 4, when it was moved, is received on its former CAN-ID, too",
+       {"OD-1400-11"},
+       hears_former_can_id(0x1403, 1)},
+      {"1401-base-id-reads-with-node-id",
+       "The CAN-ID 300h of RPDO 2 is read back with the node-ID",
+       {"OD-1400-11"},
+       reads_with_node_id(0x1401, 0x300)},
+      {"1801-base-id-reads-with-node-id",
+       "The CAN-ID 280h of TPDO 2 is read back with the node-ID",
+       {"OD-1800-11"},
+       reads_with_node_id(0x1801, 0x280)},
       {"1005-bit31-treated-as-valid",
        "1005h refuses bit 31",
        {"OD-1005-11"},

@@ -94,6 +94,24 @@ Change any_length() {
   };
 }
 
+/// The segment marked as the last one ends the sub-blocks, whatever was lost before it: what then comes again
+/// is no segment any more.
+void ends_with_last_mark(Parts& parts) {
+  const auto ended = std::make_shared<bool>(false);
+  of_block_download(parts).fits.replace([ended](const auto& former, std::size_t size, const Terms& terms) {
+    return !*ended && former(size, terms);
+  });
+  parts.device.outbox.add_filter([ended](const FilterContext& context, Frames& frames) {
+    if (context.sdo == nullptr) return;
+    const SdoExchange& e = *context.sdo;
+    if (*ended && e.step == SdoStep::block_download_segment && e.aborted == abort_code::length_too_high)
+      for (Outgoing& outgoing : frames) store_code(outgoing.frame.data, abort_code::command_unknown);
+    const bool marked = (e.request[0] & 0x80U) != 0;
+    *ended =
+        acknowledged(e) && marked && !frames.empty() && frames.front().frame.data[1] < (e.request[0] & 0x7FU);
+  });
+}
+
 /// A segment whose number `when` holds for is taken for the next one.
 Change takes_for_next(bool (*when)(unsigned number, const BlockDownload&)) {
   return misreads([when](Parts& parts, Frame& frame) {
@@ -309,6 +327,10 @@ DefectTable loss_rows() {
          if (begins_transfer(e)) deaf = false;
          if (deaf) frames.clear();
        })},
+      {"block-download-ends-with-the-last-mark",
+       "A block download that lost a segment of its last sub-block aborts the segments that come again",
+       {"SDO-BDN-07"},
+       ends_with_last_mark},
       {"block-download-acknowledges-every-segment-behind-a-gap",
        "Every segment behind a lost one is acknowledged",
        {"SDO-BDN-07"},

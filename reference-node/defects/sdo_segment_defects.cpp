@@ -309,6 +309,13 @@ DefectTable upload_rows() {
              [](const SdoExchange&, Data& data) {
                if (is_segmented_upload(data)) data[0] = 0x40;
              })},
+      {"size-bit-of-odd-sizes-only",
+       "Segmented uploads tell an even size in bytes that are reserved without the size bit",
+       {"SDO-GEN-05"},
+       patch(upload_initiated,
+             [](const SdoExchange&, Data& data) {
+               if (is_segmented_upload(data) && (data[4] & 1U) == 0) data[0] = 0x40;
+             })},
       {"long-entries-silent",
        "Uploads of entries of more than four bytes get no answer",
        {"SDO-SUP-01", "SDO-UPL-05"},
