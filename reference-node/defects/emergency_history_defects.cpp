@@ -53,6 +53,16 @@ Change remembers_more_than_it_shows() {
   return [](Parts& parts) { parts.emergency.history.choices.depth = 0xFE; };
 }
 
+/// The history is the list of the errors that are there.
+void forgets_what_has_ended(Parts& parts) {
+  parts.device.errors.clear.replace([&parts](const auto& former, const ErrorCause& cause) {
+    former(cause);
+    parts.emergency.history.clear();
+    for (const ErrorCause& active : parts.emergency.active())
+      parts.emergency.history.record(active.code, active.source, 0);
+  });
+}
+
 /// Clearing shows an empty history; with the next error the former ones are back.
 void hides_what_was_cleared(Parts& parts) {
   const auto hidden = std::make_shared<bool>(false);
@@ -185,6 +195,10 @@ DefectTable emergency_history_defects() {
        "1003h:00 counts on beyond the depth of the array",
        {"OD-1003-13", "OD-1003-09", "EMCY-HIS-05"},
        remembers_more_than_it_shows()},
+      {"1003-forgets-an-error-with-its-end",
+       "The end of an error takes it out of the history",
+       {"OD-1003-15"},
+       forgets_what_has_ended},
       {"1003-records-error-reset",
        "The end of all errors is entered into 1003h as error 0000h",
        {"OD-1003-15"},

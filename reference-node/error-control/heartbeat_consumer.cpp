@@ -44,8 +44,13 @@ Accepted HeartbeatConsumer::check(std::uint8_t sub, ByteView bytes) const {
 
 void HeartbeatConsumer::on_written(std::uint8_t sub) {
   Watch& watch = watches_[sub - 1U];
-  if (watch.lost) device_->errors.clear(lost(sub));
-  watch = {};
+  if (choices.errors_end_together) {
+    watch.due.reset();
+    end_together();
+  } else {
+    if (watch.lost) device_->errors.clear(lost(sub));
+    watch = {};
+  }
   if (choices.reserved_bits_cleared) device_->dictionary.set_number(0x1016, sub, value_of(sub) & 0x00FFFFFFU);
 }
 
@@ -65,6 +70,10 @@ void HeartbeatConsumer::on_heartbeat(std::uint8_t node, std::uint8_t state) {
       continue;
     }
     watch.due = device_->now + rules.time(monitored_time(value));
+    if (choices.errors_end_together) {
+      end_together();
+      continue;
+    }
     if (!watch.lost) continue;
     watch.lost = false;
     device_->errors.clear(lost(sub));
@@ -84,6 +93,17 @@ void HeartbeatConsumer::lose(std::uint8_t sub) {
   watches_[sub - 1U].lost = true;
   device_->errors.raise(lost(sub), monitored_node(value_of(sub)));
   if (on_loss) on_loss();
+}
+
+void HeartbeatConsumer::end_together() {
+  for (std::uint8_t sub = 1; sub <= entries(); ++sub) {
+    if (rules.used(value_of(sub)) && !watches_[sub - 1U].due) return;
+  }
+  for (std::uint8_t sub = 1; sub <= entries(); ++sub) {
+    Watch& watch = watches_[sub - 1U];
+    if (watch.lost) device_->errors.clear(lost(sub));
+    watch.lost = false;
+  }
 }
 
 std::optional<BusTime> HeartbeatConsumer::next_wakeup() const {

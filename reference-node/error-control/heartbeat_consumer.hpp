@@ -20,6 +20,7 @@ struct HeartbeatConsumerChoices {
   AbortCode duplicate = abort_code::parameter_incompatible;  ///< a second entry for one node
   AbortCode reserved_bits = abort_code::invalid_value;
   bool reserved_bits_cleared = false;  ///< taken, and read back as 00h
+  bool errors_end_together = false;    ///< when the nodes of all entries that are used have been heard
 };
 
 // An entry of 1016h: bits 31-24 reserved, 23-16 node-ID, 15-0 heartbeat time.
@@ -76,6 +77,8 @@ class HeartbeatConsumer {
     bool lost = false;
   };
   void lose(std::uint8_t sub);
+  /// Ends the errors of losses, if each node that is monitored is there.
+  void end_together();
   [[nodiscard]] std::uint8_t entries() const { return static_cast<std::uint8_t>(watches_.size()); }
   [[nodiscard]] std::uint64_t value_of(std::uint8_t sub) const {
     return device_->dictionary.number(0x1016, sub);

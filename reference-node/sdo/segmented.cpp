@@ -38,7 +38,10 @@ SdoReply SegmentedUpload::segment(const SdoData& request) {
 
 SdoReply SegmentedDownload::segment(const SdoData& request, const ObjectDictionary& dictionary) {
   const bool toggle = (request[0] & toggle_bit) != 0;
-  if (!rules_->download_toggle_right(toggle, toggle_)) return toggle_error(*choices_);
+  if (!rules_->download_toggle_right(toggle, toggle_)) {
+    if (choices_->wrong_toggle_ignored_in_downloads) return std::nullopt;
+    return toggle_error(*choices_);
+  }
   const std::size_t count = 7U - ((request[0] >> 1U) & 0x07U);
   const bool last = (request[0] & last_bit) != 0;
   const std::size_t most = announced_.value_or(dictionary.capacity(mux_));
