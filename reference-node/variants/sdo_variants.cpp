@@ -527,8 +527,9 @@ VariantTable sdo_variants() {
            "a segmented or block download is begun whatever its entry is, and refused with its first segment",
        .legal = "7.2.4.3.17: an abort may come at any time; SDO-SDN-22, SDO-BDN-23 warn",
        .how = choose([](SdoChoices& c) { c.entry_looked_at_late = true; }),
-       // Whether block download is offered is asked of the initiate.
-       .excludes = {"sdo-block-download-of-domains"},
+       // Whether block download is offered is asked of the initiate, and what a filter has refused behind the
+       // server's back would go on there.
+       .excludes = {"sdo-block-download-of-domains", "sdo-reserved-bits-refused"},
        .warns = {"SDO-SDN-22", "SDO-BDN-23"}},
       {"sdo-first-segment-awaited",
        "where segment 1 of a sub-block is lost, the others are no segments, and 700 ms later none is acknowledged",
