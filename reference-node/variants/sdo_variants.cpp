@@ -531,12 +531,16 @@ VariantTable sdo_variants() {
        // server's back would go on there.
        .excludes = {"sdo-block-download-of-domains", "sdo-reserved-bits-refused"},
        .warns = {"SDO-SDN-22", "SDO-BDN-23"}},
-      {"sdo-first-segment-awaited",
-       "where segment 1 of a sub-block is lost, the others are no segments, and 700 ms later none is acknowledged",
-       "7.2.4.3.10: an acknowledge of 0", choose([](SdoChoices& c) {
+      {.id = "sdo-first-segment-awaited",
+       .summary =
+           "where segment 1 of a sub-block is lost, the others are no segments, and 700 ms later none is acknowledged",
+       .legal = "7.2.4.3.10: an acknowledge of 0",
+       .how = choose([](SdoChoices& c) {
          c.first_segment_awaited = true;
          c.sub_block_time_out = milliseconds(700);
-       })},
+       }),
+       // Beside a variant whose patience ends before.
+       .warns = {"SDO-BDN-08"}},
       {.id = "abort-block-0504-0001",
        .summary = "block sizes and sequence numbers that cannot be are unknown commands",
        .legal = "SDO-BUP-09 to -12, SDO-BDN-10, -11, tolerated",
