@@ -725,7 +725,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn("OD-1003-06: not needed any more", done.stdout)
         self.assertEqual(run(*right, "--strict").returncode, 1)
-        self.assertEqual(run("run", "--simulate", "cia301/nmt", "--waivers", file, "--strict").returncode, 0)
+        self.assertEqual(run("run", "--simulate", "cia301/sync", "--waivers", file, "--strict").returncode, 0)
         self.own("waivers.yaml", "format: 1\nwaivers:\n  - {requirement: OD-1003-06, reason: old, expires: '2020-01-31'}\n"
                                  "  - {requirement: OD-9999-01, reason: typo}\n")
         done = run(*defect, "--waivers", file)
