@@ -36,6 +36,16 @@ Multiplexer sdo_multiplexer(ByteView bytes) {
   return {Index{static_cast<std::uint16_t>(load_le(bytes.subspan(1, 2)))}, SubIndex{bytes[3]}};
 }
 
+bool begins_transfer(std::uint8_t command) {
+  switch (command >> 5U) {
+    case 1:
+    case 2: return true;
+    case 5: return (command & 0x03U) == 0;
+    case 6: return (command & 0x01U) == 0;
+    default: return false;
+  }
+}
+
 SdoBytes encode_upload_request(Multiplexer mux) { return message(0x40, mux); }
 
 SdoBytes encode_download_expedited(Multiplexer mux, ByteView data, bool size_indicated) {

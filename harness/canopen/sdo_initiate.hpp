@@ -16,6 +16,8 @@ using SdoBytes = std::array<std::uint8_t, 8>;
 
 /// Index and sub-index of bytes 1-3; `bytes` has at least four.
 [[nodiscard]] Multiplexer sdo_multiplexer(ByteView bytes);
+/// Whether a request with this command byte begins a transfer (7.2.4.3.3 to 7.2.4.3.16).
+[[nodiscard]] bool begins_transfer(std::uint8_t command);
 
 /// 40 m m m 00 00 00 00
 [[nodiscard]] SdoBytes encode_upload_request(Multiplexer mux);

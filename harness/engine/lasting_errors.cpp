@@ -59,7 +59,8 @@ Result<bool> LastingErrors::has_errors() {
 /// By a trigger of the profile, or in any other way that it sends an EMCY about. Without EMCY nobody knows,
 /// and in Stopped it may send none (7.3.2.2.5, table 37).
 bool LastingErrors::has_raised_errors(std::size_t from) const {
-  if (!has_messages_ || run_.session.find("trigger_delay") != nullptr) return true;
+  if (!has_messages_ || run_.session.was_stopped() || run_.session.find("trigger_delay") != nullptr)
+    return true;
   const auto& frames = run_.recorder.capture().frames();
   return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
                      [this](const can::CapturedFrame& captured) {
@@ -67,8 +68,7 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
                        if (run_.session.was_emcy(captured))
                          return frame.size() == 8 && (frame.data[0] != 0 || frame.data[1] != 0);
                        const auto shown = canopen::decode_error_control(frame, run_.profile.node);
-                       return frame == canopen::encode(canopen::NmtCommand::stop, run_.profile.node) ||
-                              (shown && shown->state == canopen::NmtState::stopped);
+                       return shown && shown->state == canopen::NmtState::stopped;
                      });
 }
 

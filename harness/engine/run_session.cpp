@@ -274,6 +274,7 @@ void RunSession::note_command(std::size_t index) {
                      : *command == NmtCommand::stop ? NmtState::stopped
                                                     : NmtState::pre_operational;
   stopped_ = state == NmtState::stopped;
+  was_stopped_ = was_stopped_ || stopped_;
   ordered_ = Ordered{index, time, state, !ordered_ || time >= ordered_->sent + profile_.nmt_time};
 }
 
@@ -444,6 +445,7 @@ void RunSession::begin_case(scenario::Risk risk) {
   window_ = {recorder_.capture().size(), recorder_.now()};
   first_frame_ = window_.first;
   emcys_due_ = 0;
+  was_stopped_ = false;
   raised_.clear();
   object_ = nullptr;
   silence_seen_ = false;

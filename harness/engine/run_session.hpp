@@ -165,6 +165,8 @@ class RunSession final : public steps::Session {
   void forget_presence() { present_.clear(); }
   /// Its last NMT command was stop: it answers no SDO request, and legally so.
   [[nodiscard]] bool is_stopped() const { return stopped_; }
+  /// It was told to stop since the case began.
+  [[nodiscard]] bool was_stopped() const { return was_stopped_; }
   /// The device started by itself, or with its power.
   void device_restarted() {
     device_was_reset();
@@ -253,6 +255,7 @@ class RunSession final : public steps::Session {
   bool guarded_ = false;
   std::size_t looked_for_guarding_ = 0;  ///< capture index: no guard request before it was missed
   bool stopped_ = false;
+  bool was_stopped_ = false;
   const steps::ObjectReference* object_ = nullptr;
   CanId emcy_can_id_;
   CanId home_emcy_can_id_;           ///< after a reset

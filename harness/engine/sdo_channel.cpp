@@ -28,13 +28,6 @@ constexpr int times_in_vain = 2;
 /// heard, that of the later one, and one between them.
 constexpr std::size_t most_opened = 3;
 
-/// Command byte of a request that begins a transfer.
-bool initiates(std::uint8_t command) {
-  const unsigned specifier = command >> 5U;
-  return specifier == 1 || specifier == 2 || (specifier == 5 && (command & 0x03U) == 0) ||
-         (specifier == 6 && (command & 0x01U) == 0);
-}
-
 auto is_response(CanId id) {
   return [id](const can::CapturedFrame& captured) {
     return captured.direction == can::Direction::received && captured.frame.is_data(id);
@@ -98,7 +91,7 @@ void SdoChannel::dirty(Line& line, bool late_answers) {
 
 void SdoChannel::note_sent(const can::Frame& frame) {
   auto& entries = sent_by_hand_[CanId(frame.id)];
-  if (frame.size() < 4 || !initiates(frame.data[0])) return;
+  if (frame.size() < 4 || !canopen::begins_transfer(frame.data[0])) return;
   const auto object = canopen::sdo_multiplexer(frame.bytes());
   if (std::ranges::find(entries, object) != entries.end()) return;
   // Segments of a sub-block look like requests, too: the first entries are real, and so may be the last.

@@ -324,10 +324,7 @@ DefectTable error_control_monitoring_defects() {
       {"1017-without-effect-in-operational",
        "A heartbeat time that is written in Operational has no effect until the next reset",
        {"EC-HBP-02", "EC-HBP-04"},
-       after_writing(0x1017, 0,
-                     [](Parts& parts, const Written& former) {
-                       if (parts.device.state != NmtState::operational) former();
-                     })},
+       without_effect_in_operational(0x1017)},
       {"1016-without-effect-in-operational",
        "A node whose entry was written in Operational is not monitored until the next change of the state",
        {"EC-HBC-03"},

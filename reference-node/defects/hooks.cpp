@@ -88,6 +88,12 @@ Change after_writing_all(std::uint16_t index,
   };
 }
 
+Change without_effect_in_operational(std::uint16_t index) {
+  return after_writing(index, 0, [](Parts& parts, const std::function<void()>& former) {
+    if (parts.device.state != NmtState::operational) former();
+  });
+}
+
 Change confirms(std::uint16_t index, std::uint8_t sub, bool (*when)(std::uint64_t value)) {
   return checking(index, sub, [when](Parts&, const Check& former, ByteView bytes) {
     return when(conform::load_le(bytes)) ? Accepted{} : former(bytes);

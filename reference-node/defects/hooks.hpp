@@ -37,6 +37,8 @@ using Read = std::function<Upload()>;
 [[nodiscard]] Change after_writing_all(
     std::uint16_t index,
     std::function<void(Parts&, const std::function<void()>& former, std::uint8_t sub)> written);
+/// In Operational nothing follows a write.
+[[nodiscard]] Change without_effect_in_operational(std::uint16_t index);
 
 /// A write that `when` holds for is confirmed without a look at it.
 [[nodiscard]] Change confirms(std::uint16_t index, std::uint8_t sub, bool (*when)(std::uint64_t value));

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "defects/hooks.hpp"
@@ -49,22 +51,30 @@ Change misreads_commands(std::function<void(Parts&, Frame&)> change) {
   });
 }
 
-/// States of CiA 301's predecessors: 50h sleep, 60h standby.
-Change sleeps() {
-  return [](Parts& parts) {
-    const auto asleep = std::make_shared<std::uint8_t>(std::uint8_t{0});
-    misreads_commands([asleep](Parts& node, Frame& frame) {
+/// What the heartbeat shows in place of the state; nullopt: the state.
+using Shown = std::optional<std::uint8_t>;
+/// `next(command, shown)` tells what it is behind a command to this node.
+Change shows_in_heartbeat(std::function<Shown(std::uint8_t command, Shown shown)> next) {
+  return [next = std::move(next)](Parts& parts) {
+    const auto shown = std::make_shared<Shown>();
+    misreads_commands([shown, next](Parts& node, Frame& frame) {
       if (frame.size() != 2 || (frame.data[1] != 0 && frame.data[1] != node.device.node_id)) return;
-      const std::uint8_t command = frame.data[0];
-      constexpr std::uint8_t awake[] = {start, stop, pre_operational, reset_node, reset_communication};
-      if (command == 0x50 || command == 0x60) *asleep = command;
-      if (std::ranges::find(awake, command) != std::end(awake)) *asleep = 0;
+      *shown = next(frame.data[0], *shown);
     })(parts);
-    parts.device.outbox.add_filter([asleep](const FilterContext& context, std::vector<Outgoing>& frames) {
-      if (context.service != Service::heartbeat || *asleep == 0) return;
-      for (Outgoing& each : frames) each.frame.data[0] = *asleep;
+    parts.device.outbox.add_filter([shown](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != Service::heartbeat || !*shown) return;
+      for (Outgoing& each : frames) each.frame.data[0] = **shown;
     });
   };
+}
+
+/// States of CiA 301's predecessors: 50h sleep, 60h standby.
+Change sleeps() {
+  return shows_in_heartbeat([](std::uint8_t command, Shown shown) -> Shown {
+    constexpr std::uint8_t awake[] = {start, stop, pre_operational, reset_node, reset_communication};
+    if (command == 0x50 || command == 0x60) return command;
+    return std::ranges::find(awake, command) != std::end(awake) ? std::nullopt : shown;
+  });
 }
 
 /// The server is switched on by the way into Pre-operational alone.
@@ -83,17 +93,10 @@ Change stays_off_behind_stopped() {
 }
 
 Change initialises_until_commanded() {
-  return [](Parts& parts) {
-    const auto waits = std::make_shared<bool>(false);
-    misreads_commands([waits](Parts& node, Frame& frame) {
-      if (frame.size() != 2 || (frame.data[1] != 0 && frame.data[1] != node.device.node_id)) return;
-      *waits = frame.data[0] == reset_node || frame.data[0] == reset_communication;
-    })(parts);
-    parts.device.outbox.add_filter([waits](const FilterContext& context, std::vector<Outgoing>& frames) {
-      if (context.service != Service::heartbeat || !*waits) return;
-      for (Outgoing& each : frames) each.frame.data[0] = 0;
-    });
-  };
+  return shows_in_heartbeat([](std::uint8_t command, Shown) -> Shown {
+    if (command == reset_node || command == reset_communication) return std::uint8_t{0};
+    return std::nullopt;
+  });
 }
 
 /// A frame for which `when` holds acts like reset node.

@@ -38,11 +38,6 @@ inline bool is_acknowledge_of_client(const SdoExchange& e, const Frames& frames)
   return e.request[0] == 0xA2 && !is_upload_segment(e, frames);
 }
 inline bool is_client_abort(const SdoExchange& e) { return e.step == SdoStep::other && e.request[0] == 0x80; }
-/// Requests that begin a transfer.
-inline bool begins_transfer(const SdoExchange& e) {
-  return e.step == SdoStep::upload_initiate || e.step == SdoStep::download_initiate ||
-         e.step == SdoStep::block_upload_initiate || e.step == SdoStep::block_download_initiate;
-}
 
 /// A filter with a memory of its own: `change` looks at SDO exchanges and changes the frames.
 template <typename Change>

@@ -365,17 +365,11 @@ DefectTable counter_rows() {
       {"1005-without-effect-in-operational",
        "Bit 30 of 1005h that is written in Operational has no effect there",
        {"OD-1005-09"},
-       after_writing(0x1005, 0,
-                     [](Parts& parts, const std::function<void()>& former) {
-                       if (parts.device.state != NmtState::operational) former();
-                     })},
+       without_effect_in_operational(0x1005)},
       {"1006-without-effect-in-operational",
        "A period that is written in Operational has no effect there",
        {"SYNC-PRO-03"},
-       after_writing(0x1006, 0,
-                     [](Parts& parts, const std::function<void()>& former) {
-                       if (parts.device.state != NmtState::operational) former();
-                     })},
+       without_effect_in_operational(0x1006)},
   };
 }
 

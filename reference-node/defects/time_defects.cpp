@@ -182,10 +182,7 @@ DefectTable clock_rows() {
       {"1012-without-effect-in-operational",
        "Bit 30 of 1012h that is written in Operational has no effect there",
        {"TIME-PRO-01"},
-       after_writing(0x1012, 0,
-                     [](Parts& parts, const std::function<void()>& former) {
-                       if (parts.device.state != NmtState::operational) former();
-                     })},
+       without_effect_in_operational(0x1012)},
   };
 }
 

@@ -53,6 +53,12 @@ struct SdoExchange {
   [[nodiscard]] std::uint8_t sub() const { return mux.sub.value(); }
 };
 
+/// Requests that begin a transfer.
+[[nodiscard]] inline bool begins_transfer(const SdoExchange& e) {
+  return e.step == SdoStep::upload_initiate || e.step == SdoStep::download_initiate ||
+         e.step == SdoStep::block_upload_initiate || e.step == SdoStep::block_download_initiate;
+}
+
 struct Outgoing {
   Frame frame;
   Duration delay{};

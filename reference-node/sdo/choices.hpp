@@ -18,15 +18,15 @@ struct SdoChoices {
   bool segmented = true;         ///< false: expedited transfers only (and block transfer, if that is offered)
   bool block = true;             ///< false: block requests are refused with 0504 0001h
   bool expedited_upload = true;  ///< false: objects of one to four bytes are uploaded in segments too
-  bool upload_size_indicated = true;  ///< segmented and block upload; false: bytes 4-7 stay zero
-  std::size_t upload_segment = 7;     ///< segmented upload: bytes in each segment but the last, 1 to 7
-  bool wrong_toggle_ignored_in_downloads = false;  ///< the same, in downloads alone
+  bool upload_size_indicated = true;   ///< segmented and block upload; false: bytes 4-7 stay zero
+  std::size_t upload_segment = 7;      ///< segmented upload: bytes in each segment but the last, 1 to 7
   bool toggle_errors_ignored = false;  ///< true: no reply to a repeated segment in place of 0503 0000h
-  bool former_mux_in_aborts =
-      false;  ///< what names no entry is refused with the multiplexer of the last that did
+  bool wrong_toggle_ignored_in_downloads = false;  ///< the same, in downloads alone
+  /// What names no entry is refused with the multiplexer of the last that did.
+  bool former_mux_in_aborts = false;
   bool reserved_bits_refused = false;  ///< 0504 0001h for a command byte with one of its reserved bits set
-  bool entry_looked_at_late =
-      false;  ///< a download begins whatever its entry is; its first segment is refused
+  /// A download begins whatever its entry is; its first segment is refused.
+  bool entry_looked_at_late = false;
 
   /// Answer to a new initiate request while a transfer is open, which it ends; nullopt: the new one is
   /// served.

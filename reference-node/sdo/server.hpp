@@ -35,6 +35,8 @@ class SdoServer {
     return std::get_if<Kind>(&transfer_);
   }
 
+  /// Of the running transfer.
+  [[nodiscard]] std::optional<Multiplexer> running_mux() const;
   /// A transfer is open.
   [[nodiscard]] bool busy() const { return !std::holds_alternative<std::monostate>(transfer_); }
 
@@ -69,7 +71,6 @@ class SdoServer {
   [[nodiscard]] bool block_transfer() const {
     return std::holds_alternative<BlockUpload>(transfer_) || std::holds_alternative<BlockDownload>(transfer_);
   }
-  [[nodiscard]] std::optional<Multiplexer> running_mux() const;
   [[nodiscard]] bool transfer_finished() const;
   void conclude(SdoExchange& exchange, const SdoReply& reply);
   void send(const SdoExchange& exchange, const std::optional<SdoData>& data, Duration delay);

@@ -106,14 +106,6 @@ void refuse_reserved_bits(Parts& parts) {
       });
 }
 
-/// The transfer that runs on the channel of a request.
-std::optional<Multiplexer> running_on(const SdoServer& server) {
-  if (const auto* upload = server.running<SegmentedUpload>()) return upload->mux();
-  if (const auto* download = server.running<SegmentedDownload>()) return download->mux();
-  if (const auto* upload = server.running<BlockUpload>()) return upload->mux();
-  if (const auto* download = server.running<BlockDownload>()) return download->mux();
-  return std::nullopt;
-}
 bool is_request(const conform::can::Frame& frame) {
   return !frame.extended && !frame.remote && frame.size() == 8;
 }
@@ -124,7 +116,7 @@ void aborts_of_its_object(Parts& parts) {
     std::erase_if(frames, [&parts](const auto& frame) {
       if (!is_request(frame) || frame.data[0] != 0x80) return false;
       const SdoServer* server = parts.sdo.server_of(frame);
-      const auto running = server == nullptr ? std::nullopt : running_on(*server);
+      const auto running = server == nullptr ? std::nullopt : server->running_mux();
       return running && *running != mux_of(frame.data);
     });
   });
@@ -138,17 +130,13 @@ void busy_names_the_transfer(Parts& parts) {
       const SdoServer* server = is_request(frame) ? parts.sdo.server_of(frame) : nullptr;
       if (server == nullptr) continue;
       running->erase(server->channel());
-      if (const auto mux = running_on(*server)) (*running)[server->channel()] = *mux;
+      if (const auto mux = server->running_mux()) (*running)[server->channel()] = *mux;
     }
   });
   parts.device.outbox.add_filter([running](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.sdo == nullptr || context.sdo->aborted != abort_code::command_unknown) return;
-    const SdoStep step = context.sdo->step;
     const auto former = running->find(context.sdo->channel);
-    if (former == running->end()) return;
-    if (step != SdoStep::upload_initiate && step != SdoStep::download_initiate &&
-        step != SdoStep::block_upload_initiate && step != SdoStep::block_download_initiate)
-      return;
+    if (former == running->end() || !begins_transfer(*context.sdo)) return;
     const SdoData named = with_mux(0x80, former->second);
     for (Outgoing& outgoing : frames) std::copy_n(named.begin(), 4, outgoing.frame.data.begin());
   });

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "canopen/sdo_initiate.hpp"
+
 namespace conform::cli {
 namespace {
 
@@ -25,14 +27,7 @@ bool is_abort(const can::Frame& frame) { return frame.size() == 8 && frame.data[
 
 bool begins_anew(const can::Frame& frame) {
   const auto command = frame.data[0];
-  switch (command >> 5U) {
-    case 1:
-    case 2:
-    case 4: return true;
-    case 5: return (command & 0x03U) == 0;
-    case 6: return (command & 0x01U) == 0;
-    default: return false;
-  }
+  return canopen::begins_transfer(command) || command >> 5U == 4;
 }
 
 std::string why_out_of_step(const can::Frame& then, const can::Frame& now, bool segments) {

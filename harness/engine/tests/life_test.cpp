@@ -340,6 +340,8 @@ TEST_CASE("a value that kills the device ends the walk at once and is named") {
 }
 
 TEST_CASE("an error of Stopped, where no EMCY tells of it, is ended so that the next one can be seen") {
+  // However it was stopped.
+  const std::string command = GENERATE("nmt: stop", "send: {id: 000h, data: \"02 00\"}");
   ScriptedDevice device;
   device.entries[0x200000] = {0};
   device.on_reset = [](ScriptedDevice& self) { self.entries[0x100100] = {0}; };
@@ -359,7 +361,7 @@ TEST_CASE("an error of Stopped, where no EMCY tells of it, is ended so that the 
     title: t
     risk: motion
     steps:
-      - nmt: stop
+      - )" + command + R"(
       - wait: 100 ms
       - nmt: pre-operational
       - upload: {object: 1000h:00}

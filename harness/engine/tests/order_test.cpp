@@ -12,6 +12,7 @@ using result::Verdict;
 
 namespace {
 
+const can::Frame moved_emcy = can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
 const can::Frame some_emcy = can::data_frame(CanId(0x81), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
 
 /// Whoever writes 1 to 2000h gets an EMCY.
@@ -33,6 +34,15 @@ Duration between(const Outcome& out, const can::Frame& emcy) {
   REQUIRE(sent.has_value());
   REQUIRE(out.run.cases.size() == 2);
   return out.run.cases[1].begin - *sent;
+}
+
+/// A case of these steps, and another one behind it.
+Outcome play_before_another(ScriptedDevice& device, const std::string& steps) {
+  const std::string head = "\n    title: t\n    risk: config\n    steps:\n";
+  return play(device, "\n  - id: first" + head + steps + "\n  - id: next" + head + R"(
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
 }
 
 can::CapturedFrame seen(BusTime time, can::Direction direction, CanId id,
@@ -66,19 +76,9 @@ TEST_CASE("behind a case that moved the emergency messages they are looked for w
 TEST_CASE("what the inhibit time of a case holds back is over before the next case begins") {
   ScriptedDevice device;
   give_errors(device);
-  const auto out = play(device, R"(
-  - id: inhibits
-    title: t
-    risk: config
-    steps:
+  const auto out = play_before_another(device, R"(
       - download: {object: 1015h:00, value: 5000}  # 500 ms
       - download: {object: 2000h:00, bytes: "01"}
-        checks: T-MUST
-  - id: next
-    title: t
-    risk: config
-    steps:
-      - upload: {object: 1000h:00}
         checks: T-MUST
 )");
   CHECK(between(out, some_emcy) >= 500ms);
@@ -86,22 +86,11 @@ TEST_CASE("what the inhibit time of a case holds back is over before the next ca
 
 TEST_CASE("what the inhibit time holds back is waited for where EMCY was sent on another CAN-ID as well") {
   ScriptedDevice device;
-  const can::Frame moved_emcy = can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
   give_errors(device, moved_emcy);
-  const auto out = play(device, R"(
-  - id: inhibits
-    title: t
-    risk: config
-    steps:
+  const auto out = play_before_another(device, R"(
       - download: {object: 1015h:00, value: 5000}  # 500 ms
       - set_cob_id: {object: 1014h:00, to: 6A0h}
       - download: {object: 2000h:00, bytes: "01"}
-        checks: T-MUST
-  - id: next
-    title: t
-    risk: config
-    steps:
-      - upload: {object: 1000h:00}
         checks: T-MUST
 )");
   CHECK(between(out, moved_emcy) >= 500ms);
@@ -109,26 +98,15 @@ TEST_CASE("what the inhibit time holds back is waited for where EMCY was sent on
 
 TEST_CASE("the late end of an error is waited for where the error was told on another CAN-ID") {
   ScriptedDevice device;
-  const can::Frame moved_emcy = can::data_frame(CanId(0x6A0), {0x00, 0x10, 1, 0, 0, 0, 0, 0});
   const can::Frame end = can::data_frame(CanId(0x81), {0, 0, 0, 0, 0, 0, 0, 0});
   give_errors(device, moved_emcy);
   device.before = [raise = device.before, end](ScriptedDevice& self, const can::Frame& frame, BusTime time) {
     if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 1) self.send_at(time + 300ms, end);
     return raise(self, frame, time);
   };
-  const auto out = play(device, R"(
-  - id: raises
-    title: t
-    risk: config
-    steps:
+  const auto out = play_before_another(device, R"(
       - set_cob_id: {object: 1014h:00, to: 6A0h}
       - download: {object: 2000h:00, bytes: "01"}
-        checks: T-MUST
-  - id: next
-    title: t
-    risk: config
-    steps:
-      - upload: {object: 1000h:00}
         checks: T-MUST
 )");
   CHECK(between(out, end) >= 0ms);
@@ -142,22 +120,12 @@ TEST_CASE("an inhibit time that a reset has ended holds up no further case") {
     if (frame.data[0] == 0x2F && frame.data[2] == 0x20 && frame.data[4] == 2) self.entries[0x101500] = {0, 0};
     return raise(self, frame, time);
   };
-  const auto out = play(device, R"(
-  - id: inhibits
-    title: t
-    risk: config
-    steps:
+  const auto out = play_before_another(device, R"(
       - download: {object: 1015h:00, value: 60000}  # 6 s
       - download: {object: 2000h:00, bytes: "01"}
         checks: T-MUST
       - download: {object: 2000h:00, bytes: "02"}
       - reset: communication
-  - id: next
-    title: t
-    risk: config
-    steps:
-      - upload: {object: 1000h:00}
-        checks: T-MUST
 )");
   REQUIRE(out.run.cases.size() == 2);
   CHECK(out.run.cases[1].begin - out.run.cases[0].begin < 3s);
