@@ -76,11 +76,14 @@ function(conform_reuse_headers target)
   endif()
 endfunction()
 
-# conform_library(NAME SOURCES a.cpp ... DEPENDS targets...): static library conform_NAME; headers are found by
-# their path from the folder above ("can/frame.hpp").
+# conform_library(NAME [COLD] SOURCES a.cpp ... DEPENDS targets...): static library conform_NAME; headers are found by
+# their path from the folder above ("can/frame.hpp"). COLD: no part of what runs for each frame.
 function(conform_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "COLD" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_library(conform_${name} STATIC ${arg_SOURCES})
+  if(arg_COLD)
+    target_compile_options(conform_${name} PRIVATE ${CONFORM_COLD_FLAGS})
+  endif()
   target_include_directories(conform_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/..)
   target_link_libraries(conform_${name} PUBLIC ${arg_DEPENDS} PRIVATE ${arg_PRIVATE_DEPENDS})
   conform_reuse_headers(conform_${name})

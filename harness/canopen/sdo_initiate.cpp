@@ -46,6 +46,16 @@ bool begins_transfer(std::uint8_t command) {
   }
 }
 
+bool has_begun_transfer(std::uint8_t command) {
+  switch (command >> 5U) {
+    case 2: return (command & 0x02U) == 0;
+    case 3: return true;
+    case 5: return (command & 0x03U) == 0;
+    case 6: return (command & 0x01U) == 0;
+    default: return false;
+  }
+}
+
 SdoBytes encode_upload_request(Multiplexer mux) { return message(0x40, mux); }
 
 SdoBytes encode_download_expedited(Multiplexer mux, ByteView data, bool size_indicated) {

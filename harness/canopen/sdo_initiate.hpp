@@ -18,6 +18,9 @@ using SdoBytes = std::array<std::uint8_t, 8>;
 [[nodiscard]] Multiplexer sdo_multiplexer(ByteView bytes);
 /// Whether a request with this command byte begins a transfer (7.2.4.3.3 to 7.2.4.3.16).
 [[nodiscard]] bool begins_transfer(std::uint8_t command);
+/// Whether a server command of this byte answers such a request and leaves the transfer open: 60, 4x without
+/// e, Ax with ss = 0, Cx with ss = 0 (7.2.4.3.3 to 7.2.4.3.15).
+[[nodiscard]] bool has_begun_transfer(std::uint8_t command);
 
 /// 40 m m m 00 00 00 00
 [[nodiscard]] SdoBytes encode_upload_request(Multiplexer mux);

@@ -90,20 +90,40 @@ void SdoChannel::dirty(Line& line, bool late_answers) {
 }
 
 void SdoChannel::note_sent(const can::Frame& frame) {
-  auto& entries = sent_by_hand_[CanId(frame.id)];
+  const auto [at, first] = sent_by_hand_.try_emplace(CanId(frame.id));
+  auto& sent = at->second;
+  if (first) sent.begin = recorder_.capture().size();
   if (frame.size() < 4 || !canopen::begins_transfer(frame.data[0])) return;
   const auto object = canopen::sdo_multiplexer(frame.bytes());
-  if (std::ranges::find(entries, object) != entries.end()) return;
+  sent.asked.insert(object);
+  if (std::ranges::find(sent.entries, object) != sent.entries.end()) return;
   // Segments of a sub-block look like requests, too: the first entries are real, and so may be the last.
-  if (entries.size() == most_opened) entries.pop_back();
-  entries.push_back(object);
+  if (sent.entries.size() == most_opened) sent.entries.pop_back();
+  sent.entries.push_back(object);
 }
 
-void SdoChannel::heed_sent_by_hand(CanId request, Line& line) {
-  const auto sent = sent_by_hand_.extract(request);
+std::optional<Multiplexer> SdoChannel::confirmed_last(CanId response, const ByHand& sent) const {
+  std::optional<Multiplexer> out;
+  const auto is_answer = is_response(response);
+  const auto& frames = recorder_.capture().frames();
+  for (std::size_t i = sent.begin; i < frames.size(); ++i) {
+    const auto& frame = frames[i].frame;
+    if (!is_answer(frames[i]) || frame.size() != 8 || !canopen::has_begun_transfer(frame.data[0])) continue;
+    // Segments of a block upload look like answers, too, and name what nobody asked for.
+    const auto object = canopen::sdo_multiplexer(frame.bytes());
+    if (sent.asked.contains(object)) out = object;
+  }
+  return out;
+}
+
+void SdoChannel::heed_sent_by_hand(const steps::SdoChannelIds& ids, Line& line) {
+  const auto sent = sent_by_hand_.extract(ids.request);
   if (sent.empty()) return;
   if (line.state == State::idle) line.state = State::open;
-  line.opened = sent.mapped();
+  line.opened = sent.mapped().entries;
+  const auto confirmed = confirmed_last(ids.response, sent.mapped());
+  if (confirmed && std::ranges::find(line.opened, *confirmed) == line.opened.end())
+    line.opened.push_back(*confirmed);
 }
 
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
@@ -138,7 +158,7 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
 
 Result<void> SdoChannel::make_idle() {
   for (auto& [ids, line] : lines_) {
-    heed_sent_by_hand(ids.request, line);
+    heed_sent_by_hand(ids, line);
     if (auto idle = make_idle(ids, line); !idle) return idle;
   }
   return {};
@@ -168,7 +188,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     runs.push_back(std::move(run));
   }
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    heed_sent_by_hand(runs[i].request, *lines[i]);
+    heed_sent_by_hand({runs[i].request, runs[i].response}, *lines[i]);
     // Of an abandoned transfer the server must rid itself: to help it would hide that it cannot.
     if (lines[i]->state == State::abandoned) continue;
     if (auto idle = make_idle({runs[i].request, runs[i].response}, *lines[i]); !idle)

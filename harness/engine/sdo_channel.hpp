@@ -105,7 +105,7 @@ class SdoChannel {
   [[nodiscard]] const Line& default_line() const { return lines_.at(default_ids_); }
   static void dirty(Line& line, bool late_answers);
   /// Whatever a frame that no transfer sent has opened on the line counts as open from now on.
-  void heed_sent_by_hand(CanId request, Line& line);
+  void heed_sent_by_hand(const steps::SdoChannelIds& ids, Line& line);
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
   [[nodiscard]] Duration rest() const;
   [[nodiscard]] bool is_patient(Multiplexer object) const;
@@ -122,8 +122,15 @@ class SdoChannel {
   OnValue on_value_;
   Duration timeout_, quiet_;
   Duration slowest_{}, latest_{};  ///< answers: the slowest, and the latest one
-  /// Channels with frames of conversations since the last transfer, and the entries their requests named.
-  std::map<CanId, std::vector<Multiplexer>> sent_by_hand_;
+  /// What conversations sent on a channel since the last transfer.
+  struct ByHand {
+    std::size_t begin = 0;             ///< index of the first frame
+    std::set<Multiplexer> asked;       ///< all entries that requests named
+    std::vector<Multiplexer> entries;  ///< those that were likely opened
+  };
+  /// The entry of the transfer that the server said last it has begun.
+  [[nodiscard]] std::optional<Multiplexer> confirmed_last(CanId response, const ByHand& sent) const;
+  std::map<CanId, ByHand> sent_by_hand_;
   Duration patience_spent_{};          ///< on answers that never came
   std::map<Multiplexer, int> mute_;    ///< entries for which all patience was in vain, and how often
   std::optional<BusTime> aborted_at_;  ///< by a conversation; the server has not been given time since

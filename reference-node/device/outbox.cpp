@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/outbox.hpp"
 
+#include <utility>
+
 namespace refnode {
 
 void Outbox::send(const FilterContext& context, std::vector<Outgoing> frames, BusTime now) {
@@ -9,7 +11,7 @@ void Outbox::send(const FilterContext& context, std::vector<Outgoing> frames, Bu
   for (const Filter& filter : filters_) filter(timed, frames);
   for (const Outgoing& outgoing : frames) {
     if (outgoing.delay > Duration::zero()) {
-      delayed_.emplace(now + outgoing.delay, outgoing.frame);
+      delayed_.emplace(now + outgoing.delay, outgoing);
     } else {
       hand_over(outgoing.frame, now);
     }
@@ -32,9 +34,9 @@ std::size_t Outbox::waiting(BusTime now) const { return now >= progress_ + patie
 
 void Outbox::on_time(BusTime now) {
   while (!delayed_.empty() && delayed_.begin()->first <= now) {
-    const Frame frame = delayed_.begin()->second;
+    const Outgoing outgoing = std::move(delayed_.begin()->second);
     delayed_.erase(delayed_.begin());
-    hand_over(frame, now);
+    if (!outgoing.still_wanted || outgoing.still_wanted()) hand_over(outgoing.frame, now);
   }
 }
 

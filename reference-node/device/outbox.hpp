@@ -62,6 +62,8 @@ struct SdoExchange {
 struct Outgoing {
   Frame frame;
   Duration delay{};
+  /// Asked when the delay is over: what the frame answers may have ended meanwhile.
+  std::function<bool()> still_wanted{};
 };
 
 /// What a filter may look at.
@@ -101,7 +103,7 @@ class Outbox {
   std::size_t waiting_ = 0;
   BusTime progress_{};  ///< last time a frame was handed over or left
   std::vector<Filter> filters_;
-  std::multimap<BusTime, Frame> delayed_;
+  std::multimap<BusTime, Outgoing> delayed_;
 };
 
 }  // namespace refnode

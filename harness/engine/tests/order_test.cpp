@@ -157,6 +157,45 @@ TEST_CASE("a request that a case sent as a frame has opened nothing when the nex
   CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
 }
 
+TEST_CASE("of many requests the one that the server confirmed last is ended by its name") {
+  // It opens a transfer of 1001h only, and hears no abort of another entry.
+  ScriptedDevice device;
+  bool open = false;
+  device.before = [&open](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x80) {
+      open = open && frame.data[1] != 0x01;
+      return true;
+    }
+    if (frame.data[0] != 0xA0 && !open) return false;
+    if (open || frame.data[1] != 0x01) {
+      self.abort(frame, 0x08000022);
+      return true;
+    }
+    self.send(can::data_frame(CanId(0x581), {0xC2, 0x01, 0x10, 0, 4, 0, 0, 0}));
+    open = true;
+    return true;
+  };
+  const auto out = play(device, R"(
+  - id: many
+    title: t
+    risk: motion
+    steps:
+      - over: {index: [10h, 11h, 12h, 13h, 01h, 14h, 15h, 16h]}
+        steps:
+          - talk: "> 600+N: A0 {index:1} 10 00 14 00 00 00"
+          - wait: 1 ms
+      - silence: {of: 700h + N, for: 1 ms}
+        checks: T-MUST
+  - id: behind
+    title: t
+    risk: motion
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
+}
+
 TEST_CASE("an entry that came to be after the survey has the type that the standard gives it") {
   ScriptedDevice device;
   device.entries[0x100300] = {0};
