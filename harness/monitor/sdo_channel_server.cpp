@@ -41,6 +41,8 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
     const auto pending = pending_[0];
     count_ = 0;
     answer_to(pending, frame, out);
+    // A server answers in order: what it said to the client's abort would have come before.
+    if (!is_abort(frame)) aborted_.reset();
   } else {
     answer_to_several(frame, out);
   }

@@ -34,6 +34,13 @@ TEST_CASE(
         Told{"fail SDO-GEN-04 in frame 9"});
 }
 
+TEST_CASE("Behind an answered request no abort of the server answers the client's abort any more") {
+  // A server that is busy with 1000h says so by its name.
+  CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", other, other_answer, "> 40 00 10 00 00 00 00 00",
+                              other, "< 41 00 10 00 04 00 00 00", "< 80 00 10 00 01 00 04 05"}))
+            .empty());
+}
+
 TEST_CASE("Where an abort may answer the client's abort or its next request, one answer more may come") {
   CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", upload, "< 80 00 10 00 01 00 04 05", answer, other,
                               other_answer}))
