@@ -118,7 +118,7 @@ function(conform_test_support)
 endfunction()
 
 # conform_test(NAME [LONG] SOURCES ... DEPENDS ... [LABELS ...]): one Catch2 binary test_NAME, registered with CTest as NAME. LONG: only
-# with CONFORM_LONG_TESTS.
+# with CONFORM_LONG_TESTS. The label long: most of a minute, which scripts/check leaves to its stage long-tests.
 function(conform_test name)
   if(NOT BUILD_TESTING)
     return()

@@ -102,11 +102,12 @@ void SdoChannel::note_sent(const can::Frame& frame) {
   sent.entries.push_back(object);
 }
 
-std::optional<Multiplexer> SdoChannel::confirmed_last(CanId response, const ByHand& sent) const {
+std::optional<Multiplexer> SdoChannel::confirmed_last(CanId response, const ByHand& sent,
+                                                      std::size_t begin) const {
   std::optional<Multiplexer> out;
   const auto is_answer = is_response(response);
   const auto& frames = recorder_.capture().frames();
-  for (std::size_t i = sent.begin; i < frames.size(); ++i) {
+  for (std::size_t i = begin; i < frames.size(); ++i) {
     const auto& frame = frames[i].frame;
     if (!is_answer(frames[i]) || frame.size() != 8 || !canopen::has_begun_transfer(frame.data[0])) continue;
     // Segments of a block upload look like answers, too, and name what nobody asked for.
@@ -117,13 +118,13 @@ std::optional<Multiplexer> SdoChannel::confirmed_last(CanId response, const ByHa
 }
 
 void SdoChannel::heed_sent_by_hand(const steps::SdoChannelIds& ids, Line& line) {
-  const auto sent = sent_by_hand_.extract(ids.request);
+  auto sent = sent_by_hand_.extract(ids.request);
   if (sent.empty()) return;
   if (line.state == State::idle) line.state = State::open;
-  line.opened = sent.mapped().entries;
-  const auto confirmed = confirmed_last(ids.response, sent.mapped());
-  if (confirmed && std::ranges::find(line.opened, *confirmed) == line.opened.end())
-    line.opened.push_back(*confirmed);
+  line.by_hand = std::move(sent.mapped());
+  auto& entries = line.by_hand.entries;
+  const auto confirmed = confirmed_last(ids.response, line.by_hand, line.by_hand.begin);
+  if (confirmed && std::ranges::find(entries, *confirmed) == entries.end()) entries.push_back(*confirmed);
 }
 
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
@@ -132,7 +133,8 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
   // An abort is never answered; after it, answers to what was before must not be taken for answers to what
   // comes. It names the entry of the transfer (7.2.4.3.17), and a server may take it for nothing else: where
   // a request may have been refused, or not have ended the transfer before it, each of them is named.
-  auto entries = std::exchange(line.opened, {});
+  const auto by_hand = std::exchange(line.by_hand, {});
+  auto entries = by_hand.entries;
   if (entries.empty()) entries.push_back(line.latest.value_or(Multiplexer{Index(0), SubIndex(0)}));
   Result<std::size_t> sent = 0;
   for (const auto entry : entries) {
@@ -144,6 +146,13 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
   const auto begin = line.asked_at;
   const auto from = *sent;
   auto waited = recorder_.wait_until(recorder_.now() + (late ? quiet() : rest()));
+  // A slow server may have begun a transfer only now.
+  if (const auto begun = confirmed_last(ids.response, by_hand, *sent); waited && late && begun) {
+    const auto abort = canopen::encode_abort(*begun, AbortCode(0x0800'0000));
+    if (auto ended = recorder_.send(can::data_frame(ids.request, abort)); !ended)
+      return std::unexpected(ended.error());
+    waited = recorder_.wait_until(recorder_.now() + rest());
+  }
   if (!waited || !late || !line.stale) return waited;
   // What comes now says how long to wait next time.
   const auto& frames = recorder_.capture().frames();

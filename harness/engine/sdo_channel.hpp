@@ -94,11 +94,17 @@ class SdoChannel {
     late_answers,  ///< an answer is overdue
     abandoned,     ///< a client fell silent on purpose: the next transfer begins without an abort
   };
+  /// What conversations sent on a channel since the last transfer.
+  struct ByHand {
+    std::size_t begin = 0;             ///< index of the first frame
+    std::set<Multiplexer> asked;       ///< all entries that requests named
+    std::vector<Multiplexer> entries;  ///< those that were likely opened
+  };
   struct Line {
     State state = State::idle;
     std::optional<Multiplexer> stale;   ///< entry whose answer is overdue
     std::optional<Multiplexer> latest;  ///< entry of the latest transfer, for the abort that ends it
-    std::vector<Multiplexer> opened;    ///< entries for which a conversation may have left a transfer open
+    ByHand by_hand;                     ///< what may have left transfers open
     BusTime asked_at{};                 ///< when the request went out whose answer is overdue
   };
   [[nodiscard]] Line& default_line() { return lines_.at(default_ids_); }
@@ -122,14 +128,9 @@ class SdoChannel {
   OnValue on_value_;
   Duration timeout_, quiet_;
   Duration slowest_{}, latest_{};  ///< answers: the slowest, and the latest one
-  /// What conversations sent on a channel since the last transfer.
-  struct ByHand {
-    std::size_t begin = 0;             ///< index of the first frame
-    std::set<Multiplexer> asked;       ///< all entries that requests named
-    std::vector<Multiplexer> entries;  ///< those that were likely opened
-  };
-  /// The entry of the transfer that the server said last it has begun.
-  [[nodiscard]] std::optional<Multiplexer> confirmed_last(CanId response, const ByHand& sent) const;
+  /// The entry of the transfer that the server said last it has begun, in the frames from index `begin` on.
+  [[nodiscard]] std::optional<Multiplexer> confirmed_last(CanId response, const ByHand& sent,
+                                                          std::size_t begin) const;
   std::map<CanId, ByHand> sent_by_hand_;
   Duration patience_spent_{};          ///< on answers that never came
   std::map<Multiplexer, int> mute_;    ///< entries for which all patience was in vain, and how often

@@ -91,6 +91,7 @@ void SdoChannel::push(const can::Frame& frame, Asked asked) {
   pending.data = frame.data;
   pending.asked = asked;
   pending.overtaken = 0;
+  pending.given_up.reset();
 }
 
 void SdoChannel::remove(std::size_t position) {
@@ -180,6 +181,7 @@ void SdoChannel::client_abort(const can::Frame& frame) {
   idle_abort_ = transfer_.kind == Kind::none && count_ == 0;
   aborted_ = multiplexer_of(frame);
   aborted_idle_ = idle_abort_;
+  for (std::size_t i = 0; i < count_; ++i) pending_[i].given_up = aborted_;
   transfer_ = {};
   transfer_.kind = Kind::none;
   // Segments or an acknowledge may be in the server's queue already.

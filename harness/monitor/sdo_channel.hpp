@@ -52,7 +52,8 @@ class SdoChannel {
   struct Pending {
     Data data{};
     Asked asked = Asked::other;
-    std::uint8_t overtaken = 0;  ///< answers to later requests seen since
+    std::uint8_t overtaken = 0;             ///< answers to later requests seen since
+    std::optional<Multiplexer> given_up{};  ///< by the client, while this one was on its way
     [[nodiscard]] bool has_multiplexer() const {
       return asked == Asked::download || asked == Asked::upload || asked == Asked::block_upload ||
              asked == Asked::block_download;

@@ -114,7 +114,9 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
   // A transfer of this object has been opened since: a server answers in order, and it is that which ends.
   const bool opened_since =
       transfer_.kind != Kind::none && transfer_.kind != Kind::unclear && transfer_.object == got;
-  if (asked || aborted != got || opened_since) {
+  // The same of a request that was on its way when the client gave up.
+  const bool asked_before = pending_[0].given_up.has_value();
+  if (asked || aborted != got || opened_since || asked_before) {
     // Whoever was asked last; an abort of an unknown command may name anything.
     spare_ = pending_[count_ - 1].has_multiplexer() ? object_of(pending_[count_ - 1].data) : got;
     return false;
@@ -318,7 +320,8 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
     // ends. A segment without a transfer has none in that place.
     const auto named = object_of(pending.data), got = multiplexer_of(frame);
     const bool open = transfer_.kind != Kind::none;
-    const bool right = got == named || got == Multiplexer{} || (open && got == transfer_.object);
+    const bool right =
+        got == named || got == Multiplexer{} || (open && got == transfer_.object) || got == pending.given_up;
     out.mux = SdoAnswer::Mux{open ? transfer_.object : named, got, right, true};
   }
   // An initiate request does not time out: the server gave up the transfer before it. Under any other code,

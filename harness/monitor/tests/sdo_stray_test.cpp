@@ -39,6 +39,10 @@ TEST_CASE("Behind an answered request no abort of the server answers the client'
   CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", other, other_answer, "> 40 00 10 00 00 00 00 00",
                               other, "< 41 00 10 00 04 00 00 00", "< 80 00 10 00 01 00 04 05"}))
             .empty());
+  // ... nor where the client gives up 1000h before the server has told that it is busy.
+  CHECK(told(after_exchanges({"> 40 00 10 00 00 00 00 00", other, "< 41 00 10 00 04 00 00 00",
+                              "> 80 00 10 00 00 00 00 08", "< 80 00 10 00 01 00 04 05"}))
+            .empty());
 }
 
 TEST_CASE("Where an abort may answer the client's abort or its next request, one answer more may come") {
