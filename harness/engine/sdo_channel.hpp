@@ -96,7 +96,7 @@ class SdoChannel {
   };
   /// What conversations sent on a channel since the last transfer.
   struct ByHand {
-    std::size_t begin = 0;             ///< index of the first frame
+    std::size_t begin = 0;             ///< index behind the first frame
     std::set<Multiplexer> asked;       ///< all entries that requests named
     std::vector<Multiplexer> entries;  ///< those that were likely opened
   };

@@ -2,6 +2,7 @@
 // What a case leaves behind must not show in the next one, whatever their order is.
 #include "bench.hpp"
 #include "canopen/cob_id.hpp"
+#include "canopen/sdo_initiate.hpp"
 #include "engine/others.hpp"
 
 using namespace conform;
@@ -194,6 +195,45 @@ TEST_CASE("of many requests the one that the server confirmed last is ended by i
         checks: T-MUST
 )");
   CHECK(out.verdict_of("T-MUST", 1) == Verdict::pass);
+}
+
+TEST_CASE("a transfer that a slow server begins while late answers are awaited is ended, too") {
+  // It takes 200 ms to open the first of many, and hears no abort of another entry.
+  ScriptedDevice device;
+  std::optional<canopen::SdoBytes> opened;
+  bool over = false;
+  device.before = [&](ScriptedDevice& self, const can::Frame& frame, BusTime now) {
+    if (over) return false;
+    const bool named =
+        opened && std::equal(frame.data.begin() + 1, frame.data.begin() + 4, opened->begin() + 1);
+    if (frame.data[0] == 0x80) {
+      over = named;
+      return true;
+    }
+    if (opened) {
+      self.abort(frame, 0x08000022);
+      return true;
+    }
+    if (frame.data[0] >> 5U != 1 || self.nmt.empty()) return false;
+    opened.emplace();
+    std::copy_n(frame.data.begin(), 4, opened->begin());
+    (*opened)[0] = 0x60;
+    self.send_at(now + 200ms, can::data_frame(CanId(0x581), *opened));
+    return true;
+  };
+  const auto out = play(device, R"(
+  - id: many
+    title: t
+    risk: motion
+    steps:
+      - nmt: start
+      - wait: 10 ms
+      - noise: {frames: 50, every: 1 ms}
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)");
+  REQUIRE(opened);
+  CHECK(out.verdict_of("T-MUST") == Verdict::pass);
 }
 
 TEST_CASE("an entry that came to be after the survey has the type that the standard gives it") {
