@@ -137,7 +137,7 @@ How erases_before_block_download(Duration time) {
         const auto at = erasing->find(server->channel());
         if (at == erasing->end() || (is_request(frame) && frame.data[0] == 0x80)) return false;
         if (server->running<BlockDownload>() == nullptr) return erasing->erase(at), false;
-        parts.device.inbox.put(frame, at->second.until + std::chrono::microseconds(1));
+        parts.device.inbox.put_newest(frame, at->second.until + std::chrono::microseconds(1));
         return true;
       });
     });

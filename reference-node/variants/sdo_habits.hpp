@@ -24,7 +24,7 @@ void blocks_checked_at_the_end(Parts& parts);
 /// Block download is offered where it is worth it: 0504 0001h for anything but a DOMAIN.
 void block_download_of_domains(Parts& parts);
 /// The memory is erased before the first sub-block of a download is asked for. Meanwhile the server hears an
-/// abort, and has no time for anything else.
+/// abort; of everything else the newest frame waits until there is time for it.
 How erases_before_block_download(Duration time);
 /// 42h: expedited, the size is not told.
 /// A client knows the length by the type; of a string of four characters nobody would.
