@@ -48,6 +48,8 @@ std::vector<Complaint> complaints_of(const result::RunResult& run, const std::se
       complaint.what =
           fmt::format("{} {} in {}", to_string(judgement.verdict), judgement.requirement, each.name());
       for (const auto& finding : judgement.findings) complaint.details += details_of(finding);
+      const auto& reason = judgement.reason.empty() ? each.reason : judgement.reason;
+      if (judgement.verdict == Verdict::inconclusive) complaint.details += "    " + reason + "\n";
       out.push_back(std::move(complaint));
     }
     const bool told = out.size() > before;
