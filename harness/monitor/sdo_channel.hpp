@@ -101,6 +101,7 @@ class SdoChannel {
   void expect_refusal();
   void answer_without_request(const can::Frame& frame, SdoAnswer& out);
   void answer_to(const Pending& pending, const can::Frame& frame, SdoAnswer& out);
+  void settle_abort(const Pending& answered, const can::Frame& frame);
   void answer_to_several(const can::Frame& frame, SdoAnswer& out);
   void not_what_was_asked(const can::Frame& frame, SdoAnswer& out);
   void abort_of_server(const Pending& pending, const can::Frame& frame, SdoAnswer& out);

@@ -41,8 +41,7 @@ SdoAnswer SdoChannel::response(const can::Frame& frame, BusTime time) {
     const auto pending = pending_[0];
     count_ = 0;
     answer_to(pending, frame, out);
-    // A server answers in order: what it said to the client's abort would have come before.
-    if (!is_abort(frame)) aborted_.reset();
+    settle_abort(pending, frame);
   } else {
     answer_to_several(frame, out);
   }
@@ -342,6 +341,12 @@ void SdoChannel::abort_of_server(const Pending& pending, const can::Frame& frame
 }
 
 /// The client did not wait for the answer before it asked again.
+/// A server answers in order: what it said to the client's abort would have come before the answer to a
+/// request behind it.
+void SdoChannel::settle_abort(const Pending& answered, const can::Frame& frame) {
+  if (!is_abort(frame) && !answered.given_up) aborted_.reset();
+}
+
 void SdoChannel::answer_to_several(const can::Frame& frame, SdoAnswer& out) {
   out.to = SdoAnswer::To::several;
   const auto begin = pending_.begin();
@@ -391,6 +396,7 @@ void SdoChannel::answer_to_several(const can::Frame& frame, SdoAnswer& out) {
       out.to = SdoAnswer::To::unclear;
     }
   }
+  if (found != end) settle_abort(*found, frame);
   remove(found == end ? 0 : static_cast<std::size_t>(found - begin));
   transfer_ = {};
 }

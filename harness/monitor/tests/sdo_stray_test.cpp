@@ -39,6 +39,13 @@ TEST_CASE("Behind an answered request no abort of the server answers the client'
   CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", other, other_answer, "> 40 00 10 00 00 00 00 00",
                               other, "< 41 00 10 00 04 00 00 00", "< 80 00 10 00 01 00 04 05"}))
             .empty());
+  // ... nor where the server, too, had given up before, and one request may still be open.
+  CHECK(told(after_exchanges({"> 40 08 10 00 00 00 00 00", "< 41 08 10 00 09 00 00 00",
+                              "> 70 00 00 00 00 00 00 00", "< 80 08 10 00 00 00 04 05",
+                              "> 80 08 10 00 00 00 00 08", "> 40 08 10 00 00 00 00 00",
+                              "< 41 08 10 00 09 00 00 00", "> 60 00 00 00 00 00 00 00",
+                              "< 00 41 42 43 44 45 46 47", upload, "< 80 08 10 00 01 00 04 05"}))
+            .empty());
   // ... nor where the client gives up 1000h before the server has told that it is busy.
   CHECK(told(after_exchanges({"> 40 00 10 00 00 00 00 00", other, "< 41 00 10 00 04 00 00 00",
                               "> 80 00 10 00 00 00 00 08", "< 80 00 10 00 01 00 04 05"}))
