@@ -115,9 +115,12 @@ bool SdoChannel::answers_abort(const can::Frame& frame, SdoAnswer& out) {
       transfer_.kind != Kind::none && transfer_.kind != Kind::unclear && transfer_.object == got;
   // The same of a request that was on its way when the client gave up.
   const bool asked_before = pending_[0].given_up.has_value();
-  if (asked || aborted != got || opened_since || asked_before) {
+  const auto& latest = pending_[count_ - 1];
+  const bool unknown_command = code_of(frame) == canopen::abort::command_specifier &&
+                               latest.has_multiplexer() && has_reserved_bits(latest.data);
+  if (asked || aborted != got || opened_since || asked_before || unknown_command) {
     // Whoever was asked last; an abort of an unknown command may name anything.
-    spare_ = pending_[count_ - 1].has_multiplexer() ? object_of(pending_[count_ - 1].data) : got;
+    spare_ = latest.has_multiplexer() ? object_of(latest.data) : got;
     return false;
   }
   // 0000h:00 is what servers name that do not know the command, whatever its bytes 1 to 3 are.

@@ -39,6 +39,18 @@ inline Multiplexer object_of(const SdoChannel::Data& initiate) {
   return multiplexer_of(frame);
 }
 
+/// Bits of an initiate request that mean nothing (7.2.4.3.3 to 7.2.4.3.15): some servers take it for an
+/// unknown command, and then its multiplexer for none.
+inline bool has_reserved_bits(const SdoChannel::Data& initiate) {
+  switch (initiate[0] >> 5U) {
+    case 1: return (initiate[0] & 0x10U) != 0;
+    case 2: return (initiate[0] & 0x1FU) != 0;
+    case 5:
+    case 6: return (initiate[0] & 0x18U) != 0;
+    default: return false;
+  }
+}
+
 /// The value of an initiate frame with e = 1: n unused bytes if s says so, else as many as the entry has not.
 inline SdoChannel::Value expedited_value(Multiplexer object, const SdoChannel::Data& data) {
   const bool is_told = (data[0] & 0x01U) != 0;

@@ -63,6 +63,10 @@ TEST_CASE("Where an abort may answer the client's abort or its next request, one
   CHECK(told(after_exchanges({"> 80 00 00 00 00 00 00 08", "> B8 00 10 00 14 00 00 00",
                               "< 80 00 00 00 01 00 04 05", other, other_answer}))
             .empty());
+  // ... and under the name of whatever was before, which is another matter.
+  CHECK(told(after_exchanges({"> 80 18 10 01 00 00 00 08", "> B8 00 10 00 14 00 00 00",
+                              "< 80 18 10 01 01 00 04 05", other, other_answer})) ==
+        Told{"warn SDO-ERR-04 in frame 7"});
   // The client took the abort for the answer and gave up in its turn.
   CHECK(told(after_exchanges({"> 80 00 10 00 00 00 00 08", upload, "< 80 00 10 00 01 00 04 05",
                               "> 80 00 10 00 00 00 00 08", answer, other, other_answer}))
