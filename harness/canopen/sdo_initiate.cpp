@@ -50,8 +50,9 @@ bool has_begun_transfer(std::uint8_t command) {
   switch (command >> 5U) {
     case 2: return (command & 0x02U) == 0;
     case 3: return true;
-    case 5: return (command & 0x03U) == 0;
-    case 6: return (command & 0x01U) == 0;
+    // The server's sub-command 0 is that of the client.
+    case 5:
+    case 6: return begins_transfer(command);
     default: return false;
   }
 }

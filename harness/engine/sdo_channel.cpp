@@ -127,6 +127,10 @@ void SdoChannel::heed_sent_by_hand(const steps::SdoChannelIds& ids, Line& line) 
   if (confirmed && std::ranges::find(entries, *confirmed) == entries.end()) entries.push_back(*confirmed);
 }
 
+Result<std::size_t> SdoChannel::give_up(CanId request, Multiplexer object) {
+  return recorder_.send(can::data_frame(request, canopen::encode_abort(object, AbortCode(0x0800'0000))));
+}
+
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
   if (line.state == State::idle) return {};
   const bool late = std::exchange(line.state, State::idle) == State::late_answers;
@@ -138,8 +142,7 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
   if (entries.empty()) entries.push_back(line.latest.value_or(Multiplexer{Index(0), SubIndex(0)}));
   Result<std::size_t> sent = 0;
   for (const auto entry : entries) {
-    const auto abort = canopen::encode_abort(entry, AbortCode(0x0800'0000));
-    sent = recorder_.send(can::data_frame(ids.request, abort));
+    sent = give_up(ids.request, entry);
     if (!sent) return std::unexpected(sent.error());
   }
   aborted_at_.reset();
@@ -147,10 +150,9 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
   const auto from = *sent;
   auto waited = recorder_.wait_until(recorder_.now() + (late ? quiet() : rest()));
   // A slow server may have begun a transfer only now.
-  if (const auto begun = confirmed_last(ids.response, by_hand, *sent); waited && late && begun) {
-    const auto abort = canopen::encode_abort(*begun, AbortCode(0x0800'0000));
-    if (auto ended = recorder_.send(can::data_frame(ids.request, abort)); !ended)
-      return std::unexpected(ended.error());
+  const auto begun = waited && late ? confirmed_last(ids.response, by_hand, from) : std::nullopt;
+  if (begun) {
+    if (auto ended = give_up(ids.request, *begun); !ended) return std::unexpected(ended.error());
     waited = recorder_.wait_until(recorder_.now() + rest());
   }
   if (!waited || !late || !line.stale) return waited;

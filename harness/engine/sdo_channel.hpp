@@ -112,6 +112,8 @@ class SdoChannel {
   static void dirty(Line& line, bool late_answers);
   /// Whatever a frame that no transfer sent has opened on the line counts as open from now on.
   void heed_sent_by_hand(const steps::SdoChannelIds& ids, Line& line);
+  /// The abort of a transfer of this entry; the index of its frame.
+  [[nodiscard]] Result<std::size_t> give_up(CanId request, Multiplexer object);
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
   [[nodiscard]] Duration rest() const;
   [[nodiscard]] bool is_patient(Multiplexer object) const;
