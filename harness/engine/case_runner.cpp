@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/lss.hpp"
+#include "engine/life_signs.hpp"
 #include "engine/restore.hpp"
 #include "engine/walk_values.hpp"
 #include "scenario/query.hpp"
@@ -144,6 +145,7 @@ bool CaseRunner::stores(const Step& step) const {
 
 /// Cleanup judges nothing and always runs to its end.
 Result<void> CaseRunner::run_cleanup(const Steps& list) {
+  keep_up_life_signs(session_);
   for (const auto& step : list) {
     if (step.action == nullptr) continue;
     const auto says = [this](const std::optional<steps::Condition>& condition, bool wanted) {

@@ -314,6 +314,7 @@ class Run {
       result.finished = true;
       return std::nullopt;
     }
+    recorder.stop_producing("");
     recorder.end_part();
     result.finished = true;
     const bool other_client =
@@ -343,7 +344,8 @@ class Run {
 
   /// Makes sure that the device is still there and the same, and puts everything back.
   Result<void> after_case(CaseResult& result) {
-    run_.recorder.stop_producing("");
+    // A device that watches would miss us before its watch is taken back, and may stop for it (1029h).
+    run_.recorder.stop_producing_but_life_signs();
     const bool in_doubt = result.verdict == Verdict::fail || result.verdict == Verdict::inconclusive;
     if (run_.session.silence_seen() || in_doubt) {
       auto life = still_there(result);

@@ -34,6 +34,7 @@ Result<bool> PuttingBack::stores_by_itself() {
 
 Result<void> PuttingBack::after_case(const result::CaseResult& result) {
   if (auto done = put_back(result); !done) return done;
+  run_.recorder.stop_producing("");
   return end_life_guarding();
 }
 
@@ -119,6 +120,7 @@ void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up, boo
   if (!bus_is_back || !recorder.fault()) leave_in_pre_operational();
   pending_ = take_changes();
   auto report = restore(run_.session, pending_);
+  recorder.stop_producing("");
   if (!report) return note("values may not have been put back", report.error());
   pending_.clear();
   note_left(report->left);

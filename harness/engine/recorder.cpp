@@ -216,4 +216,8 @@ void Recorder::stop_producing(std::string_view label) {
   });
 }
 
+void Recorder::stop_producing_but_life_signs() {
+  std::erase_if(running_, [](const Running& running) { return !running.production.life_sign; });
+}
+
 }  // namespace conform::engine

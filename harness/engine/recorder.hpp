@@ -86,6 +86,9 @@ class Recorder {
 
   void produce(steps::Production production);
   void stop_producing(std::string_view label);  ///< empty: everything
+  void stop_producing_but_life_signs();
+  /// Whether it may be one of those that are sent again and again.
+  [[nodiscard]] bool is_produced(const can::Frame& frame) const;
 
   /// How late the host was since the last call.
   struct Lateness {
@@ -135,7 +138,6 @@ class Recorder {
   /// send one behind the other keeps it waiting, and nobody is late.
   [[nodiscard]] Duration idle_before_last(BusTime since) const;
   void record(can::CapturedFrame frame);
-  [[nodiscard]] bool is_produced(const can::Frame& frame) const;
 
   can::Transport& transport_;
   const std::atomic<int>* stop_;

@@ -145,6 +145,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
   [[nodiscard]] const std::vector<Change>& journal() const { return journal_; }
+  /// Where the case begins in the capture.
+  [[nodiscard]] std::size_t first_frame() const { return first_frame_; }
   /// The longest inhibit time (1015h) that the device was seen to hold since the case began; from the first
   /// look behind a reset on, since the reset.
   [[nodiscard]] Duration longest_emcy_inhibit() const { return longest_emcy_inhibit_; }

@@ -208,7 +208,9 @@ class ProduceGuard final : public Action {
   std::string words(Session&) const override { return "produce guard requests every " + every_.text(); }
   Result<Actual> run(Session& session) const override {
     const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
-    return begin(session, {"guard", request, every_.resolve(session.profile()), {}});
+    Production guarding{"guard", request, every_.resolve(session.profile()), {}};
+    guarding.life_sign = true;
+    return begin(session, std::move(guarding));
   }
 
  private:
@@ -245,7 +247,11 @@ class ProduceHeartbeat final : public Action {
                            " is the device under test, its heartbeat cannot be produced");
     }
     const auto frame = canopen::encode_heartbeat(NodeId(static_cast<std::uint8_t>(node_)), state_);
-    if (cyclic_) return begin(session, {"heartbeat", frame, every_.resolve(session.profile()), count_});
+    if (cyclic_) {
+      Production heartbeat{"heartbeat", frame, every_.resolve(session.profile()), count_};
+      heartbeat.life_sign = true;
+      return begin(session, std::move(heartbeat));
+    }
     const auto index = session.capture().size();
     auto sent = session.send(frame);
     if (!sent) return std::unexpected(sent.error());

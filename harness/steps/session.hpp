@@ -75,6 +75,8 @@ struct Production {
   /// The first data byte counts from 1 to this, and again; absent: every frame is the same.
   std::optional<std::uint8_t> counts_to{};
   bool keeps_time = true;  ///< no: how many frames there are counts, and not when each is sent
+  /// A device may watch for it: behind the scenario it goes on until the device's values are back.
+  bool life_sign = false;
 };
 
 class Session : public Facts {

@@ -66,6 +66,59 @@ TEST_CASE("a cleanup that stores does not store what else the case has changed")
                                  "1017h = 00 00", "1010h = 73 61 76 65"});
 }
 
+TEST_CASE("whom a device watches it hears until it watches no more, however slowly it answers") {
+  /// Stops for good where the heartbeat of node 126 or the guard request stays away for 300 ms.
+  class Watcher final : public ScriptedDevice {
+   public:
+    Watcher() {
+      entries[0x101601] = {0, 0, 0, 0};
+      entries[0x100C00] = {0, 0};
+      latency = 250ms;
+    }
+    void on_frame(const can::Frame& frame, BusTime now) override {
+      if (frame.is_data(CanId(0x77E)) || (frame.remote && frame.id == 0x701)) heard_ = now;
+      const bool watches = entries[0x101601][0] != 0 || entries[0x100C00][0] != 0;
+      missed = missed || (watches && heard_ && now > *heard_ + 300ms);
+      if (!missed) ScriptedDevice::on_frame(frame, now);
+    }
+    bool missed = false;
+
+   private:
+    std::optional<BusTime> heard_;
+  };
+  const std::string watch = GENERATE(R"(
+      - download: {object: 1016h:01, value: 007E 012Ch}
+        checks: T-MUST
+      - produce: {heartbeat: {node: 7Eh, state: operational}}
+)",
+                                     R"(
+      - download: {object: 1016h:01, value: 007E 012Ch}
+        checks: T-MUST
+      - produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}
+      - wait: 400 ms
+)",
+                                     R"(
+      - download: {object: 100Ch:00, value: 300}
+        checks: T-MUST
+      - guard: {count: 1}
+)");
+  INFO(watch);
+  Watcher device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: motion
+    steps:)" + watch + R"(
+    cleanup:
+      - upload: {object: 1000h:00}
+)");
+  CHECK(out.run.cases.at(0).verdict == Verdict::pass);
+  CHECK_FALSE(device.missed);
+  CHECK(device.entries[0x101601] == std::vector<std::uint8_t>{0, 0, 0, 0});
+  CHECK(device.entries[0x100C00] == std::vector<std::uint8_t>{0, 0});
+  CHECK(out.run.notes.empty());
+}
+
 TEST_CASE("an entry the profile calls untouchable is never written, whatever a scenario says") {
   auto profile = device::default_profile(NodeId(1));
   profile.untouchable.push_back({Index(0x1017), SubIndex(0)});
