@@ -4,7 +4,8 @@
 namespace conform::monitor {
 
 void NmtState::spoke(BusTime time) {
-  if (time > spoke_at_ + longest_frame) queue_began_ = time;
+  // What others kept from being sent waits in one go with the first frame that came through.
+  if (time > spoke_at_ + longest_frame) queue_began_ = made_since(time);
   spoke_at_ = time;
 }
 

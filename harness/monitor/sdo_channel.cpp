@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "canopen/sdo_block.hpp"
+#include "monitor/sdo_server_frame.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -181,7 +182,12 @@ void SdoChannel::client_abort(const can::Frame& frame) {
   idle_abort_ = transfer_.kind == Kind::none && count_ == 0;
   aborted_ = multiplexer_of(frame);
   aborted_idle_ = idle_abort_;
-  for (std::size_t i = 0; i < count_; ++i) pending_[i].given_up = aborted_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    // Of several aborts one names the object of the request itself, which goes without saying.
+    auto& pending = pending_[i];
+    if (!pending.given_up || !pending.has_multiplexer() || aborted_ != server::object_of(pending.data))
+      pending.given_up = aborted_;
+  }
   transfer_ = {};
   transfer_.kind = Kind::none;
   // Segments or an acknowledge may be in the server's queue already.

@@ -74,6 +74,16 @@ TEST_CASE("An EMCY that waited for a flood of NMT commands may have been due bef
   CHECK(told_behind(1) == Told{"fail EMCY-INH-01"});
 }
 
+TEST_CASE("Several EMCYs that waited for a flood of NMT commands come one behind the other") {
+  auto told_behind = [](int commands) {
+    auto story = Story().write(0x1015, 0, 1000).line("wait 2 s");
+    for (int i = 0; i < commands; ++i) story.line("> 000: 80 01");
+    return story.line(emcy).line("wait 1 ms").line(emcy).line("wait 1 ms").line(emcy).told();
+  };
+  CHECK(told_behind(300).empty());
+  CHECK(told_behind(1) == Told{"fail EMCY-INH-01"});
+}
+
 TEST_CASE("What another node sends on a CAN-ID that 1014h may hold does not begin an inhibit time") {
   // Behind the reset nobody has read 1014h.
   const auto inhibited = [] {

@@ -43,6 +43,14 @@ TEST_CASE("The time-out of a transfer may cross the next initiate request, and n
             .empty());
 }
 
+TEST_CASE(
+    "A request that was on its way when the client gave up everything may be refused by the name of the other transfer") {
+  CHECK(told(crossing({"> 40 08 10 00 00 00 00 00"},
+                      {"> 40 18 10 01 00 00 00 00", "< 41 08 10 00 14 00 00 00", "> 80 08 10 00 08 00 00 00",
+                       "> 80 18 10 01 08 00 00 00", "< 80 08 10 00 01 00 04 05"}))
+            .empty());
+}
+
 TEST_CASE("The time-out of a transfer may cross the next segment, which then has no transfer") {
   CHECK(told(crossing(upload, {"wait 500 ms", "> 60 00 00 00 00 00 00 00", give_up_1008, no_transfer_1008}))
             .empty());
