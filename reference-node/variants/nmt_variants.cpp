@@ -104,7 +104,7 @@ VariantTable nmt_variants() {
        .legal = "CiA 301 gives no times; SDO-BUP-17, SYNC-CON-09 warn",
        .how = program_cycle(20ms),
        .group = "late",
-       .excludes = {"nmt-latency", "sdo-gap-at-once", "analog-inputs-noisy", "turnaround"},
+       .excludes = {"nmt-latency", "sdo-gap-at-once", "analog-inputs-noisy", "turnaround", "lss-slow"},
        .warns = {"SDO-BUP-17", "SYNC-CON-09"}},
       {.id = "newest-frame-in-5ms",
        .summary = "frames are looked at once in 5 ms, and of one CAN-ID only the newest",

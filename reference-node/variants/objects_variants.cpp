@@ -351,7 +351,8 @@ VariantTable objects_variants() {
        .legal = "7.2.4.3.17: 0800 0022h, the present device state; OD-GEN-17 warns",
        .how = outputs_in_operational_only,
        // What was written in Operational would be stored, and nothing puts it back.
-       .excludes = {"1010-autonomous-at-once", "1010-autonomous"},
+       .excludes = {"1010-autonomous-at-once", "1010-autonomous", "1010-autonomous-01-only",
+                    "1010-autonomous-03-only"},
        .warns = {"OD-GEN-17", "EDS-VSD-04"}},
       {"1027-no-modules", "a modular device without modules", "OD-1027-01: 00h", no_modules, "1027"},
   };
