@@ -33,6 +33,10 @@ Result<bool> PuttingBack::stores_by_itself() {
 }
 
 Result<void> PuttingBack::after_case(const result::CaseResult& result) {
+  // What is asked from here on nobody would answer in Stopped (7.3.2.2.4), and each wait takes seconds.
+  if (run_.session.is_stopped() && run_.may(scenario::Risk::config)) {
+    if (auto ready = enter_pre_operational(run_); !ready) return ready;
+  }
   if (auto done = put_back(result); !done) return done;
   run_.recorder.stop_producing("");
   return end_life_guarding();

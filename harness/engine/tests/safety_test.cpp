@@ -119,6 +119,36 @@ TEST_CASE("whom a device watches it hears until it watches no more, however slow
   CHECK(out.run.notes.empty());
 }
 
+TEST_CASE("behind a case that leaves the device in Stopped nothing is asked there") {
+  class Stopping final : public ScriptedDevice {
+   public:
+    void on_frame(const can::Frame& frame, BusTime now) override {
+      if (frame.is_data(CanId(0x000)) && frame.size() == 2) stopped_ = frame.data[0] == 2;
+      if (stopped_ && frame.is_data(CanId(0x601))) ++asked_in_vain;
+      if (!stopped_ || !frame.is_data(CanId(0x601))) ScriptedDevice::on_frame(frame, now);
+    }
+    int asked_in_vain = 0;
+
+   private:
+    bool stopped_ = false;
+  };
+  Stopping device;
+  device.entries[0x100C00] = {0x64, 0};
+  device.entries[0x100D00] = {3};
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: motion
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+      - guard: {count: 1}
+      - nmt: stop
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+  CHECK(device.asked_in_vain == 0);
+}
+
 TEST_CASE("an entry the profile calls untouchable is never written, whatever a scenario says") {
   auto profile = device::default_profile(NodeId(1));
   profile.untouchable.push_back({Index(0x1017), SubIndex(0)});
