@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,15 +38,6 @@ std::map<NodeId, can::Frame> heartbeats_of_case(const RunSession& session) {
   return out;
 }
 
-bool has_guarded(const RunSession& session) {
-  const auto id = canopen::connection_set(session.node()).error_control.value();
-  const auto& frames = session.capture().frames();
-  return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(session.first_frame()), frames.end(),
-                     [id](const can::CapturedFrame& each) {
-                       return each.frame.remote && !each.frame.extended && each.frame.id == id;
-                     });
-}
-
 void keep_up(RunSession& session, const can::Frame& frame, Duration every) {
   if (session.recorder().is_produced(frame)) return;
   steps::Production sign{"life sign " + std::to_string(frame.id), frame, every, {}};
@@ -66,7 +56,7 @@ void keep_up_life_signs(RunSession& session) {
     for (const auto& [node, frame] : heartbeats) keep_up(session, frame, every);
   }
   const bool life_time_changed = has_changed(session, Index(0x100C)) || has_changed(session, Index(0x100D));
-  if (life_time_changed && has_guarded(session)) {
+  if (life_time_changed && session.has_guarded(session.first_frame())) {
     const auto id = canopen::connection_set(session.node()).error_control;
     keep_up(session, can::remote_frame(id, 1), often);
   }

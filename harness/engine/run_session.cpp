@@ -359,13 +359,18 @@ Result<void> RunSession::send_unguarded(const can::Frame& frame) {
   return {};
 }
 
-bool RunSession::was_guarded() {
+bool RunSession::has_guarded(std::size_t from) const {
   const auto id = canopen::connection_set(node()).error_control.value();
   const auto& frames = recorder_.capture().frames();
-  for (; looked_for_guarding_ < frames.size(); ++looked_for_guarding_) {
-    const auto& frame = frames[looked_for_guarding_].frame;
-    guarded_ = guarded_ || (frame.remote && !frame.extended && frame.id == id);
-  }
+  return std::any_of(frames.begin() + static_cast<std::ptrdiff_t>(from), frames.end(),
+                     [id](const can::CapturedFrame& each) {
+                       return each.frame.remote && !each.frame.extended && each.frame.id == id;
+                     });
+}
+
+bool RunSession::was_guarded() {
+  guarded_ = guarded_ || has_guarded(looked_for_guarding_);
+  looked_for_guarding_ = recorder_.capture().size();
   return guarded_;
 }
 

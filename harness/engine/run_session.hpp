@@ -181,6 +181,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::optional<std::size_t> take_reset();
   /// A guard request was sent since the device was last reset: life guarding may have begun to watch.
   [[nodiscard]] bool was_guarded();
+  /// One is in the capture from this frame on.
+  [[nodiscard]] bool has_guarded(std::size_t from) const;
   [[nodiscard]] bool silence_seen() const { return silence_seen_; }
   void clear_silence_seen() { silence_seen_ = false; }
   /// A value could not be put back.

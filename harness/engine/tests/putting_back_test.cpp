@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// In which state, and under which life signs, the values of a device are put back.
+#include <optional>
+
+#include "bench.hpp"
+
+using namespace conform;
+using namespace conform::engine;
+using namespace conform::engine::testing;
+using namespace std::chrono_literals;
+using result::Verdict;
+
+TEST_CASE("whom a device watches it hears until it watches no more, however slowly it answers") {
+  /// Stops for good where the heartbeat of node 126 or the guard request stays away for 300 ms.
+  class Watcher final : public ScriptedDevice {
+   public:
+    Watcher() {
+      entries[0x101601] = {0, 0, 0, 0};
+      entries[0x100C00] = {0, 0};
+      latency = 250ms;
+    }
+    void on_frame(const can::Frame& frame, BusTime now) override {
+      if (frame.is_data(CanId(0x77E)) || (frame.remote && frame.id == 0x701)) heard_ = now;
+      const bool watches = entries[0x101601][0] != 0 || entries[0x100C00][0] != 0;
+      missed = missed || (watches && heard_ && now > *heard_ + 300ms);
+      if (!missed) ScriptedDevice::on_frame(frame, now);
+    }
+    bool missed = false;
+
+   private:
+    std::optional<BusTime> heard_;
+  };
+  const std::string watch = GENERATE(R"(
+      - download: {object: 1016h:01, value: 007E 012Ch}
+        checks: T-MUST
+      - produce: {heartbeat: {node: 7Eh, state: operational}}
+)",
+                                     R"(
+      - download: {object: 1016h:01, value: 007E 012Ch}
+        checks: T-MUST
+      - produce: {heartbeat: {node: 7Eh, state: operational, every: 50 ms}}
+      - wait: 400 ms
+)",
+                                     R"(
+      - download: {object: 100Ch:00, value: 300}
+        checks: T-MUST
+      - guard: {count: 1}
+)");
+  INFO(watch);
+  Watcher device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: motion
+    steps:)" + watch + R"(
+    cleanup:
+      - upload: {object: 1000h:00}
+)");
+  CHECK(out.run.cases.at(0).verdict == Verdict::pass);
+  CHECK_FALSE(device.missed);
+  CHECK(device.entries[0x101601] == std::vector<std::uint8_t>{0, 0, 0, 0});
+  CHECK(device.entries[0x100C00] == std::vector<std::uint8_t>{0, 0});
+  CHECK(out.run.notes.empty());
+}
+
+TEST_CASE("behind a case that leaves the device in Stopped nothing is asked there") {
+  ScriptedDevice device;
+  device.entries[0x100C00] = {0x64, 0};
+  device.entries[0x100D00] = {3};
+  int asked_in_vain = 0;
+  device.before = [&](ScriptedDevice& self, const can::Frame&, BusTime) {
+    const bool stopped = !self.nmt.empty() && self.nmt.back() == 0x02;
+    asked_in_vain += stopped ? 1 : 0;
+    return stopped;
+  };
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: motion
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+      - guard: {count: 1}
+      - nmt: stop
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+  CHECK(asked_in_vain == 0);
+}
