@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "canopen/cob_id.hpp"
 #include "canopen/nmt.hpp"
 #include "engine/run_session.hpp"
 

@@ -81,11 +81,10 @@ std::string text_of(int journal) {
   }
 }
 
+/// A byte says that the run ended by itself; the end of the pipe, without one, that the runner is gone.
 void wait_for_the_end(int pipe) {
   char byte = 0;
-  for (;;) {
-    const auto count = ::read(pipe, &byte, 1);
-    if (count == 0 || (count < 0 && errno != EINTR)) return;
+  while (::read(pipe, &byte, 1) < 0 && errno == EINTR) {
   }
 }
 
@@ -122,6 +121,10 @@ Guardian::Guardian(const RunJournal& journal) {
 
 Guardian::~Guardian() {
   if (process_ <= 0) return;
+  // A close that fails may leave the pipe open: the guardian would then wait for this process, and this one for it.
+  const char over = 0;
+  while (::write(life_.get(), &over, 1) < 0 && errno == EINTR) {
+  }
   life_ = {};
   while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
   }
