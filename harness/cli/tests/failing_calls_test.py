@@ -92,6 +92,23 @@ __attribute__((destructor)) static void tell() {
   close(file);
 }
 """
+# The end of a pipe that is written to stays open: its reader never comes to the end.
+STUCK_PIPE = r"""
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+extern "C" int close(int file) {
+  struct stat about;
+  if (file > 2 && fstat(file, &about) == 0 && S_ISFIFO(about.st_mode) && (fcntl(file, F_GETFL) & O_ACCMODE) == O_WRONLY) {
+    errno = EIO;
+    return -1;
+  }
+  return (int)syscall(SYS_close, file);
+}
+"""
 
 
 class FailingCalls(unittest.TestCase):
@@ -198,6 +215,17 @@ class FailingCalls(unittest.TestCase):
                     told += done.returncode != 0
                     self.judge(done, what)
         print(f"{played} system calls failed, one at a time; {told} of the runs ended with an error of their own")
+
+    def test_a_pipe_that_does_not_close_keeps_nobody_waiting(self):
+        compiler = shutil.which("c++") or shutil.which("g++")
+        if compiler is None:
+            self.skipTest("no C++ compiler")
+        with open(self.path("stuck.cpp"), "w", encoding="ascii") as file:
+            file.write(STUCK_PIPE)
+        subprocess.run([compiler, "-shared", "-fPIC", "-o", self.path("stuck.so"), self.path("stuck.cpp")], check=True)
+        self.measure()
+        done = self.run_with(LD_PRELOAD=self.path("stuck.so"))
+        self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_each_allocation_may_fail(self):
         compiler = shutil.which("c++") or shutil.which("g++")
