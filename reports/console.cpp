@@ -319,8 +319,9 @@ std::string exit_text(const RunResult& run, int code) {
       return counts.fail == 0 ? "a waiver asks for a look (--strict)"
                               : "the device violates at least one requirement";
     case 2:
-      return run.cases.empty() ? "nothing was selected, so nothing was judged"
-                               : "nothing selected applies to this device, so nothing was judged";
+      if (run.cases.empty()) return "nothing was selected, so nothing was judged";
+      return run.without_time() ? "nothing that was selected fits into the --budget, so nothing was judged"
+                                : "nothing selected applies to this device, so nothing was judged";
     case 3:
       if (!run.unwritten.empty() && !run.aborted && counts.error + counts.inconclusive == 0)
         return "a report could not be written; no requirement is known to be violated";

@@ -8,6 +8,11 @@
 #include <algorithm>
 
 namespace conform::engine {
+std::optional<BusTime> Budget::look_until(double part) const {
+  if (!total_) return std::nullopt;
+  return begin_ + std::chrono::duration_cast<Duration>(part * *total_);
+}
+
 bool Budget::admits(std::string_view name, BusTime now) const {
   if (!total_ || worths_ == nullptr) return true;
   return (now - begin_) + pace_.of(worths_->takes(name)) <= *total_;

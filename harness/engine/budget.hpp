@@ -21,6 +21,8 @@ class Budget {
 
   /// The time runs from here.
   void begin(BusTime now) { begin_ = now; }
+  /// When the look at the device before the first case has had its part, `part` of the whole.
+  [[nodiscard]] std::optional<BusTime> look_until(double part) const;
   /// Whether the case will have ended in time.
   [[nodiscard]] bool admits(std::string_view name, BusTime now) const;
   /// It was played.

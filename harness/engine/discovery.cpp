@@ -52,30 +52,42 @@ Result<steps::SdoAnswer> look(RunSession& session, Multiplexer object, const Mea
   return answer;
 }
 
-Result<std::vector<Multiplexer>> discover(RunSession& session, Survey& survey, const Means& means) {
-  std::vector<Multiplexer> silent;
+Result<Discovery> discover(RunSession& session, Survey& survey, const Means& means,
+                           std::optional<BusTime> until) {
+  Discovery out;
   auto& known = session.known();
   session.forget_presence();
   // ObjFlags of the description keep a look off some entries: they count as there, and are left alone.
   for (const auto& entry : known.entries()) {
     if (entry.not_to_be_read) session.note_present(entry.mux, true);
   }
+  const auto is_time = [&] { return !until || session.now() < *until; };
+  const auto leave_out = [&](const device::Entry& entry) {
+    ++out.not_looked_at;
+    if (entry.presence() == device::Presence::unclaimed) known.remove(entry.mux);
+  };
   // An absent object answers for all of its sub-indices.
   for (const auto index : known.objects()) {
+    const auto entries = [&known, index] {
+      return std::vector<device::Entry>(known.object(index).begin(), known.object(index).end());
+    };
     const Multiplexer first{index, SubIndex(0)};
     if (const auto* entry = known.find(first); entry != nullptr && entry->not_to_be_read) continue;
+    if (!is_time()) {
+      std::ranges::for_each(entries(), leave_out);
+      continue;
+    }
     auto answer = look(session, first, means);
     if (!answer) return std::unexpected(answer.error());
     survey.note(first, *answer);
-    if (answer->kind == Kind::silence) silent.push_back(first);
+    if (answer->kind == Kind::silence) out.silent.push_back(first);
     const bool absent = answer->kind == Kind::aborted && answer->code == canopen::abort::no_object;
     const auto why = [](const steps::SdoAnswer& each) {
       return says_absent(each) ? "abort " + canopen::describe(each.code) : std::string();
     };
     session.note_present(first, !says_absent(*answer), why(*answer));
     if (absent) {
-      for (const auto& entry :
-           std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
+      for (const auto& entry : entries()) {
         session.note_present(entry.mux, false, why(*answer));
         survey.note_absent(entry.mux, *answer);
         if (entry.presence() != device::Presence::claimed) known.remove(entry.mux);
@@ -85,14 +97,17 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, Survey& survey, c
     if (answer->kind == Kind::confirmed && answer->data.size() == 1) {
       extend_array(known, index, answer->data[0]);
     }
-    for (const auto& entry :
-         std::vector<device::Entry>(known.object(index).begin(), known.object(index).end())) {
+    for (const auto& entry : entries()) {
       if (entry.mux == first && known.has(first)) continue;
       if (entry.not_to_be_read) continue;
+      if (!is_time()) {
+        leave_out(entry);
+        continue;
+      }
       auto each = look(session, entry.mux, means);
       if (!each) return std::unexpected(each.error());
       survey.note(entry.mux, *each);
-      if (each->kind == Kind::silence) silent.push_back(entry.mux);
+      if (each->kind == Kind::silence) out.silent.push_back(entry.mux);
       const bool gone = says_absent(*each);
       session.note_present(entry.mux, !gone, why(*each));
       if (gone && entry.presence() != device::Presence::claimed) known.remove(entry.mux);
@@ -103,7 +118,7 @@ Result<std::vector<Multiplexer>> discover(RunSession& session, Survey& survey, c
   if (emcy->kind == Kind::confirmed && emcy->data.size() == 4) {
     session.set_home_emcy_can_id(canopen::can_id_of(CobId(static_cast<std::uint32_t>(load_le(emcy->data)))));
   }
-  return silent;
+  return out;
 }
 
 Result<std::vector<result::Property>> device_properties(RunSession& session) {
@@ -138,9 +153,10 @@ Result<std::vector<result::Property>> device_properties(RunSession& session) {
   return out;
 }
 
-Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session) {
+Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session, std::optional<BusTime> until) {
   std::map<Multiplexer, Bytes> out;
   for (const auto& entry : session.known().entries()) {
+    if (until && session.now() >= *until) break;
     if (!entry.readable() || !entry.writable() || entry.command || entry.may_change) continue;
     auto present = session.is_present(entry.mux, false);
     if (!present && session.recorder().fault()) return std::unexpected(present.error());

@@ -2,6 +2,8 @@
 // What is at the other end: a look at what CiA 301 and the profile name.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,17 +14,24 @@
 
 namespace conform::engine {
 
+struct Discovery {
+  std::vector<Multiplexer> silent;  ///< never answered
+  std::size_t not_looked_at = 0;    ///< entries for which there was no time
+};
+
 /// Reads every entry of the session's dictionary; afterwards the dictionary holds what is present or claimed.
-/// Read-only, unless the device falls silent for good and the means allow to wake it. Gives the entries that
-/// are never answered, and tells `survey` what came.
-[[nodiscard]] Result<std::vector<Multiplexer>> discover(RunSession& session, Survey& survey,
-                                                        const Means& means = {});
+/// Read-only, unless the device falls silent for good and the means allow to wake it. Tells `survey` what
+/// came. From `until` on no further entry is looked at: those that are claimed stay, and whoever needs one
+/// looks for it then.
+[[nodiscard]] Result<Discovery> discover(RunSession& session, Survey& survey, const Means& means,
+                                         std::optional<BusTime> until);
 
 /// Identity and names as read from the device, for reports: "dut.vendor_id", "dut.1008", ...
 [[nodiscard]] Result<std::vector<result::Property>> device_properties(RunSession& session);
 
 /// Values of all readable entries that may be written and do not change by themselves: compared at the end of
-/// the run.
-[[nodiscard]] Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session);
+/// the run. Those for which there was time until `until`.
+[[nodiscard]] Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session,
+                                                            std::optional<BusTime> until);
 
 }  // namespace conform::engine

@@ -109,19 +109,23 @@ class Run {
       if (auto done = enter_pre_operational(run_); !done) return done;
     }
     if (auto done = survey(); !done) return done;
-    if (auto done = putting_back_.look(); !done) return done;
+    if (auto done = putting_back_.look(budget_.look_until(0.5)); !done) return done;
     return errors_.look();
   }
 
   /// Which objects there are, and what the run tells of the device.
   Result<void> survey() {
     Survey seen;
-    auto silent = discover(run_.session, seen, life_.means());
-    if (!silent) return std::unexpected(silent.error());
+    // A slow device, or one that leaves requests unanswered, would be looked at until the budget is gone.
+    auto found = discover(run_.session, seen, life_.means(), budget_.look_until(1.0 / 3));
+    if (!found) return std::unexpected(found.error());
     out_.dictionary = seen.rows(run_.session.known(), run_.profile);
-    if (!silent->empty()) {
+    if (found->not_looked_at > 0)
+      run_.note(std::to_string(found->not_looked_at) +
+                " entries were not looked at, for the look at the device had a third of the --budget");
+    if (!found->silent.empty()) {
       std::vector<std::string> names;
-      for (const auto object : *silent) names.push_back(to_string(object));
+      for (const auto object : found->silent) names.push_back(to_string(object));
       run_.note("requests for " + join(names, ", ") + " are not answered");
     }
     if (auto alone = life_.note_restarts(); !alone) return alone;
@@ -198,7 +202,7 @@ class Run {
         budget_.left_out();
         result.verdict = Verdict::not_applicable;
         result.reason = budget_.why();
-        result.wants = {{"option", "a longer --budget, or none"}};
+        result.wants = {{"option", std::string(result::longer_budget)}};
         end_unplayed(result, i);
         continue;
       }

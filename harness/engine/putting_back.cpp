@@ -10,8 +10,15 @@
 #include "engine/restore.hpp"
 
 namespace conform::engine {
-Result<void> PuttingBack::look() {
-  auto values = snapshot(run_.session);
+namespace {
+
+/// In bytes: from here on an upload in segments is more than a glance.
+constexpr std::size_t takes_long = 64;
+
+}  // namespace
+
+Result<void> PuttingBack::look(std::optional<BusTime> until) {
+  auto values = snapshot(run_.session, until);
   if (!values) return std::unexpected(values.error());
   snapshot_ = std::move(*values);
   auto stores = stores_by_itself();
@@ -166,14 +173,23 @@ std::vector<Change> PuttingBack::take_changes() {
 }
 
 /// Puts right what a reset has brought back; gives what could not be. What the run never wrote is left alone
-/// otherwise: the device changed it.
+/// otherwise: the device changed it. What was written and is right behind a reset of the node is stored as it
+/// was, or not at all: no later reset brings another value, until it is written again. A long value takes its
+/// time to be read: that a restore changed one that nobody wrote would show at the end of the run.
 std::vector<std::string> PuttingBack::what_returned(Among among) {
   std::vector<Change> returned;
   for (const auto& [object, before] : snapshot_) {
-    if (among == Among::written && !written_.contains(object)) continue;
+    const bool may_be_other =
+        written_.contains(object) || (among == Among::all && before.size() <= takes_long);
+    if (!may_be_other) continue;
     const auto found = run_.session.peek(object);
     if (!found) return {};
-    if (confirmed(*found) && found->data != before) returned.push_back({object, before});
+    if (!confirmed(*found)) continue;
+    if (found->data != before) {
+      returned.push_back({object, before});
+    } else if (run_.session.reset_was_of_node()) {
+      written_.erase(object);
+    }
   }
   if (returned.empty()) return {};
   auto report = restore(run_.session, std::move(returned));

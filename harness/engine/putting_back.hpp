@@ -17,8 +17,8 @@ class PuttingBack {
  public:
   explicit PuttingBack(RunContext& run) : run_(run) {}
 
-  /// Takes down what the device holds before the first case.
-  [[nodiscard]] Result<void> look();
+  /// Takes down what the device holds before the first case, as far as there is time until `until`.
+  [[nodiscard]] Result<void> look(std::optional<BusTime> until);
 
   /// Undoes what a case has written; by a reset where it cannot be written back.
   [[nodiscard]] Result<void> after_case(const result::CaseResult& result);
@@ -47,9 +47,10 @@ class PuttingBack {
 
   RunContext& run_;
   std::map<Multiplexer, Bytes> snapshot_;
-  std::vector<Change> pending_;    ///< what a bus that went away has kept from being put back
-  std::set<Multiplexer> written_;  ///< by cases, at any time of the run
-  std::set<std::string> left_;     ///< what the notes say of values that a reset brought back
+  std::vector<Change> pending_;  ///< what a bus that went away has kept from being put back
+  /// By cases, since the value that it had before the run was last found right behind a reset of the node.
+  std::set<Multiplexer> written_;
+  std::set<std::string> left_;  ///< what the notes say of values that a reset brought back
   bool stores_by_itself_ = false;
   std::size_t resets_looked_at_ = 0;  ///< of session.resets(): what came back after them has been put right
 };

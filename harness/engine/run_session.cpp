@@ -268,6 +268,7 @@ void RunSession::note_command(std::size_t index) {
     stopped_ = false;
     // However it was sent: to all nodes, by a step that sends a frame, within a conversation.
     device_was_reset();
+    reset_was_of_node_ = *command == NmtCommand::reset_node;
     return;
   }
   const auto state = *command == NmtCommand::start  ? NmtState::operational

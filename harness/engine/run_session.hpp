@@ -141,6 +141,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] device::Dictionary& known() { return dictionary_; }
   /// How often the device has been reset in this run.
   [[nodiscard]] std::size_t resets() const { return resets_; }
+  /// The latest of them was of the whole node, and not of its communication only.
+  [[nodiscard]] bool reset_was_of_node() const { return reset_was_of_node_; }
   /// Whether default parameters were restored (1011h, CiA 301, 7.5.2.14) since the last call.
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
@@ -172,6 +174,7 @@ class RunSession final : public steps::Session {
   /// The device started by itself, or with its power.
   void device_restarted() {
     device_was_reset();
+    reset_was_of_node_ = true;
     state_changed_ = true;
     stopped_ = false;
   }
@@ -238,6 +241,7 @@ class RunSession final : public steps::Session {
   std::map<std::pair<steps::Asked, Multiplexer>, std::string> grounds_;
   std::vector<Change> journal_;
   std::size_t resets_ = 0;
+  bool reset_was_of_node_ = false;
   bool restored_ = false;
   bool left_changed_ = false;
   std::map<Multiplexer, Bytes> before_write_;

@@ -60,6 +60,12 @@ std::vector<std::string> RunResult::waived() const {
   return {out.begin(), out.end()};
 }
 
+bool RunResult::without_time() const {
+  return std::ranges::any_of(cases, [](const CaseResult& one) {
+    return std::ranges::any_of(one.wants, [](const Want& want) { return want.text == longer_budget; });
+  });
+}
+
 bool RunResult::has_wrong_waiver() const {
   return std::ranges::any_of(waivers, [](const WaiverUse& each) { return each.verdict == Verdict::fail; });
 }

@@ -92,6 +92,9 @@ struct Judgement {
   std::string waived{};
 };
 
+/// What a case wants that was left out for want of time.
+inline constexpr std::string_view longer_budget = "a longer --budget, or none";
+
 /// What the user could give so that a case is judged.
 struct Want {
   std::string kind;  ///< "object", "profile", "claim", "description", "option", "bench"
@@ -258,6 +261,8 @@ struct RunResult {
   [[nodiscard]] Counts counts() const;
   /// Requirements whose failure is waived, sorted, each once: a run with some does not simply conform.
   [[nodiscard]] std::vector<std::string> waived() const;
+  /// Cases were left out for want of time (--budget).
+  [[nodiscard]] bool without_time() const;
   /// A waiver has expired or, with --strict, asks for a look: that fails the run by itself.
   [[nodiscard]] bool has_wrong_waiver() const;
   [[nodiscard]] const RequirementInfo* requirement(const std::string& id) const;

@@ -219,8 +219,13 @@ VariantTable sdo_variants() {
          c.next_block_size = 3;
        }),
        "block-size"},
-      {"sdo-block-size-falls-to-1", "the first sub-block has 127 segments, the others one",
-       "7.2.4.3.11: in each acknowledge", choose([](SdoChoices& c) { c.next_block_size = 1; }), "block-size"},
+      // Acknowledged at a gap, the rest of the sub-block that is on its way has numbers above the new size.
+      {.id = "sdo-block-size-falls-to-1",
+       .summary = "the first sub-block has 127 segments, the others one",
+       .legal = "7.2.4.3.11: in each acknowledge",
+       .how = choose([](SdoChoices& c) { c.next_block_size = 1; }),
+       .group = "block-size",
+       .excludes = {"sdo-gap-at-once"}},
       // The client has sent its sub-block out by the time a slow acknowledge comes, and the rest of it is
       // then taken for the begin of the next: only a quick server can do that, and only with one block size.
       {.id = "sdo-segments-checked-at-the-end",

@@ -45,7 +45,9 @@ std::string verdict_sentence(const Book& book, int code) {
                            counted(waived.size(), "violated requirement"), text(join(waived, ", ")));
       return "Everything that was judged conforms.";
     case 1: return violated_words(book);
-    case 2: return "Nothing selected applies to this device, so nothing was judged.";
+    case 2:
+      return run.without_time() ? "Nothing that was selected fits into the budget, so nothing was judged."
+                                : "Nothing selected applies to this device, so nothing was judged.";
     case 3:
       return run.aborted ? "The run stopped early. No requirement is known to be violated."
                          : "No requirement is known to be violated, but not everything could be judged.";

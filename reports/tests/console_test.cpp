@@ -162,6 +162,9 @@ TEST_CASE("The last line gives the exit code and its meaning") {
   run.cases.front().verdict = Verdict::not_applicable;
   CHECK(summary(run, {}).ends_with(
       "\nexit code     2: nothing selected applies to this device, so nothing was judged\n"));
+  run.cases.front().wants = {{"option", std::string(result::longer_budget)}};
+  CHECK(summary(run, {}).ends_with(
+      "\nexit code     2: nothing that was selected fits into the --budget, so nothing was judged\n"));
   run.signal = 2;
   CHECK(summary(run, {}).ends_with("\nexit code     130: interrupted (SIGINT)\n"));
   CHECK(contains(summary(testing::aborted_run(), {}), "exit code     3: the run stopped early"));

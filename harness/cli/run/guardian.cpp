@@ -121,7 +121,8 @@ Guardian::Guardian(const RunJournal& journal) {
 
 Guardian::~Guardian() {
   if (process_ <= 0) return;
-  // A close that fails may leave the pipe open: the guardian would then wait for this process, and this one for it.
+  // A close that fails may leave the pipe open: the guardian would then wait for this process, and this one
+  // for it.
   const char over = 0;
   while (::write(life_.get(), &over, 1) < 0 && errno == EINTR) {
   }

@@ -129,6 +129,22 @@ TEST_CASE("a run with a budget plays what is worth most first and leaves out wha
       out.run.notes, [](const std::string& note) { return note.starts_with("3 cases were left out"); }));
 }
 
+TEST_CASE("the look at a slow device leaves time of the budget for cases") {
+  ScriptedDevice device;
+  device.latency = std::chrono::milliseconds(400);
+  const auto whole = names({});
+  const result::Worths worths({{whole[0], std::chrono::milliseconds(1), 9}});
+  RunOptions options;
+  options.plan.worths = &worths;
+  options.budget = std::chrono::seconds(30);
+  const auto out = play(device, five_reads, options);
+  CHECK(out.run.cases.front().verdict == Verdict::pass);
+  CHECK(std::ranges::any_of(out.run.notes, [](const std::string& note) {
+    return note.ends_with(
+        "entries were not looked at, for the look at the device had a third of the --budget");
+  }));
+}
+
 TEST_CASE("what happens now and then is found by repetition, and how often is told") {
   ScriptedDevice device;
   std::size_t asked = 0;
