@@ -75,7 +75,8 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
 /// A device that takes its time with EMCYs has not sent all of those yet that the case has brought about.
 Result<void> LastingErrors::await_late_ones(std::size_t from) {
   constexpr auto patience = std::chrono::milliseconds(150);
-  constexpr int most_in_vain = 3;
+  // One that was late once is waited for longer: some errors are told by no message, however long one waits.
+  const int most_in_vain = was_late_ ? 20 : 3;
   auto& session = run_.session;
   const auto is_emcy = [&session](const can::CapturedFrame& captured) { return session.was_emcy(captured); };
   const auto& frames = run_.recorder.capture().frames();
@@ -88,6 +89,7 @@ Result<void> LastingErrors::await_late_ones(std::size_t from) {
     auto told = run_.recorder.find(frames.size(), is_emcy, session.now() + patience);
     if (!told) return std::unexpected(told.error());
     late_in_vain_ = *told ? 0 : late_in_vain_ + 1;
+    was_late_ = was_late_ || *told;
     if (!*told) return {};
   }
   return {};
