@@ -95,6 +95,8 @@ class Run {
   Result<void> prepare() {
     out_.device =
         run_.profile.name.empty() ? "node " + std::to_string(run_.profile.node.value()) : run_.profile.name;
+    if (auto heard = run_.recorder.wait_until(run_.recorder.now() + run_.options.listen_first); !heard)
+      return heard;
     auto liveness = probe(run_.session, life_.means());
     if (!liveness) return std::unexpected(liveness.error());
     alive_ = liveness->alive;

@@ -24,6 +24,9 @@ struct RunOptions {
   /// The run leaves out what would not have ended within this time from its begin, by plan.worths; nothing:
   /// all is played.
   std::optional<Duration> budget{};
+  /// The bus is listened to for so long before the first request: a node that is powered with the run is only
+  /// starting, and what it is asked meanwhile gets lost.
+  Duration listen_first{};
   bool fail_fast = false;  ///< the first case that fails is the last one
   Repeat repeat;
   bool strict = false;            ///< recommended and optional rules fail as well

@@ -46,6 +46,7 @@ Result<SimulatedRun> simulate(const NodeSwitches& switches, const device::Profil
   bus.attach(**node, "reference node");
   options.plan.seed = seed;
   options.power_revives = false;
+  options.listen_first = std::chrono::milliseconds(100);
   give_power_switch(options, bus, **node);
   device::Profile claimed = profile;
   for (const auto& id : switches.defects) {
