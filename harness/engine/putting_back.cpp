@@ -15,6 +15,20 @@ namespace {
 /// In bytes: from here on an upload in segments is more than a glance.
 constexpr std::size_t takes_long = 64;
 
+/// A device that answers no more is not asked for hundreds of values, each of which would take a time-out.
+class Deaf {
+ public:
+  /// Of one value after the other. True: the rest is not worth asking for.
+  [[nodiscard]] bool after(const steps::SdoAnswer& answer) {
+    using Kind = steps::SdoAnswer::Kind;
+    in_a_row_ = answer.kind == Kind::confirmed || answer.kind == Kind::aborted ? 0 : in_a_row_ + 1;
+    return in_a_row_ == 4;
+  }
+
+ private:
+  int in_a_row_ = 0;
+};
+
 }  // namespace
 
 Result<void> PuttingBack::look(std::optional<BusTime> until) {
@@ -147,9 +161,14 @@ void PuttingBack::finish() {
     if (run_.may(scenario::Risk::config)) (void)what_returned();
   }
   // The same entries, whatever has been learnt about access in between.
+  Deaf deaf;
   for (const auto& [object, before] : snapshot_) {
     const auto found = run_.session.peek(object);
     if (!found) return;
+    if (deaf.after(*found))
+      return run_.note(
+          "from " + to_string(object) +
+          " on the values were not compared with those before the run: the device answers no more");
     if (!confirmed(*found)) {
       run_.note(to_string(object) + " could be read before the run and cannot any more");
     } else if (found->data != before) {
@@ -178,16 +197,17 @@ std::vector<Change> PuttingBack::take_changes() {
 /// time to be read: that a restore changed one that nobody wrote would show at the end of the run.
 std::vector<std::string> PuttingBack::what_returned(Among among) {
   std::vector<Change> returned;
+  Deaf deaf;
   for (const auto& [object, before] : snapshot_) {
     const bool may_be_other =
         written_.contains(object) || (among == Among::all && before.size() <= takes_long);
     if (!may_be_other) continue;
     const auto found = run_.session.peek(object);
-    if (!found) return {};
+    if (!found || deaf.after(*found)) return {};
     if (!confirmed(*found)) continue;
     if (found->data != before) {
       returned.push_back({object, before});
-    } else if (run_.session.reset_was_of_node()) {
+    } else if (run_.session.reset_was_of_node() && !run_.session.was_written_since_reset(object)) {
       written_.erase(object);
     }
   }

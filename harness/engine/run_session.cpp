@@ -33,7 +33,8 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
     return known != nullptr ? known->size() : std::nullopt;
   });
   // Also what is put back behind a case tells where emergency messages are to be looked for.
-  channel_.set_on_value([this](Multiplexer object, const Bytes& value) {
+  channel_.set_on_value([this](Multiplexer object, const Bytes& value, bool written) {
+    if (written) written_since_reset_.insert(object);
     watch_emcy(object, value);
     long_values_.note(object, value);
   });
@@ -96,6 +97,7 @@ Result<steps::SdoAnswer> RunSession::upload(Multiplexer object, std::optional<Du
 }
 
 Result<void> RunSession::will_change(Multiplexer object) {
+  written_since_reset_.insert(object);
   if (profile_.is_untouchable(object)) {
     return fail_scenario(to_string(object) + " must not be written: untouchable in the device profile");
   }
@@ -425,6 +427,7 @@ Result<void> RunSession::power_cycle() {
 }
 
 void RunSession::device_was_reset() {
+  written_since_reset_.clear();
   channel_.forget_silences();
   guarded_ = false;
   looked_for_guarding_ = recorder_.capture().size();

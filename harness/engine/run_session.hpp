@@ -143,6 +143,9 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::size_t resets() const { return resets_; }
   /// The latest of them was of the whole node, and not of its communication only.
   [[nodiscard]] bool reset_was_of_node() const { return reset_was_of_node_; }
+  [[nodiscard]] bool was_written_since_reset(Multiplexer object) const {
+    return written_since_reset_.contains(object);
+  }
   /// Whether default parameters were restored (1011h, CiA 301, 7.5.2.14) since the last call.
   [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
   [[nodiscard]] std::vector<Change> take_journal();
@@ -242,6 +245,7 @@ class RunSession final : public steps::Session {
   std::vector<Change> journal_;
   std::size_t resets_ = 0;
   bool reset_was_of_node_ = false;
+  std::set<Multiplexer> written_since_reset_;
   bool restored_ = false;
   bool left_changed_ = false;
   std::map<Multiplexer, Bytes> before_write_;

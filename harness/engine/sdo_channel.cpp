@@ -243,7 +243,7 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     const auto& request = jobs[i].request;
     if (request.upload && !out.back().size_indicated) trim(request.object, out.back().data);
     if (on_value_ && out.back().kind == steps::SdoAnswer::Kind::confirmed)
-      on_value_(request.object, request.upload ? out.back().data : request.data);
+      on_value_(request.object, request.upload ? out.back().data : request.data, !request.upload);
   }
   first_request_ = recorder_.capture().size();
   for (const auto& run : runs) {

@@ -84,7 +84,7 @@ class SdoChannel {
   void set_known_size(KnownSize known_size) { known_size_ = std::move(known_size); }
 
   /// Told of the value of an entry whenever an upload brought it or a download was confirmed, whoever asked.
-  using OnValue = std::function<void(Multiplexer, const Bytes&)>;
+  using OnValue = std::function<void(Multiplexer object, const Bytes& value, bool written)>;
   void set_on_value(OnValue on_value) { on_value_ = std::move(on_value); }
 
  private:
