@@ -72,7 +72,9 @@ class Tpdos final : public Monitor {
                      (seen.key() & 0x7FU) == follower.facts().node.value() && !seen.frame().extended;
     judge_validity(seen, follower, found, own);
     if (other_holder(found, first_tpdo, last_tpdo)) return;
-    if (!own && may_be_left_over(follower, found, seen.key(), first_tpdo, last_tpdo)) return;
+    // Of eight bytes it may be an EMCY that was late, where 1014h had this CAN-ID before.
+    const bool may_be_late = !own || seen.frame().dlc == 8;
+    if (may_be_late && may_be_left_over(follower, found, seen.key(), first_tpdo, last_tpdo)) return;
     judge_state(seen, follower, own);
     if (const auto* tpdo = sender(found)) judge_length(seen, follower, *tpdo, own);
   }

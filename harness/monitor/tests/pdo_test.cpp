@@ -78,9 +78,11 @@ TEST_CASE("A TPDO that was moved is judged with its new CAN-ID, where nobody els
 }
 
 TEST_CASE("A late EMCY on the CAN-ID that 1014h had is no TPDO that had it once, too") {
-  auto moved = [] { return Story().write(0x1800, 1, 0x6A0); };
-  const auto* message = "< 6A0: 00 00 00 00 00 00 00 00";
-  auto both = [&] { return moved().write(0x1014, 0, 0x6A0).write(0x1014, 0, 0x81); };
+  // The second has the node-ID of the device in its lower bits, as nobody else's has.
+  const auto [id, message] = GENERATE(table<std::uint32_t, const char*>(
+      {{0x6A0, "< 6A0: 00 00 00 00 00 00 00 00"}, {0x681, "< 681: 00 00 00 00 00 00 00 00"}}));
+  auto moved = [&id = id] { return Story().write(0x1800, 1, id); };
+  auto both = [&, &id = id] { return moved().write(0x1014, 0, id).write(0x1014, 0, 0x81); };
   CHECK(both().later(reset).line(boot_up).later(pre_operational).later(message).told().empty());
   CHECK(moved().later(reset).line(boot_up).later(pre_operational).later(message).told() ==
         Told{"fail PDO-TX-02"});
