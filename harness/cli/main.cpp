@@ -408,6 +408,12 @@ int dispatch(int argc, char** argv) {
           "Write how long each case takes and how many defects it finds first, by which `run --budget` chooses; "
           "as JSON")
       ->type_name("FILE");
+  selftest_sub
+      ->add_option(
+          "--budget", selftest.budget,
+          "Instead of the whole suite: how many of the defects `run --budget TIME` finds; below four of "
+          "five it ends with 1")
+      ->type_name("TIME");
   selftest_sub->add_flag("--whole", selftest.whole,
                          "Run the whole suite for every defect, to see with -v what else it spoils");
   selftest_sub->add_flag(

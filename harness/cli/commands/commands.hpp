@@ -274,6 +274,7 @@ struct SelftestCommand {
   std::string blame_page;           ///< file for docs/blame.md
   std::string worth;                ///< file for suites/patterns/worth.json
   std::string patterns;             ///< file for suites/patterns/reference-node.json
+  std::string budget;               ///< instead of the kill matrix: what a run of this time finds
   bool variants = false;            ///< legal variants instead of the defects: none may be failed
   bool full = false;                ///< the defects with blame, and legal variants and edits beside them
   bool edits = false;               ///< edits of every entry of the dictionary instead of the defects

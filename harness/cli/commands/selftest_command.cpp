@@ -8,9 +8,11 @@
 
 #include "base/files.hpp"
 #include "base/text.hpp"
+#include "base/time.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/pages/proof_page.hpp"
 #include "cli/pages/proof_words.hpp"
+#include "cli/proof/within_budget.hpp"
 #include "cli/proof/worth.hpp"
 #include "cli/run/terminal.hpp"
 #include "cli/suite_folder.hpp"
@@ -95,6 +97,20 @@ int patterns(const SelftestCommand& options, const Material& of) {
   return written ? 0 : report_error(written.error(), exit_environment);
 }
 
+int budget(const SelftestCommand& options, const Material& of, const std::string& root) {
+  const auto time = parse_duration(options.budget);
+  if (!time) return report_error({"'" + options.budget + "' is no time", {}, "--budget '60 s'"}, exit_usage);
+  const auto worths = load_worths(root);
+  if (!worths) return report_error(worths.error(), exit_usage);
+  const auto within = within_budget(of.profile, of.suites.suite, of.suites.catalogue, *worths, *time,
+                                    {.seed = options.seed, .only = options.defects, .jobs = options.jobs});
+  if (!within) return report_error(within.error(), exit_usage);
+  if (within->defects == 0)
+    return report_error({"no defect is named so", {}, "canopen-refnode --list-defects"}, exit_usage);
+  print(budget_words(*within, options.verbose));
+  return within->ok() ? 0 : 1;
+}
+
 Step defects(const SelftestCommand& options, const Material& of, Proof& proof) {
   const bool blame = options.blame || options.full;
   auto matrix = kill_matrix(of.profile, of.suites.suite, of.suites.catalogue,
@@ -170,6 +186,7 @@ int selftest_command(const SelftestCommand& options) {
   auto known = load_patterns(root->root);
   if (!known) return report_error(known.error(), exit_usage);
   const Material of{profile->profile, *suites, std::move(*known)};
+  if (!options.budget.empty()) return budget(options, of, root->root);
   const bool instead = options.variants || options.edits || options.mutants;
   if (!(options.patterns.empty() && options.worth.empty()) && !options.blame && !options.full && !instead)
     return patterns(options, of);
