@@ -10,24 +10,6 @@
 #include "defects/defect.hpp"
 
 namespace conform::cli {
-namespace {
-
-std::vector<std::string> chosen_ids(const std::vector<std::string>& only) {
-  std::vector<std::string> out;
-  for (const auto& row : refnode::defects()) {
-    if (only.empty() || std::ranges::find(only, row.id) != only.end()) out.emplace_back(row.id);
-  }
-  return out;
-}
-
-std::size_t complaints_of(const result::RunResult& run) {
-  return static_cast<std::size_t>(std::ranges::count_if(run.cases, [](const result::CaseResult& each) {
-    return each.verdict == result::Verdict::fail || each.verdict == result::Verdict::warn;
-  }));
-}
-
-}  // namespace
-
 Result<WithinBudget> within_budget(const device::Profile& profile, const scenario::Suite& suite,
                                    const scenario::Catalogue& catalogue, const result::Worths& worths,
                                    Duration budget, const KillOptions& options) {
@@ -37,20 +19,21 @@ Result<WithinBudget> within_budget(const device::Profile& profile, const scenari
     run.plan.worths = &worths;
     const auto done = simulate({defects}, profile, suite, catalogue, std::move(run), options.seed);
     if (!done) return std::unexpected(done.error());
-    return complaints_of(done->result);
+    const auto counts = done->result.counts();
+    return counts.fail + counts.warn;
   };
   WithinBudget out;
   out.budget = budget;
   const auto of_none = complaints({});
   if (!of_none) return std::unexpected(of_none.error());
   out.complaints = *of_none;
-  const auto ids = chosen_ids(options.only);
-  const auto of_each =
-      all_in_parallel(ids.size(), options.jobs, [&](std::size_t i) { return complaints({ids[i]}); });
+  const auto rows = chosen_rows(options.only);
+  const auto of_each = all_in_parallel(rows.size(), options.jobs,
+                                       [&](std::size_t i) { return complaints({std::string(rows[i]->id)}); });
   if (!of_each) return std::unexpected(of_each.error());
-  out.defects = ids.size();
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if ((*of_each)[i] == 0) out.missed.push_back(ids[i]);
+  out.defects = rows.size();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((*of_each)[i] == 0) out.missed.emplace_back(rows[i]->id);
   }
   return out;
 }

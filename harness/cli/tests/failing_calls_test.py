@@ -216,26 +216,26 @@ class FailingCalls(unittest.TestCase):
                     self.judge(done, what)
         print(f"{played} system calls failed, one at a time; {told} of the runs ended with an error of their own")
 
-    def test_a_pipe_that_does_not_close_keeps_nobody_waiting(self):
-        compiler = shutil.which("c++") or shutil.which("g++")
-        if compiler is None:
-            self.skipTest("no C++ compiler")
-        with open(self.path("stuck.cpp"), "w", encoding="ascii") as file:
-            file.write(STUCK_PIPE)
-        subprocess.run([compiler, "-shared", "-fPIC", "-o", self.path("stuck.so"), self.path("stuck.cpp")], check=True)
-        self.measure()
-        done = self.run_with(LD_PRELOAD=self.path("stuck.so"))
-        self.assertEqual(done.returncode, 0, done.stderr)
-
-    def test_each_allocation_may_fail(self):
+    def library_of(self, source):
+        """For LD_PRELOAD."""
         compiler = shutil.which("c++") or shutil.which("g++")
         if compiler is None:
             self.skipTest("no C++ compiler")
         with open(self.path("shim.cpp"), "w", encoding="ascii") as file:
-            file.write(SHIM)
+            file.write(source)
         subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", self.path("shim.so"), self.path("shim.cpp")], check=True)
+        return self.path("shim.so")
+
+    def test_a_pipe_that_does_not_close_keeps_nobody_waiting(self):
+        stuck = self.library_of(STUCK_PIPE)
         self.measure()
-        done = self.run_with(LD_PRELOAD=self.path("shim.so"), COUNT_TO=self.path("count"))
+        done = self.run_with(LD_PRELOAD=stuck)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_each_allocation_may_fail(self):
+        shim = self.library_of(SHIM)
+        self.measure()
+        done = self.run_with(LD_PRELOAD=shim, COUNT_TO=self.path("count"))
         if not os.path.exists(self.path("count")):
             self.skipTest("allocations cannot be counted here (a static program, or one with a sanitizer)")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -245,7 +245,7 @@ class FailingCalls(unittest.TestCase):
         for n in range(1, count + 1, max(1, EVERY * count // 4000)):
             what = f"allocation {n} of {count}"
             with self.subTest(what):
-                done = self.run_with(LD_PRELOAD=self.path("shim.so"), FAIL_AT=str(n))
+                done = self.run_with(LD_PRELOAD=shim, FAIL_AT=str(n))
                 played += 1
                 if "error while loading shared libraries" in done.stderr:
                     continue
