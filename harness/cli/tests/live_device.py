@@ -73,3 +73,12 @@ def verdicts(junit):
 def left_open_by_the_machine(done):
     """Nothing failed, but the machine that ran it was late, so nobody may judge some cases yet."""
     return done.returncode == 3 and "the machine was late" in done.stdout
+
+
+def until_judged(attempt):
+    """What `attempt` gives, a finished run, and again where the machine was late, which is rightly left open: three times at most."""
+    for _ in range(3):
+        done = attempt()
+        if not left_open_by_the_machine(done):
+            break
+    return done

@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 from live_bus import Shaped
-from live_device import FOLDER, INTERFACE, Node, command, folder_for, verdicts
+from live_device import FOLDER, INTERFACE, Node, command, folder_for, until_judged, verdicts
 
 WHOLE = os.environ.get("CONFORM_SLOW_BUS_WHOLE") == "1"
 CASES = ["cia301/sdo", "cia301/heartbeat", "cia301/pdo"] if WHOLE else [
@@ -89,8 +89,8 @@ class SlowBus(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def judge(self, *arguments, environment=None):
-        done = subprocess.run(command(*arguments, "--junit", self.path("junit.xml")), capture_output=True, text=True, timeout=900,
-                              env=environment)
+        done = until_judged(lambda: subprocess.run(command(*arguments, "--junit", self.path("junit.xml")), capture_output=True, text=True,
+                                                   timeout=900, env=environment))
         return done, verdicts(self.path("junit.xml"))
 
     def test_a_bus_of_125_kbit_changes_no_verdict(self):
