@@ -16,8 +16,9 @@ namespace conform::engine {
 namespace {
 
 /// A server that wrongly answers the abort does so within this time, and its answer is then no answer to what
-/// follows.
+/// follows: the longer one where answers were seen to take as long, the shorter one for a quick device.
 constexpr Duration after_conversation = std::chrono::milliseconds(20);
+constexpr Duration at_least_after_conversation = std::chrono::milliseconds(5);
 /// A device may take longer than anybody thought. The silence of an entry is not believed before this, until
 /// it has been seen twice (once it may have been a request that fell into the boot time).
 constexpr Duration longest_answer = std::chrono::seconds(3);
@@ -66,7 +67,9 @@ SdoChannel::SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Durati
   lines_[default_ids_];
 }
 
-Duration SdoChannel::rest() const { return std::max(after_conversation, 2 * latest_); }
+Duration SdoChannel::rest() const {
+  return std::max({at_least_after_conversation, 2 * latest_, std::min(after_conversation, 2 * slowest_)});
+}
 
 bool SdoChannel::is_patient(Multiplexer object) const {
   const auto before = mute_.find(object);

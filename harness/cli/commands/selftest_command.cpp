@@ -78,9 +78,10 @@ Result<void> write_patterns(const SelftestCommand& options, const Material& of,
       return written;
   }
   if (options.worth.empty()) return {};
-  const auto conformant = simulate({}, of.profile, of.suites.suite, of.suites.catalogue, {}, options.seed);
-  if (!conformant) return std::unexpected(conformant.error());
-  return write_file_atomically(options.worth, result::worth_file(worths_of(conformant->result, blames)));
+  const auto worths =
+      worths_in_their_order(of.profile, of.suites.suite, of.suites.catalogue, blames, options.seed);
+  if (!worths) return std::unexpected(worths.error());
+  return write_file_atomically(options.worth, result::worth_file(*worths));
 }
 
 /// suites/patterns, without the kill matrix.
