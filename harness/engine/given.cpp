@@ -2,6 +2,7 @@
 #include "engine/given.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "base/text.hpp"
@@ -135,10 +136,13 @@ Result<bool> Givens::stores(Multiplexer object, std::uint64_t size) {
 /// Scenarios that write: what the entry holds now does not matter.
 Result<std::optional<Multiplexer>> Givens::writable(const scenario::Query& query, const Candidates& all) {
   auto ranked = all;
-  // A DOMAIN has no longest value of its own; of the others the longest at present is the best guess.
+  // A DOMAIN has no longest value of its own: the one with the least in it is put back soonest, but an empty
+  // one perhaps never. Of the others the longest at present is the best guess.
   const auto rank = [this](const auto& one) {
     const auto* entry = session_.dictionary().find(one.first);
-    return std::pair(entry != nullptr && entry->type == canopen::DataType::domain, one.second);
+    const bool is_domain = entry != nullptr && entry->type == canopen::DataType::domain;
+    const auto held = one.second;
+    return std::tuple(is_domain, is_domain && held > 0, is_domain ? ~held : held);
   };
   std::ranges::stable_sort(ranked, std::greater{}, rank);
   for (const auto& [object, holds] : ranked) {

@@ -115,10 +115,10 @@ void PuttingBack::after_resets() {
   resets_looked_at_ = run_.session.resets();
   // Restored by a test, where what was found is said to be the default: it is to be so for the tests that
   // follow.
-  const bool restored = run_.session.take_restored();
-  if (!stores_by_itself_ && !restored) return;
+  const auto restored = run_.session.take_restored();
+  if (!stores_by_itself_ && restored.empty()) return;
   const StopHeld held(run_.recorder);
-  note_left(what_returned(restored ? Among::all : Among::written));
+  note_left(what_returned(restored));
 }
 
 void PuttingBack::after_fault(const std::function<Result<void>()>& clean_up, bool bus_is_back) {
@@ -195,22 +195,26 @@ std::vector<Change> PuttingBack::take_changes() {
 /// otherwise: the device changed it. What was written and is right behind a reset of the node is stored as it
 /// was, or not at all: no later reset brings another value, until it is written again. A long value takes its
 /// time to be read: that a restore changed one that nobody wrote would show at the end of the run.
-std::vector<std::string> PuttingBack::what_returned(Among among) {
+/// A restore is looked behind once: it changes the same values each time.
+std::vector<std::string> PuttingBack::what_returned(const std::set<SubIndex>& restored) {
+  const bool may_have_changed_any = !std::ranges::includes(looked_at_behind_, restored);
   std::vector<Change> returned;
   Deaf deaf;
   for (const auto& [object, before] : snapshot_) {
     const bool may_be_other =
-        written_.contains(object) || (among == Among::all && before.size() <= takes_long);
+        written_.contains(object) || (may_have_changed_any && before.size() <= takes_long);
     if (!may_be_other) continue;
     const auto found = run_.session.peek(object);
     if (!found || deaf.after(*found)) return {};
     if (!confirmed(*found)) continue;
     if (found->data != before) {
       returned.push_back({object, before});
+      written_.insert(object);
     } else if (run_.session.reset_was_of_node() && !run_.session.was_written_since_reset(object)) {
       written_.erase(object);
     }
   }
+  looked_at_behind_.insert(restored.begin(), restored.end());
   if (returned.empty()) return {};
   auto report = restore(run_.session, std::move(returned));
   // An environment that failed shows in the next step of the run.

@@ -2,7 +2,6 @@
 // The device is left as it was found: after each case, after a fault, and at the end; what is not is said.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <set>
@@ -40,8 +39,8 @@ class PuttingBack {
   [[nodiscard]] Result<void> end_life_guarding();
   [[nodiscard]] Result<bool> stores_by_itself();
   [[nodiscard]] std::vector<Change> take_changes();
-  enum class Among : std::uint8_t { written, all };
-  [[nodiscard]] std::vector<std::string> what_returned(Among among = Among::written);
+  /// `restored`: by these entries of 1011h, before the reset.
+  [[nodiscard]] std::vector<std::string> what_returned(const std::set<SubIndex>& restored = {});
   void note_left(const std::vector<std::string>& left);
   void leave_in_pre_operational();
 
@@ -50,6 +49,9 @@ class PuttingBack {
   std::vector<Change> pending_;  ///< what a bus that went away has kept from being put back
   /// By cases, since the value that it had before the run was last found right behind a reset of the node.
   std::set<Multiplexer> written_;
+  /// Entries of 1011h behind whose restore all values have been looked at: what they change that nobody wrote
+  /// is among the written ones since.
+  std::set<SubIndex> looked_at_behind_;
   std::set<std::string> left_;  ///< what the notes say of values that a reset brought back
   bool stores_by_itself_ = false;
   std::size_t resets_looked_at_ = 0;  ///< of session.resets(): what came back after them has been put right

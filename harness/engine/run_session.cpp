@@ -208,7 +208,8 @@ Result<std::vector<steps::SdoAnswer>> RunSession::transfer(const std::vector<ste
     }
     if (answer.kind == steps::SdoAnswer::Kind::silence) silence_seen_ = true;
     // A refused one shows in the case that tries it, and costs no look at the whole dictionary.
-    if (!request.upload && !refused && request.object.index == Index(0x1011)) restored_ = true;
+    if (!request.upload && !refused && request.object.index == Index(0x1011))
+      restored_.insert(request.object.sub);
   }
   return answers;
 }

@@ -146,8 +146,8 @@ class RunSession final : public steps::Session {
   [[nodiscard]] bool was_written_since_reset(Multiplexer object) const {
     return written_since_reset_.contains(object);
   }
-  /// Whether default parameters were restored (1011h, CiA 301, 7.5.2.14) since the last call.
-  [[nodiscard]] bool take_restored() { return std::exchange(restored_, false); }
+  /// Of which entries of 1011h default parameters were restored since the last call (CiA 301, 7.5.2.14).
+  [[nodiscard]] std::set<SubIndex> take_restored() { return std::exchange(restored_, {}); }
   [[nodiscard]] std::vector<Change> take_journal();
   [[nodiscard]] const std::vector<Change>& journal() const { return journal_; }
   /// Where the case begins in the capture.
@@ -246,7 +246,7 @@ class RunSession final : public steps::Session {
   std::size_t resets_ = 0;
   bool reset_was_of_node_ = false;
   std::set<Multiplexer> written_since_reset_;
-  bool restored_ = false;
+  std::set<SubIndex> restored_;
   bool left_changed_ = false;
   std::map<Multiplexer, Bytes> before_write_;
   LongValues long_values_;
