@@ -34,8 +34,9 @@ class Talker final : public can::Participant {
   std::optional<BusTime> due_;
 };
 
-/// A DOMAIN at 2001h:00 with segmented transfer, in front of the scripted device.
+/// A DOMAIN at 2001h:00, or another of 20xxh, with segmented transfer, in front of the scripted device.
 struct Buffer {
+  std::uint8_t low_byte_of_index = 0x01;
   std::vector<std::uint8_t> content;
   std::size_t capacity = 64;
   std::size_t window = 0;  ///< not 0: reads back so many bytes, whatever was written
@@ -50,6 +51,7 @@ struct Buffer {
       return true;
     };
     const auto command = request.data[0];
+    if (command == 0x80) reading_ = writing_ = false;
     if ((command & 0xE0U) == 0x60 && reading_) {
       const auto n = std::min<std::size_t>(7, content.size() - at_);
       std::copy_n(content.begin() + static_cast<std::ptrdiff_t>(at_), n, answer.data.begin() + 1);
@@ -65,7 +67,7 @@ struct Buffer {
       answer.data[0] = static_cast<std::uint8_t>(0x20U | (command & 0x10U));
       return reply();
     }
-    if (request.data[1] != 0x01 || request.data[2] != 0x20 || request.data[3] != 0) return false;
+    if (request.data[1] != low_byte_of_index || request.data[2] != 0x20 || request.data[3] != 0) return false;
     std::copy_n(request.data.begin() + 1, 3, answer.data.begin() + 1);
     if (command == 0x40) {
       reading_ = true;
@@ -106,21 +108,28 @@ struct Buffer {
   std::vector<std::uint8_t> incoming_;
 };
 
-Outcome play_with(Buffer& buffer, const std::string& scenarios, const RunOptions& options = {}) {
+/// A device with these buffers.
+Outcome play_with(const std::vector<Buffer*>& buffers, const std::string& scenarios,
+                  const RunOptions& options = {}) {
   can::SimulatedBus bus;
   ScriptedDevice device;
-  device.before = [&buffer](ScriptedDevice& self, const can::Frame& frame, BusTime) {
-    return buffer.serve(self, frame);
+  device.before = [&](ScriptedDevice& self, const can::Frame& frame, BusTime) {
+    return std::ranges::any_of(buffers, [&](Buffer* buffer) { return buffer->serve(self, frame); });
   };
   auto profile = device::default_profile(NodeId(1));
-  device::Entry entry;
-  entry.mux = {Index(0x2001), SubIndex(0)};
-  entry.name = "Buffer";
-  entry.type = canopen::DataType::domain;
-  entry.claimed = true;
-  profile.objects.push_back(entry);
-  profile.safe_objects.push_back(entry.mux);
+  for (const auto* buffer : buffers) {
+    device::Entry entry;
+    entry.mux = {Index(0x2000U + buffer->low_byte_of_index), SubIndex(0)};
+    entry.name = "Buffer";
+    entry.type = canopen::DataType::domain;
+    entry.claimed = true;
+    profile.objects.push_back(entry);
+    profile.safe_objects.push_back(entry.mux);
+  }
   return play(bus, device, scenarios, options, profile);
+}
+Outcome play_with(Buffer& buffer, const std::string& scenarios, const RunOptions& options = {}) {
+  return play_with(std::vector<Buffer*>{&buffer}, scenarios, options);
 }
 
 std::string scenario_with(const std::string& given, const std::string& risk = "config") {
@@ -189,6 +198,19 @@ TEST_CASE("How many bytes an entry takes is found out by writing them, and what 
   CHECK(outcome.only().verdict == Verdict::pass);
   CHECK(empty.written == std::vector<std::size_t>{29, 0});
   CHECK(empty.content.empty());
+}
+
+TEST_CASE("Of several DOMAINs that with the least in it is filled, and an empty one last") {
+  Buffer empty, large, small;
+  empty.low_byte_of_index = 0x02;
+  large.low_byte_of_index = 0x03;
+  large.content.assign(90, 0x43);
+  small.content.assign(9, 0x44);
+  const auto outcome = play_with({&empty, &large, &small}, scenario_with(writes));
+  CHECK(outcome.only().verdict == Verdict::pass);
+  CHECK(small.written == std::vector<std::size_t>{29, 9});
+  CHECK(large.written.empty());
+  CHECK(empty.written.empty());
 }
 
 TEST_CASE("An empty entry is filled for a scenario that reads, where the run may write") {

@@ -86,3 +86,42 @@ TEST_CASE("behind a case that leaves the device in Stopped nothing is asked ther
   CHECK(out.only().verdict == Verdict::pass);
   CHECK(asked_in_vain == 0);
 }
+
+TEST_CASE("what a restore does to values that nobody wrote is looked at once for each kind of restore") {
+  ScriptedDevice device;
+  device.entries[0x101100] = {2};
+  device.entries[0x101101] = {1, 0, 0, 0};
+  device.entries[0x101102] = {1, 0, 0, 0};
+  device.entries[0x100600] = {0, 0, 0, 0};
+  std::vector<int> looks;  // at 1006h:00, since each reset
+  device.on_reset = [&](ScriptedDevice& self) {
+    looks.push_back(0);
+    // Changes what nobody wrote, each time anew.
+    if (self.entries[0x101101][0] != 1) self.entries[0x101400] = {0x80, 0, 0, 0};
+    self.entries[0x101101] = self.entries[0x101102] = {1, 0, 0, 0};
+  };
+  device.before = [&](ScriptedDevice&, const can::Frame& frame, BusTime) {
+    const bool looked = frame.data[0] == 0x40 && frame.data[1] == 0x06 && frame.data[2] == 0x10;
+    if (looked && !looks.empty()) ++looks.back();
+    return false;
+  };
+  const auto restore = [](const std::string& id, const std::string& sub) {
+    return "  - id: " + id +
+           "\n    title: t\n    risk: nvm\n    steps:\n      - download: {object: 1011h:" + sub +
+           ", value: 6461 6F6Ch}\n        checks: T-MUST\n      - reset: node\n";
+  };
+  const auto out = play(device, restore("a", "01") + restore("b", "01") + restore("c", "02") + R"(
+  - id: d
+    title: t
+    risk: nvm
+    steps:
+      - upload: {object: 1014h:00}
+        checks: T-MUST
+        expect: {value: 81h}
+)");
+  for (const auto& each : out.run.cases) CHECK(each.verdict == Verdict::pass);
+  REQUIRE(looks.size() == 3);
+  CHECK(looks[0] == 1);
+  CHECK(looks[1] == 0);
+  CHECK(looks[2] > 0);  // and once more at the end of the run
+}
