@@ -232,7 +232,7 @@ class Writer {
 bool judges(std::string_view steps) { return steps.contains("\n        checks: "); }
 
 std::string commented(std::string_view lines, std::string_view why) {
-  std::string out = fmt::format("  # {}: it is to be given a step with 'checks: ID'.\n", why);
+  std::string out = fmt::format("  # {}.\n", why);
   for (const auto line : split(lines, '\n')) {
     if (!line.empty()) out += fmt::format("  # {}\n", line.substr(2));
   }
@@ -285,16 +285,19 @@ std::string scenario_file(std::span<const Finding> findings, const Vocabulary& w
   for (const auto& finding : findings) {
     const auto came = came_text(finding, words), due = due_text(finding, words);
     const auto title = due.empty() ? came : fmt::format("{} instead of {}", came, due);
-    if (number < remarks.size() && !remarks[number].empty()) out += fmt::format("  # {}\n", remarks[number]);
+    const std::string remark = number < remarks.size() ? remarks[number] : std::string();
     auto scenario = fmt::format("  - id: finding-{}\n    title: {}\n    risk: motion\n    steps:\n", ++number,
                                 quoted(printable(title)));
     scenario += Writer(finding, words).steps();
     // Who does not judge is no scenario.
-    if (judges(scenario))
-      out += scenario;
+    if (!judges(scenario))
+      out += commented(scenario, fmt::format("{}: it is to be given a step with 'checks: ID'",
+                                             finding.assigned ? "No step can ask for this one"
+                                                              : "No rule is known for this one"));
+    else if (!remark.empty())
+      out += commented(scenario, remark);
     else
-      out += commented(scenario,
-                       finding.assigned ? "No step can ask for this one" : "No rule is known for this one");
+      out += scenario;
   }
   return out;
 }

@@ -13,7 +13,7 @@ namespace conform::explore {
 [[nodiscard]] bool becomes_scenario(const Finding& finding, const Vocabulary& words);
 
 /// A file of scenarios, one for each finding, "finding-1" on. What does not become one stands there as a
-/// comment. `remarks`: a comment before each, where it is not empty.
+/// comment. `remarks`: why each is a comment, too, where it is not empty.
 [[nodiscard]] std::string scenario_file(std::span<const Finding> findings, const Vocabulary& words,
                                         std::string_view how, std::span<const std::string> remarks = {});
 

@@ -26,6 +26,7 @@
 #include "cli/suite_folder.hpp"
 #include "explore/corpus.hpp"
 #include "explore/scenario_text.hpp"
+#include "variants/variant.hpp"
 
 namespace conform::cli {
 namespace {
@@ -185,15 +186,22 @@ Result<std::size_t> keep(const std::string& folder, const explore::SearchResult&
   return *first + *others;
 }
 
-/// What was found in simulation is played once more there.
+/// What was found in simulation is played there again, also with a right device: the same with what was
+/// learnt.
 Result<void> write(const ExploreCommand& options, const explore::SearchResult& result,
                    const explore::Vocabulary& words, const device::Profile& profile,
                    const NodeSwitches& switches, const scenario::Catalogue& catalogue) {
   const auto how = again(options, result.actions);
   if (!options.simulate)
     return write_file_atomically(options.write, explore::scenario_file(result.findings, words, how));
+  auto right = switches;
+  right.defects.clear();
+  for (const auto& id : result.chosen) {
+    const bool is_new = std::ranges::find(right.variants, id) == right.variants.end();
+    if (is_new && refnode::find_variant(id) != nullptr) right.variants.push_back(id);
+  }
   const auto written =
-      write_findings(options.write, result.findings, words, how, switches, profile, catalogue);
+      write_findings(options.write, result.findings, words, how, switches, right, profile, catalogue);
   if (!written) return std::unexpected(written.error());
   print(fmt::format("{}: {}\n", options.write, written->text()));
   return {};

@@ -11,8 +11,12 @@ import unittest
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 
 
+def conform(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300)
+
+
 def explore(*arguments):
-    return subprocess.run([PROGRAM, "explore", *arguments], capture_output=True, text=True, timeout=300)
+    return conform("explore", *arguments)
 
 
 class Explore(unittest.TestCase):
@@ -74,13 +78,22 @@ class Explore(unittest.TestCase):
         self.ended(done, 2)
         self.assertIn("this program has no mutants", done.stderr)
 
-    def test_written_findings_are_played_once(self):
+    def test_written_findings_are_played_ten_times(self):
         path = os.path.join(self.folder, "found.yaml")
         out = self.ended(explore("--simulate", "-q", "--defect", "sdo-served-in-stopped", "--actions", "5000", "--findings",
                                  "1", "--write", path), 1)
-        self.assertIn("found.yaml: 1 scenario, of which 1 shows it again", out)
+        self.assertIn("found.yaml: 1 scenario that shows it 10 of 10 times\n", out)
+
+    def test_what_a_right_device_fails_too_is_written_as_a_comment(self):
+        path = os.path.join(self.folder, "found.yaml")
+        # Among what is found: a TIME whose bytes are those of that moment.
+        out = self.ended(explore("--simulate", "-q", "--defect", "time-without-producer-bit", "--actions", "20000", "--write", path), 1)
+        self.assertRegex(out, r"in comments .*1 that a right device fails, too")
         with open(path, encoding="utf-8") as file:
-            self.assertNotIn("did not show", file.read())
+            text = file.read()
+        self.assertRegex(text, r"  # A right device fails this one, too: .*\n  # - id: finding-")
+        done = conform("run", "--simulate", "--suites", self.folder, "-q", "found*")
+        self.ended(done, 0)
 
 
 if __name__ == "__main__":
