@@ -33,10 +33,10 @@ RunSession::RunSession(Recorder& recorder, const device::Profile& profile, devic
     return known != nullptr ? known->size() : std::nullopt;
   });
   // Also what is put back behind a case tells where emergency messages are to be looked for.
-  channel_.set_on_value([this](Multiplexer object, const Bytes& value, bool written) {
-    if (written) written_since_reset_.insert(object);
-    watch_emcy(object, value);
-    long_values_.note(object, value);
+  channel_.set_on_value([this](const SdoChannel::Told& told) {
+    if (told.written) written_since_reset_.insert(told.object);
+    if (!told.under_another_node_id) watch_emcy(told.object, told.value);
+    long_values_.note(told.object, told.value);
   });
 }
 

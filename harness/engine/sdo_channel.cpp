@@ -67,6 +67,12 @@ SdoChannel::SdoChannel(Recorder& recorder, NodeId node, Duration timeout, Durati
   lines_[default_ids_];
 }
 
+bool SdoChannel::is_default_of_another(const steps::SdoChannelIds& ids) const {
+  const auto node = ids.request.value() - 0x600U;
+  if (node < 1 || node > 127 || ids == default_ids_) return false;
+  return ids.response == canopen::connection_set(NodeId(static_cast<std::uint8_t>(node))).sdo_response;
+}
+
 Duration SdoChannel::rest() const {
   return std::max({at_least_after_conversation, 2 * latest_, std::min(after_conversation, 2 * slowest_)});
 }
@@ -246,7 +252,8 @@ Result<std::vector<steps::SdoAnswer>> SdoChannel::run(std::span<const steps::Sdo
     const auto& request = jobs[i].request;
     if (request.upload && !out.back().size_indicated) trim(request.object, out.back().data);
     if (on_value_ && out.back().kind == steps::SdoAnswer::Kind::confirmed)
-      on_value_(request.object, request.upload ? out.back().data : request.data, !request.upload);
+      on_value_({request.object, request.upload ? out.back().data : request.data, !request.upload,
+                 is_default_of_another({runs[i].request, runs[i].response})});
   }
   first_request_ = recorder_.capture().size();
   for (const auto& run : runs) {

@@ -83,8 +83,16 @@ class SdoChannel {
   using KnownSize = std::function<std::optional<std::size_t>(Multiplexer)>;
   void set_known_size(KnownSize known_size) { known_size_ = std::move(known_size); }
 
+  struct Told {
+    Multiplexer object;
+    const Bytes& value;
+    bool written = false;
+    /// On the default channel of another node-ID, which the device has for a while (CiA 305): what follows
+    /// from the node-ID is another value there.
+    bool under_another_node_id = false;
+  };
   /// Told of the value of an entry whenever an upload brought it or a download was confirmed, whoever asked.
-  using OnValue = std::function<void(Multiplexer object, const Bytes& value, bool written)>;
+  using OnValue = std::function<void(const Told& told)>;
   void set_on_value(OnValue on_value) { on_value_ = std::move(on_value); }
 
  private:
@@ -115,6 +123,7 @@ class SdoChannel {
   /// The abort of a transfer of this entry; the index of its frame.
   [[nodiscard]] Result<std::size_t> give_up(CanId request, Multiplexer object);
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
+  [[nodiscard]] bool is_default_of_another(const steps::SdoChannelIds& ids) const;
   [[nodiscard]] Duration rest() const;
   [[nodiscard]] bool is_patient(Multiplexer object) const;
   void waited_in_vain(Multiplexer object, Duration time);

@@ -476,3 +476,33 @@ TEST_CASE("an upload that would take a day is given up and judges nothing") {
   // Looked at twice before the case begins.
   CHECK(out.run.elapsed < std::chrono::minutes(10));
 }
+
+TEST_CASE("what a device has under another node-ID for a while is not where its EMCY is looked for later") {
+  /// Has node-ID 7Dh for one request, and tells of an error with every write to its heartbeat time.
+  class Moved final : public ScriptedDevice {
+   public:
+    void on_frame(const can::Frame& frame, BusTime now) override {
+      if (frame.is_data(CanId(0x67D)))
+        send(can::data_frame(CanId(0x5FD), {0x43, 0x14, 0x10, 0x00, 0xFD, 0x00, 0x00, 0x00}));
+      if (frame.is_data(CanId(0x601)) && frame.data[0] == 0x2B)
+        send(can::data_frame(CanId(0x081), {0x00, 0x10, 0x01, 0, 0, 0, 0, 0}));
+      ScriptedDevice::on_frame(frame, now);
+    }
+  } device;
+  const auto out = play(device, R"(
+  - id: a
+    title: t
+    risk: motion
+    steps:
+      - upload: {object: 1014h:00, channel: {request: 67Dh, response: 5FDh}}
+        checks: T-OTHER
+        expect: {value: FDh}
+      - upload: {object: 1000h:00}
+      - download: {object: 1017h:00, value: 0}
+        as: written
+      - frame: {id: emcy error, within: 100 ms, after: written}
+        checks: T-MUST
+        expect: ok
+)");
+  CHECK(out.only().verdict == Verdict::pass);
+}
