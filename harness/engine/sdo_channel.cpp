@@ -10,15 +10,17 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 namespace conform::engine {
 namespace {
 
 /// A server that wrongly answers the abort does so within this time, and its answer is then no answer to what
-/// follows: the longer one where answers were seen to take as long, the shorter one for a quick device.
+/// follows.
 constexpr Duration after_conversation = std::chrono::milliseconds(20);
-constexpr Duration at_least_after_conversation = std::chrono::milliseconds(5);
+/// ... of a device that answers quickly and owes no answer: nothing but such a mistake can come.
+constexpr Duration after_answer = std::chrono::milliseconds(5);
 /// A device may take longer than anybody thought. The silence of an entry is not believed before this, until
 /// it has been seen twice (once it may have been a request that fell into the boot time).
 constexpr Duration longest_answer = std::chrono::seconds(3);
@@ -73,8 +75,23 @@ bool SdoChannel::is_default_of_another(const steps::SdoChannelIds& ids) const {
   return ids.response == canopen::connection_set(NodeId(static_cast<std::uint8_t>(node))).sdo_response;
 }
 
-Duration SdoChannel::rest() const {
-  return std::max({at_least_after_conversation, 2 * latest_, std::min(after_conversation, 2 * slowest_)});
+Duration SdoChannel::rest(const steps::SdoChannelIds& ids) const {
+  const auto least =
+      owes_nothing(ids) ? std::clamp(2 * slowest_, after_answer, after_conversation) : after_conversation;
+  return std::max(least, 2 * latest_);
+}
+
+/// What came last, but for aborts of the client, was an answer, and none that may be of a transfer which the
+/// server gave up by itself: then the answer to the request that crossed it is still to come.
+bool SdoChannel::owes_nothing(const steps::SdoChannelIds& ids) const {
+  constexpr std::uint8_t abort = 0x80;
+  const auto is_answer = is_response(ids.response);
+  for (const auto& captured : recorder_.capture().frames() | std::views::reverse) {
+    const bool aborts = captured.frame.size() > 0 && captured.frame.data[0] == abort;
+    if (is_answer(captured)) return !aborts;
+    if (captured.frame.is_data(ids.request) && !aborts) return false;
+  }
+  return true;
 }
 
 bool SdoChannel::is_patient(Multiplexer object) const {
@@ -90,8 +107,9 @@ void SdoChannel::waited_in_vain(Multiplexer object, Duration time) {
 
 Result<void> SdoChannel::rest_after_abort() {
   const auto aborted_at = std::exchange(aborted_at_, std::nullopt);
-  if (!aborted_at || recorder_.now() >= *aborted_at + rest()) return {};
-  return recorder_.wait_until(*aborted_at + rest());
+  if (!aborted_at) return {};
+  const auto until = *aborted_at + rest(default_ids_);
+  return recorder_.now() >= until ? Result<void>() : recorder_.wait_until(until);
 }
 
 void SdoChannel::dirty(Line& line, bool late_answers) {
@@ -157,12 +175,12 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
   aborted_at_.reset();
   const auto begin = line.asked_at;
   const auto from = *sent;
-  auto waited = recorder_.wait_until(recorder_.now() + (late ? quiet() : rest()));
+  auto waited = recorder_.wait_until(recorder_.now() + (late ? quiet() : rest(ids)));
   // A slow server may have begun a transfer only now.
   const auto begun = waited && late ? confirmed_last(ids.response, by_hand, from) : std::nullopt;
   if (begun) {
     if (auto ended = give_up(ids.request, *begun); !ended) return std::unexpected(ended.error());
-    waited = recorder_.wait_until(recorder_.now() + rest());
+    waited = recorder_.wait_until(recorder_.now() + rest(ids));
   }
   if (!waited || !late || !line.stale) return waited;
   // What comes now says how long to wait next time.

@@ -124,7 +124,9 @@ class SdoChannel {
   [[nodiscard]] Result<std::size_t> give_up(CanId request, Multiplexer object);
   [[nodiscard]] Result<void> make_idle(const steps::SdoChannelIds& ids, Line& line);
   [[nodiscard]] bool is_default_of_another(const steps::SdoChannelIds& ids) const;
-  [[nodiscard]] Duration rest() const;
+  /// Behind an abort on this channel, before the next request.
+  [[nodiscard]] Duration rest(const steps::SdoChannelIds& ids) const;
+  [[nodiscard]] bool owes_nothing(const steps::SdoChannelIds& ids) const;
   [[nodiscard]] bool is_patient(Multiplexer object) const;
   void waited_in_vain(Multiplexer object, Duration time);
   /// The answer to one frame on the default channel; nullopt: silence. What remains of it is ended.
