@@ -44,7 +44,12 @@ bool TransmitPdo::enabled() const {
 }
 
 bool TransmitPdo::timed() const {
-  return terms_->rules.has_event_timer(parameters_) && parameters_.event_timer() > Duration::zero();
+  const bool has_one = terms_->rules.has_event_timer(parameters_) || timer_waits_for_sync();
+  return has_one && parameters_.event_timer() > Duration::zero();
+}
+
+bool TransmitPdo::timer_waits_for_sync() const {
+  return terms_->choices.timer_is_event && parameters_.transmission_type() == 0;
 }
 
 Bytes TransmitPdo::content() const {
@@ -162,7 +167,7 @@ void TransmitPdo::on_time() {
   if (!timer_ || device_->now < *timer_) return;
   timer_.reset();
   if (!timed() || !enabled()) return;
-  if (held_back(TransmitCause::timer)) {
+  if (timer_waits_for_sync() || held_back(TransmitCause::timer)) {
     event_ = true;
   } else {
     transmit(content());

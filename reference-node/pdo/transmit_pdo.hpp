@@ -21,6 +21,7 @@ struct TransmitPdoChoices {
   bool sends_in_the_middle = false;  ///< type n sends at SYNC n / 2 + 1 first
   bool timer_goes_on = false;        ///< a new event time counts from the last TPDO
   bool write_is_event = false;       ///< of what is mapped, also where the value is the same
+  bool timer_is_event = false;       ///< of type 00h: sent with the SYNC behind the end of its event timer
 };
 
 /// What lets a TPDO be sent by itself.
@@ -82,6 +83,7 @@ class TransmitPdo {
   [[nodiscard]] bool event_driven() const { return terms_->rules.sent_with_event(parameters_); }
   [[nodiscard]] bool held_back(TransmitCause cause) const;
   [[nodiscard]] bool timed() const;
+  [[nodiscard]] bool timer_waits_for_sync() const;
   [[nodiscard]] bool enabled() const;
   void transmit(const Bytes& due);
   void start_event_timer();
