@@ -19,6 +19,8 @@ namespace {
 constexpr std::uint32_t request_id = 0x7E5;
 constexpr std::uint8_t switch_state_global = 0x04;
 constexpr std::uint8_t selective_vendor = 0x40;
+constexpr std::uint8_t selective_serial = 0x43;
+constexpr std::uint8_t selective_answer = 0x44;
 constexpr std::uint8_t identify_vendor = 0x46;
 constexpr std::uint8_t identify_serial_high = 0x4B;
 constexpr std::uint8_t fastscan = 0x51;
@@ -65,6 +67,26 @@ Change keeps_the_address() {
           frames = {*kept[0], *kept[1], *kept[2], frame};
         });
   };
+}
+
+/// A slave in the configuration state takes each serial number for its own.
+void answers_any_serial_in_configuration(Parts& parts) {
+  const auto configuration = std::make_shared<bool>(false);
+  parts.device.outbox.add_filter(
+      [configuration](const FilterContext& context, const std::vector<Outgoing>& frames) {
+        if (context.service == Service::boot_up) *configuration = false;
+        const bool answers = context.service == Service::lss && !frames.empty();
+        if (answers && frames.front().frame.data[0] == selective_answer) *configuration = true;
+      });
+  parts.device.inbox.add_filter([configuration, &parts](std::vector<Frame>& frames) {
+    if (frames.size() != 1 || !is_request(frames[0])) return;
+    const auto& data = frames[0].data;
+    if (data[0] == switch_state_global) *configuration = data[1] == 1;
+    if (!*configuration || data[0] != selective_serial) return;
+    parts.device.send(Service::lss, conform::can::data_frame(conform::CanId(0x7E4),
+                                                             {selective_answer, 0, 0, 0, 0, 0, 0, 0}));
+    frames.clear();
+  });
 }
 
 /// A scan that begins behind one that was given up waits for the part that was due there.
@@ -180,6 +202,10 @@ DefectTable lss_sequence_defects() {
        "The first three parts of an LSS address stay, and the fourth one alone is answered",
        {"LSS-SS-03", "LSS-SS-04"},
        keeps_the_address()},
+      {"lss-selective-answered-in-configuration",
+       "In the configuration state every serial number of switch state selective is answered",
+       {"LSS-SS-02"},
+       Change(answers_any_serial_in_configuration)},
       {"lss-fastscan-goes-on",
        "A fastscan that begins behind one that was given up goes on with that",
        {"LSS-FS-03"},
