@@ -138,7 +138,7 @@ TEST_CASE("a device that does not come back is reset once more and waited for") 
                        "        checks: NMT-BOOT-02\n"));
 }
 
-TEST_CASE("a scenario that does not show what was found says so") {
+TEST_CASE("a scenario that does not show what was found is a comment, with the reason") {
   Finding finding;
   finding.conversation = {upload({Index(0x1000), SubIndex(0)})};
   auto& difference = finding.played.difference.emplace();
@@ -146,10 +146,10 @@ TEST_CASE("a scenario that does not show what was found says so") {
   difference.model.kind = Answer::Kind::confirmed;
   finding.assigned = Assigned{"SDO-GEN-01", Grade::violated};
   const std::vector<Finding> two{finding, finding};
-  const std::vector<std::string> remarks{"", "It shows nothing."};
+  const std::vector<std::string> remarks{"", "It shows nothing"};
   const auto text = scenario_file(two, words_of_the_standard(), "x", remarks);
   CHECK(text.find("scenarios:\n  - id: finding-1\n") != std::string::npos);
-  CHECK(text.find("  # It shows nothing.\n  - id: finding-2\n") != std::string::npos);
+  CHECK(text.find("  # It shows nothing.\n  # - id: finding-2\n") != std::string::npos);
 }
 
 TEST_CASE("a finding of a monitor names its rule, and one without a rule is a comment") {
