@@ -75,8 +75,8 @@ bool LastingErrors::has_raised_errors(std::size_t from) const {
 /// A device that takes its time with EMCYs has not sent all of those yet that the case has brought about.
 Result<void> LastingErrors::await_late_ones(std::size_t from) {
   constexpr auto patience = std::chrono::milliseconds(150);
-  // One that was late once is waited for longer: some errors are told by no message, however long one waits.
-  const int most_in_vain = was_late_ ? 20 : 3;
+  // Some errors are told by no message, however long one waits.
+  constexpr int most_in_vain = 20;
   auto& session = run_.session;
   const auto is_emcy = [&session](const can::CapturedFrame& captured) { return session.was_emcy(captured); };
   const auto& frames = run_.recorder.capture().frames();
@@ -86,10 +86,13 @@ Result<void> LastingErrors::await_late_ones(std::size_t from) {
     return {};
   auto seen = static_cast<std::size_t>(std::count_if(begin, frames.end(), is_emcy));
   for (; seen < session.emcys_due(); ++seen) {
-    auto told = run_.recorder.find(frames.size(), is_emcy, session.now() + patience);
+    // It may have to keep its distance from the one before, which may be of an earlier case.
+    const auto inhibit = session.longest_emcy_inhibit();
+    const auto latest = inhibit > Duration::zero() ? session.latest_emcy(0) : std::nullopt;
+    const auto may_leave = latest ? std::max(session.now(), *latest + inhibit) : session.now();
+    auto told = run_.recorder.find(frames.size(), is_emcy, may_leave + patience);
     if (!told) return std::unexpected(told.error());
     late_in_vain_ = *told ? 0 : late_in_vain_ + 1;
-    was_late_ = was_late_ || *told;
     if (!*told) return {};
   }
   return {};

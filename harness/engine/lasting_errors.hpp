@@ -33,7 +33,6 @@ class LastingErrors {
   RunContext& run_;
   bool none_at_first_ = false;  ///< 1001h was 0 before the first case, and a reset makes it 0 again
   bool has_messages_ = true;    ///< EMCY is there and valid (1014h)
-  bool was_late_ = false;       ///< an EMCY came behind its case
   int late_in_vain_ = 0;        ///< waits for EMCYs that triggers of the case were to bring
   int in_vain_ = 0;             ///< waits for an EMCY 0000h that did not come: the device sends none
 };

@@ -251,6 +251,7 @@ int explore_command(const ExploreCommand& options) {
 
   explore::SearchResult result;
   NodeSwitches switches;
+  std::size_t conversations_read = 0;
   int code = 0;
   if (live) {
     auto found =
@@ -275,6 +276,7 @@ int explore_command(const ExploreCommand& options) {
     if (!options.corpus.empty()) {
       auto corpus = explore::read_corpus(options.corpus, words.node);
       if (!corpus) return report_error(corpus.error(), exit_usage);
+      conversations_read = corpus->size();
       search.corpus = std::move(*corpus);
       search.guided = guided_by_corpus;
     }
@@ -288,7 +290,7 @@ int explore_command(const ExploreCommand& options) {
     const auto added = keep(options.corpus, result, words.node);
     if (!added) return report_error(added.error(), exit_environment);
     print(fmt::format("{}: {} conversations read, {} added; {} states reached\n", options.corpus,
-                      search.corpus.size(), *added, result.states));
+                      conversations_read, *added, result.states));
   }
   if (!options.write.empty() && !result.findings.empty()) {
     if (auto written = write(options, result, words, known->profile, switches, suites->catalogue); !written)

@@ -281,3 +281,47 @@ TEST_CASE("a device with a node-ID that LSS gave it is nobody else, and who was 
     CHECK(others.heard(capture).has_value());
   }
 }
+
+TEST_CASE(
+    "EMCYs that come late behind a long inhibit time come before the next case, also where some errors have none") {
+  ScriptedDevice device;
+  device.entries[0x200000] = {0};
+  device.entries[0x101500] = {0xE8, 0x03};  // 100 ms
+  BusTime due{};
+  device.before = [&due](ScriptedDevice& self, const can::Frame& frame, BusTime now) {
+    // Each write of 2 is an error with a message, 50 ms late, and 100 ms behind the one before.
+    if (frame.data[0] != 0x2F || frame.data[2] != 0x20 || frame.data[4] != 2) return false;
+    due = std::max(now + 50ms, due + 100ms);
+    self.send_at(due, some_emcy);
+    return false;
+  };
+  auto profile = device::default_profile(NodeId(1));
+  profile.errors.resize(2);
+  for (const std::size_t i : {0U, 1U}) {
+    device::TriggerWrite raise, clear;
+    raise.object = clear.object = {Index(0x2000), SubIndex(0)};
+    raise.bytes = {static_cast<std::uint8_t>(i + 1)};
+    clear.bytes = {0};
+    profile.errors[i].code = static_cast<std::uint16_t>(0x1000 + i);
+    profile.errors[i].raise = raise;
+    profile.errors[i].clear = clear;
+    profile.errors[i].heartbeat_node.reset();
+  }
+  std::string cases;
+  for (const std::string trigger : {"1", "1", "1", "1", "2"}) {
+    cases += "  - id: a" + std::to_string(cases.size()) + "\n    title: t\n    risk: config\n    steps:\n" +
+             "      - raise_error: " + trigger + "\n      - clear_error: " + trigger +
+             "\n      - upload: {object: 1000h:00}\n        checks: T-OTHER\n";
+  }
+  can::SimulatedBus bus;
+  const auto out = play(bus, device, cases + R"(
+  - id: last
+    title: t
+    risk: config
+    steps:
+      - silence: {of: emcy, for: 300 ms}
+        checks: T-MUST
+)",
+                        {}, profile);
+  CHECK(out.verdict_of("T-MUST", 5) == Verdict::pass);
+}
