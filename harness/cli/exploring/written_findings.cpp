@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/files.hpp"
+#include "base/text.hpp"
 #include "explore/scenario_text.hpp"
 #include "scenario/loader.hpp"
 
