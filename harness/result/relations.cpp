@@ -126,9 +126,6 @@ constexpr auto ground_table = std::to_array<Ground>({
     // What a service shows of itself behind a reset, or beside LSS, rests on the service.
     {"OD-RST-04", "PDO-TX-01 PDO-TX-05 PDO-TX-06 PDO-TX-08"},
     {"LSS-GEN-04", "PDO-RX-01 PDO-TX-01"},
-    {"PDO-MAP-22", "PDO-RX-01"},
-    {"PDO-TX-26", "SDO-UPL-02"},
-    {"OD-1001-05", "EC-HBC-03 EC-HBC-07 EC-HBC-09 EC-HBC-13"},
     // NMT, boot-up, error control.
     {"NMT-BOOT-02 NMT-BOOT-03", "NMT-BOOT-04"},
     {"NMT-BOOT-02", "NMT-FSA-07 NMT-FSA-08 NMT-FSA-09 NMT-FSA-10 NMT-FSA-11 NMT-FSA-12"},
@@ -191,6 +188,7 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"LSS-INQ-* LSS-CN-* LSS-BT-* LSS-ST-* LSS-ID-* LSS-FS-* LSS-GEN-*", "LSS-SS-01"},
     {"LSS-SS-04 LSS-SS-02", "LSS-SS-03"},
     // EMCY and errors.
+    {"OD-1001-05", "EC-HBC-03 EC-HBC-07 EC-HBC-09 EC-HBC-13"},
     {"EC-HBC-07", "EC-HBC-09"},
     {"EC-HBC-03 EC-HBC-09 EC-HBC-13", "EMCY-FMT-01 EMCY-FMT-02"},
     {"EMCY-FMT-01 EMCY-INH-02 EMCY-SEQ-01", "EMCY-NMT-02"},
@@ -211,7 +209,8 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"NMT-FSA-25 NMT-FSA-24", "OD-1010-10 OD-1011-10"},
     {"OD-1010-1* OD-1010-2* OD-1011-08 OD-1011-09 OD-1011-1* OD-RST-04 OD-1020-05 STO-*", "OD-1017-03"},
     // PDO and SYNC.
-    {"PDO-RX-03 PDO-RX-14 PDO-RX-16", "PDO-RX-01"},
+    {"PDO-RX-03 PDO-RX-14 PDO-RX-16 PDO-MAP-22", "PDO-RX-01"},
+    {"PDO-TX-26", "SDO-UPL-02"},
     {"PDO-RX-03 PDO-RX-04 PDO-RX-14", "PDO-RX-16"},
     {"OD-1007-02", "OD-1400-04 OD-1400-05 PDO-RX-15"},
     {"PDO-TX-14 PDO-TX-15 PDO-TX-27", "PDO-TX-05 PDO-TX-06"},

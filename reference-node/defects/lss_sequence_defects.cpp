@@ -30,10 +30,11 @@ bool is_request(const Frame& frame) {
   return frame.id == request_id && !frame.extended && !frame.remote && frame.size() == 8;
 }
 
-void identify(Parts& parts) {
+void answer(Parts& parts, std::uint8_t specifier) {
   parts.device.send(Service::lss,
-                    conform::can::data_frame(conform::CanId(0x7E4), {0x4F, 0, 0, 0, 0, 0, 0, 0}));
+                    conform::can::data_frame(conform::CanId(0x7E4), {specifier, 0, 0, 0, 0, 0, 0, 0}));
 }
+void identify(Parts& parts) { answer(parts, 0x4F); }
 
 /// Behind `first` another frame of this kind is not taken before `last`.
 Change begins_once(std::uint8_t first, std::uint8_t last) {
@@ -83,8 +84,7 @@ void answers_any_serial_in_configuration(Parts& parts) {
     const auto& data = frames[0].data;
     if (data[0] == switch_state_global) *configuration = data[1] == 1;
     if (!*configuration || data[0] != selective_serial) return;
-    parts.device.send(Service::lss, conform::can::data_frame(conform::CanId(0x7E4),
-                                                             {selective_answer, 0, 0, 0, 0, 0, 0, 0}));
+    answer(parts, selective_answer);
     frames.clear();
   });
 }

@@ -78,8 +78,7 @@ Result<void> write_patterns(const SelftestCommand& options, const Material& of,
       return written;
   }
   if (options.worth.empty()) return {};
-  const auto worths =
-      worths_in_their_order(of.profile, of.suites.suite, of.suites.catalogue, blames, options.seed);
+  const auto worths = worths_of(of.profile, of.suites.suite, of.suites.catalogue, blames, options.seed);
   if (!worths) return std::unexpected(worths.error());
   return write_file_atomically(options.worth, result::worth_file(*worths));
 }

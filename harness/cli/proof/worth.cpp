@@ -43,9 +43,8 @@ std::vector<Candidate> candidates_of(const result::RunResult& conformant, std::s
   return out;
 }
 
-}  // namespace
-
-std::vector<result::Worth> worths_of(const result::RunResult& conformant, std::span<const Blame> blames) {
+/// By the times of this run.
+std::vector<result::Worth> worths_by(const result::RunResult& conformant, std::span<const Blame> blames) {
   auto candidates = candidates_of(conformant, blames);
   std::vector<bool> found(blames.size(), false);
   std::set<std::string> judged;
@@ -80,10 +79,11 @@ std::vector<result::Worth> worths_of(const result::RunResult& conformant, std::s
   return out;
 }
 
-Result<std::vector<result::Worth>> worths_in_their_order(const device::Profile& profile,
-                                                         const scenario::Suite& suite,
-                                                         const scenario::Catalogue& catalogue,
-                                                         std::span<const Blame> blames, std::uint64_t seed) {
+}  // namespace
+
+Result<std::vector<result::Worth>> worths_of(const device::Profile& profile, const scenario::Suite& suite,
+                                             const scenario::Catalogue& catalogue,
+                                             std::span<const Blame> blames, std::uint64_t seed) {
   // Another order has other times; behind a few rounds little moves any more.
   constexpr int rounds = 4;
   std::vector<result::Worth> out;
@@ -96,7 +96,7 @@ Result<std::vector<result::Worth>> worths_in_their_order(const device::Profile& 
     }
     const auto conformant = simulate({}, profile, suite, catalogue, std::move(run), seed);
     if (!conformant) return std::unexpected(conformant.error());
-    out = worths_of(conformant->result, blames);
+    out = worths_by(conformant->result, blames);
   }
   return out;
 }
