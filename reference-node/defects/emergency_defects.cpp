@@ -236,6 +236,12 @@ DefectTable emergency_defects() {
        "EMCY is sent in Stopped",
        {"EMCY-NMT-01", "NMT-FSA-23"},
        works_also(Service::emergency, NmtState::stopped)},
+      {"emcy-all-of-stopped-afterwards",
+       "All EMCYs of Stopped are sent when it ends, in their order",
+       {"EMCY-NMT-01"},
+       Change([](Parts& parts) {
+         parts.emergency.rules.only_latest_of_stopped.replace([](const auto&) { return false; });
+       })},
       {"emcy-dead-in-preop",
        "EMCY is not sent in Pre-operational",
        {"EMCY-NMT-02"},

@@ -12,6 +12,9 @@ namespace {
 // More unsent messages than this are not worth keeping; the oldest goes first.
 constexpr std::size_t pending_limit = 32;
 
+// Messages were lost, since too many waited.
+constexpr ErrorCause overflow{0x1000, ErrorSource::application, 99};
+
 // Error register, CiA 301 table 54: 0 generic, 1 current, 2 voltage, 3 temperature, 4 communication,
 // 5 device profile, 6 reserved, 7 manufacturer.
 std::uint8_t bits_of(std::uint16_t code) {
@@ -33,7 +36,8 @@ std::uint8_t bits_of(std::uint16_t code) {
 
 EmergencyRules::EmergencyRules()
     : register_bits(bits_of),
-      inhibit_time([](std::int64_t value) -> Duration { return std::chrono::microseconds(value * 100); }) {}
+      inhibit_time([](std::int64_t value) -> Duration { return std::chrono::microseconds(value * 100); }),
+      only_latest_of_stopped([] { return true; }) {}
 
 Emergency::Emergency(Device& device)
     : history(device), device_(&device), cob_id_(device, cob_id_rules, 0x1014, 0, 0x80U + device.node_id) {
@@ -69,7 +73,7 @@ std::uint8_t Emergency::error_register() const {
 void Emergency::raise(const ErrorCause& cause, std::uint8_t detail) {
   if (std::ranges::find(causes_, cause) != causes_.end()) return;
   causes_.push_back(cause);
-  history.record(cause.code, cause.source, detail);
+  record(cause.code, cause.source, detail);
   report({cause.code, error_register(), detail, cause.source});
 }
 
@@ -79,8 +83,21 @@ void Emergency::clear(const ErrorCause& cause) {
   causes_.erase(found);
   // With further causes left the standard allows a message, but asks for none.
   if (!causes_.empty() && !choices.error_reset_for_each) return;
-  if (choices.error_resets_recorded) history.record(0, cause.source, 0);
+  if (choices.error_resets_recorded) record(0, cause.source, 0);
   report({0, error_register(), 0, cause.source, device_->now + choices.error_reset_delay});
+}
+
+// What an EMCY will not tell of is not recorded, either.
+void Emergency::record(std::uint16_t code, ErrorSource source, std::uint8_t detail) {
+  if (full()) return;
+  if (choices.completed_when_sent)
+    history.record_incomplete(code);
+  else
+    history.record(code, source, detail);
+}
+
+bool Emergency::full() const {
+  return choices.overflow_told_from != 0 && pending_.size() >= choices.overflow_told_from;
 }
 
 void Emergency::on_reset(bool whole_node) {
@@ -90,6 +107,7 @@ void Emergency::on_reset(bool whole_node) {
   history.clear();
   pending_.clear();
   inhibited_until_.reset();
+  lost_ = false;
   reported_ = !causes_.empty();
 }
 
@@ -104,12 +122,18 @@ void Emergency::begin_inhibiting() {
 void Emergency::report(const Message& message) {
   if (!cob_id_.valid()) return;
   if (device_->state == NmtState::stopped && !device_->works_now(Service::emergency)) {
-    // Only the latest is of interest afterwards, and an error reset only if the error had been reported.
-    pending_.clear();
-    if (message.code == 0 && !reported_) return;
+    // An error reset only if the error had been reported.
+    if (rules.only_latest_of_stopped()) {
+      pending_.clear();
+      if (message.code == 0 && !reported_) return;
+    }
     if (choices.dropped_in_stopped) return;
   }
   if (choices.dropped_in_stopped && message.code == 0 && !reported_ && pending_.empty()) return;
+  if (full()) {
+    lost_ = true;
+    return;
+  }
   pending_.push_back(message);
   if (pending_.size() > pending_limit) pending_.pop_front();
   flush();
@@ -122,11 +146,25 @@ void Emergency::flush() {
   while (!pending_.empty()) {
     if (const auto until = waits_until(); until && device_->now < *until) return;
     inhibited_until_.reset();
-    const Message message = pending_.front();
+    Message message = pending_.front();
     pending_.pop_front();
+    if (choices.completed_when_sent) {
+      message.error_register = error_register();
+      history.complete(message.code, message.source, message.detail);
+    }
     transmit(message);
     reported_ = message.code != 0 || message.error_register != 0;
     if (inhibit_time() > Duration::zero()) inhibited_until_ = device_->now + inhibit_time();
+    tell_of_overflow();
+  }
+}
+
+void Emergency::tell_of_overflow() {
+  if (lost_) {
+    lost_ = false;
+    raise(overflow, 0);
+  } else if (pending_.empty()) {
+    clear(overflow);
   }
 }
 

@@ -3,6 +3,7 @@
 // 7.5.2.2. What services tell of errors comes here.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -15,9 +16,14 @@
 namespace refnode {
 
 struct EmergencyChoices {
-  bool register_generic_only = false;   ///< no other bit than 0
-  bool error_reset_for_each = false;    ///< EMCY 0000h also while other errors remain
-  bool dropped_in_stopped = false;      ///< not made up for afterwards
+  bool register_generic_only = false;  ///< no other bit than 0
+  bool error_reset_for_each = false;   ///< EMCY 0000h also while other errors remain
+  bool dropped_in_stopped = false;     ///< not made up for afterwards
+  bool kept_in_stopped = false;        ///< all of them made up for afterwards, in their order
+  bool completed_when_sent =
+      false;  ///< the error register of an EMCY and the upper half of its field in 1003h
+  std::size_t overflow_told_from =
+      0;  ///< an EMCY more than so many is lost, which is an error of its own; 0: never
   bool error_resets_recorded = false;   ///< EMCY 0000h has its field in 1003h, too
   bool inhibited_from_setting = false;  ///< the first EMCY waits, too, from boot-up or the write of 1015h on
   Duration error_reset_delay{};         ///< EMCY 0000h waits so long, or until the next error
@@ -28,6 +34,8 @@ struct EmergencyRules {
   Rule<std::uint8_t(std::uint16_t code)> register_bits;
   /// 1015h counts in 100 us.
   Rule<Duration(std::int64_t value)> inhibit_time;
+  /// 7.3.2.2.5: of the EMCYs of Stopped only the latest is made up for, if any.
+  Rule<bool()> only_latest_of_stopped;
   EmergencyRules();
 };
 
@@ -70,8 +78,11 @@ class Emergency {
   };
   void raise(const ErrorCause& cause, std::uint8_t detail);
   void clear(const ErrorCause& cause);
+  void record(std::uint16_t code, ErrorSource source, std::uint8_t detail);
   void report(const Message& message);
   void flush();
+  [[nodiscard]] bool full() const;
+  void tell_of_overflow();
   [[nodiscard]] std::optional<BusTime> waits_until() const;
   void begin_inhibiting();
   void transmit(const Message& message);
@@ -83,6 +94,7 @@ class Emergency {
   std::deque<Message> pending_;  ///< waiting for the inhibit time or for the end of Stopped
   std::optional<BusTime> inhibited_until_;
   bool reported_ = false;  ///< the bus has heard of an error since the last error reset
+  bool lost_ = false;      ///< an EMCY, and nobody has been told so far
 };
 
 }  // namespace refnode

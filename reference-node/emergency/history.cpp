@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::uint16_t index = 0x1003;
 
+// Bits 15-0 error code, bits 31-16 manufacturer: detail and source.
+std::uint32_t field_of(std::uint16_t code, ErrorSource source, std::uint8_t detail) {
+  return code | (static_cast<std::uint32_t>(detail) << 16U) | (static_cast<std::uint32_t>(source) << 24U);
+}
+
 }  // namespace
 
 void ErrorHistory::add_objects() {
@@ -37,11 +42,19 @@ void ErrorHistory::bind() {
   }
 }
 
-// Bits 15-0 error code, bits 31-16 manufacturer: detail and source.
 void ErrorHistory::record(std::uint16_t code, ErrorSource source, std::uint8_t detail) {
-  errors_.push_front(code | (static_cast<std::uint32_t>(detail) << 16U) |
-                     (static_cast<std::uint32_t>(source) << 24U));
+  record_incomplete(code);
+  errors_.front() = field_of(code, source, detail);
+}
+
+void ErrorHistory::record_incomplete(std::uint16_t code) {
+  errors_.push_front(code);
   if (errors_.size() > choices.depth) errors_.pop_back();
+}
+
+void ErrorHistory::complete(std::uint16_t code, ErrorSource source, std::uint8_t detail) {
+  const auto oldest = std::find(errors_.rbegin(), errors_.rend(), std::uint32_t{code});
+  if (oldest != errors_.rend()) *oldest = field_of(code, source, detail);
 }
 
 std::uint8_t ErrorHistory::recorded() const {

@@ -31,6 +31,9 @@ class ErrorHistory {
 
   /// `detail` and `source` are the upper half of a field, the manufacturer's.
   void record(std::uint16_t code, ErrorSource source, std::uint8_t detail);
+  /// The upper half follows by `complete`, which finds the oldest of the code that lacks it.
+  void record_incomplete(std::uint16_t code);
+  void complete(std::uint16_t code, ErrorSource source, std::uint8_t detail);
   void clear() { errors_.clear(); }
   /// Sub-index 00h.
   [[nodiscard]] std::uint8_t recorded() const;

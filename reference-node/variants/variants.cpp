@@ -47,6 +47,8 @@ VariantTable stacks(const VariantTable& all) {
             "heartbeat-at-once",
             "emcy-once-for-a-kind",
             "emcy-manufacturer-bytes",
+            "emcy-completed-when-sent",
+            "emcy-overflow-told",
             "1003-records-error-resets",
             "error-reset-for-each",
             "1015-runs-from-setting",
