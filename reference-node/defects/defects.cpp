@@ -29,6 +29,7 @@ std::span<const Defect> defects() {
                                        sdo_leftover_defects,
                                        dictionary_abort_defects,
                                        dictionary_defects,
+                                       dictionary_value_defects,
                                        emergency_history_defects,
                                        emergency_defects,
                                        emergency_course_defects,
