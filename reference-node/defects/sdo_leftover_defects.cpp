@@ -19,7 +19,7 @@ using namespace defect;
 namespace {
 
 /// How a transfer was left before it had ended.
-enum class Way : std::uint8_t { aborted, replaced, refused, stopped };
+enum class Way : std::uint8_t { aborted, replaced, refused, stopped, timed_out };
 
 /// A transfer of the default server, seen from outside.
 struct Left {
@@ -78,6 +78,7 @@ Change left_by(Way way, Use use) {
     })(parts);
     parts.device.outbox.add_filter(on_exchange([left, open, leave](const SdoExchange& e, Frames&) {
       if (e.channel != 0 || !e.aborted || !*open || begins_transfer(e)) return;
+      if (e.step == SdoStep::time_out) return leave(Way::timed_out);
       if (left->steps > 0) --left->steps;  // what was refused
       leave(Way::refused);
     }));
@@ -257,6 +258,10 @@ DefectTable left_rows() {
        "An upload begins with toggle bit 1 where the device was stopped behind an odd number of segments",
        {"SDO-SUP-03"},
        toggle_left(upload_toggle, Way::stopped)},
+      {"upload-toggle-left-by-time-out",
+       "An upload begins with toggle bit 1 where the one before was given up behind an odd number of segments",
+       {"SDO-SUP-03"},
+       toggle_left(upload_toggle, Way::timed_out)},
       {"upload-position-left-by-refusal",
        "An upload goes on where the one before it was refused",
        {"SDO-SUP-03"},
@@ -277,6 +282,10 @@ DefectTable left_rows() {
        "A download begins with toggle bit 1 where the device was stopped behind an odd number of segments",
        {"SDO-SDN-03"},
        toggle_left(download_toggle, Way::stopped)},
+      {"download-toggle-left-by-time-out",
+       "A download begins with toggle bit 1 where the one before was given up behind an odd number of segments",
+       {"SDO-SDN-03"},
+       toggle_left(download_toggle, Way::timed_out)},
       {"download-data-left-by-abort",
        "What an aborted download had brought stands before the data of the next one",
        {"SDO-SDN-03"},

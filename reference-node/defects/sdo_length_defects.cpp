@@ -3,6 +3,8 @@
 // sub-block, and data that two servers share.
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -111,6 +113,21 @@ void unsized_above_the_limit(Parts& parts) {
   });
 }
 
+constexpr std::size_t most_kept = std::size_t{127} * 7;
+
+/// Of downloads that tell no size as much is kept as a sub-block holds.
+void cuts_untold_lengths(Parts& parts) {
+  const auto untold = std::make_shared<bool>(false);
+  of_segments(parts).granted.replace(
+      [untold](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
+        *untold = !announced;
+        return former(mux, announced);
+      });
+  of_segments(parts).store.replace([untold](const auto& former, Multiplexer mux, ByteView data) {
+    return former(mux, *untold ? data.first(std::min(data.size(), most_kept)) : data);
+  });
+}
+
 }  // namespace
 
 DefectTable sdo_length_defects() {
@@ -136,6 +153,10 @@ DefectTable sdo_length_defects() {
        "A segmented download that tells no size takes values above the limit",
        {"SDO-SDN-23"},
        Change(unsized_above_the_limit)},
+      {"segmented-download-without-size-cut",
+       "Of a segmented download that tells no size 889 bytes are stored",
+       {"SDO-SDN-02"},
+       Change(cuts_untold_lengths)},
       {"block-upload-segment-127-unused-bytes",
        "The end of a block upload tells no unused bytes when its last segment is number 127",
        {"SDO-BUP-13"},

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "defects/sdo_block_exchanges.hpp"
 
@@ -81,6 +82,38 @@ void counts_on_behind_a_gap(Parts& parts) {
       });
 }
 
+/// The sub-block behind a gap has only as many segments as were missing in that with the gap: it is
+/// acknowledged before its end. A segment that seems to end it makes the server do so.
+void cuts_the_sub_block_behind_a_gap(Parts& parts) {
+  const auto cut = std::make_shared<unsigned>(0);
+  Change(Reading([cut](Parts& node, std::vector<Frame>& frames) {
+    if (frames.empty()) return;
+    const Frame segment = frames.back();
+    const BlockDownload* transfer = receiving(node, segment);
+    if (transfer == nullptr) return;
+    const unsigned number = segment.data[0] & 0x7FU;
+    const unsigned size = transfer->block_size();
+    if (number == size && transfer->sequence() + 1U < number) *cut = size - transfer->sequence();
+    if (*cut == 0 || number != *cut || transfer->sequence() + 1U != number || number == size) return;
+    *cut = 0;
+    frames.push_back(segment);
+    frames.back().data[0] = static_cast<std::uint8_t>(size);
+  }))(parts);
+}
+
+/// When a sub-block was acknowledged because nothing more came, the first segment of the next is not taken.
+void loses_a_segment_behind_a_pause(Parts& parts) {
+  const auto paused = std::make_shared<bool>(false);
+  parts.device.outbox.add_filter(on_exchange([paused](const SdoExchange& e, Frames&) {
+    if (block_download_initiated(e)) *paused = false;
+    if (e.step == SdoStep::block_download_ack && e.request[0] == 0) *paused = true;
+  }));
+  of_block_download(parts).follows.replace(
+      [paused](const auto& former, std::uint8_t number, std::uint8_t last) {
+        return !(number == 1 && std::exchange(*paused, false)) && former(number, last);
+      });
+}
+
 /// A client abort is answered where nothing was open that it could end.
 void answers_aborts_when_idle(Parts& parts) {
   const auto open = std::make_shared<bool>(false);
@@ -131,6 +164,14 @@ DefectTable sdo_turn_defects() {
        "Behind a gap a block download waits for the next number, where what is sent again begins with 1",
        {"SDO-BDN-07"},
        Change(counts_on_behind_a_gap)},
+      {"block-download-sub-block-cut-behind-a-gap",
+       "A sub-block behind one with a gap is acknowledged before its end",
+       {"SDO-BDN-07"},
+       Change(cuts_the_sub_block_behind_a_gap)},
+      {"block-download-segment-lost-behind-a-pause",
+       "Behind a sub-block that was acknowledged because nothing more came the next segment is not taken",
+       {"SDO-BDN-07"},
+       Change(loses_a_segment_behind_a_pause)},
       {"client-abort-answered-when-idle",
        "A client abort is answered with an abort when no transfer is open",
        {"SDO-ERR-03"},
