@@ -26,9 +26,10 @@ inline SegmentedRules& of_segments(Parts& parts) { return parts.sdo.rules.segmen
 }
 /// Transfers stay open when the node enters `state`.
 [[nodiscard]] inline Change keeps_transfers_in(NmtState state) {
-  return decides(of_sdo, &SdoRules::transfers_end_in, [state](const auto& former, NmtState entered) {
-    return entered != state && former(entered);
-  });
+  return decides(of_sdo, &SdoRules::transfers_end_in,
+                 [state](const auto& former, NmtState entered, std::uint8_t channel) {
+                   return entered != state && former(entered, channel);
+                 });
 }
 
 /// A data frame with an identifier of 11 bits.

@@ -55,9 +55,10 @@ struct SdoRules {
   Rule<bool(bool block_transfer)> makes_way{[](bool) { return true; }};
   /// An abort ends the transfer, whichever side sends it and of whatever kind the transfer is (7.2.4.3.17).
   Rule<bool(SdoSide by, bool block_transfer)> abort_ends_transfer{[](SdoSide, bool) { return true; }};
-  /// A transfer ends where SDO does not work (7.3.2.2.5), and with a reset.
-  Rule<bool(NmtState)> transfers_end_in{
-      [](NmtState state) { return state == NmtState::stopped || state == NmtState::initialising; }};
+  /// A transfer ends where SDO does not work (7.3.2.2.5), and with a reset, whatever its channel.
+  Rule<bool(NmtState, std::uint8_t channel)> transfers_end_in{[](NmtState state, std::uint8_t) {
+    return state == NmtState::stopped || state == NmtState::initialising;
+  }};
   SegmentedRules segmented;
   BlockDownloadRules block_download;
   BlockUploadRules block_upload;

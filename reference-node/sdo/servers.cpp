@@ -70,8 +70,9 @@ std::optional<BusTime> SdoServers::next_wakeup() const {
 }
 
 void SdoServers::on_state_change() {
-  if (!rules.transfers_end_in(device_->state)) return;
-  for (SdoServer* server : servers_) server->reset();
+  for (SdoServer* server : servers_) {
+    if (rules.transfers_end_in(device_->state, server->channel())) server->reset();
+  }
 }
 
 }  // namespace refnode
