@@ -38,6 +38,7 @@ std::span<const Defect> defects() {
                                        error_control_heartbeat_defects,
                                        error_control_monitoring_defects,
                                        cob_id_defects,
+                                       cob_id_course_defects,
                                        storage_defects,
                                        storage_memory_defects,
                                        pdo_receive_defects,
