@@ -63,6 +63,38 @@ Change debugger_status_after_command(std::uint8_t status) {
   };
 }
 
+/// Where a command left no reply, that of an earlier one is still there.
+Change keeps_former_reply() {
+  return [](Parts& parts) {
+    const auto reply = std::make_shared<Bytes>();
+    reading(0x1023, 3, [reply](Parts&, const Read& former) -> Upload {
+      const Upload now = former();
+      if (now) *reply = *now;
+      return now || reply->empty() ? now : Upload(*reply);
+    })(parts);
+    with_boot_up([reply](Parts&) { reply->clear(); })(parts);
+  };
+}
+
+/// A reply that came to `other` is delivered by `index`.
+Change shares_reply(std::uint16_t index, std::uint16_t other) {
+  return [index, other](Parts& parts) {
+    const auto later = std::make_shared<bool>(false);
+    for (const std::uint16_t each : {index, other}) {
+      checking(each, 1, [later, given = each == other](Parts&, const Check& former, ByteView bytes) {
+        const Accepted taken = former(bytes);
+        if (taken) *later = given;
+        return taken;
+      })(parts);
+    }
+    reading(index, 3, [later, other](Parts& node, const Read& former) -> Upload {
+      const Entry* entry = *later ? node.device.dictionary.entry(other, 3) : nullptr;
+      return entry != nullptr && entry->read ? entry->read() : former();
+    })(parts);
+    with_boot_up([later](Parts&) { *later = false; })(parts);
+  };
+}
+
 }  // namespace
 
 DefectTable objects_operating_system_defects() {
@@ -105,6 +137,14 @@ DefectTable objects_operating_system_defects() {
        "The reply of 1023h differs with every upload",
        {"OD-1023-05"},
        changing_reply()},
+      {"1023-former-reply-kept",
+       "Where the status tells of no reply 1023h:03 delivers that of an earlier command",
+       {"OD-1023-05"},
+       keeps_former_reply()},
+      {"1023-reply-of-debugger",
+       "A command of the debugger (1025h) leaves its reply in 1023h:03",
+       {"OD-1023-05"},
+       shares_reply(0x1023, 0x1025)},
       {"1024-readable", "1024h can be read", {"OD-1024-01", "OD-ACC-03"}, access(0x1024, 0, Access::rw)},
       {"1024-is-u16", "1024h has two bytes", {"OD-1024-02"}, type(0x1024, 0, DataType::unsigned16)},
       {"1024-mode-without-effect",
