@@ -89,6 +89,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable cob_id_defects();
 [[nodiscard]] DefectTable cob_id_course_defects();
 [[nodiscard]] DefectTable storage_defects();
+[[nodiscard]] DefectTable storage_course_defects();
 [[nodiscard]] DefectTable storage_memory_defects();
 [[nodiscard]] DefectTable pdo_receive_defects();
 [[nodiscard]] DefectTable pdo_transmit_defects();

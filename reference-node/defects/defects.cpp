@@ -40,6 +40,7 @@ std::span<const Defect> defects() {
                                        cob_id_defects,
                                        cob_id_course_defects,
                                        storage_defects,
+                                       storage_course_defects,
                                        storage_memory_defects,
                                        pdo_receive_defects,
                                        pdo_transmit_defects,

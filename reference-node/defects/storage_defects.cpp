@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "defects/hooks.hpp"
+#include "defects/power_on_values.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -168,17 +169,6 @@ void any_reset_restores(Parts& parts) {
   with_boot_up([loading](Parts&) { *loading = false; })(parts);
 }
 
-/// Entries for which `left_out` holds are no parameters to 1010h.
-DictionaryEdit leaves_out(bool (*left_out)(std::uint16_t index, std::uint8_t sub)) {
-  return [left_out](ObjectDictionary& od, std::uint8_t) {
-    for (auto& [index, object] : od.objects()) {
-      for (auto& [sub, entry] : object.entries) {
-        if (left_out(index, sub)) entry.storable = false;
-      }
-    }
-  };
-}
-
 bool is_later_communication(std::uint16_t index, std::uint8_t) {
   return (index > 0x1400 && index < 0x1600) || (index > 0x1800 && index < 0x1A00);
 }
@@ -192,22 +182,6 @@ void leaves_out_zeros(Entry& entry) {
   entry.not_stored_now = [self, former = entry.not_stored_now] {
     const bool zero = self->value.size() == 1 && self->value.front() == 0;
     return zero || (former && former());
-  };
-}
-
-/// What was stored comes back otherwise with reset node.
-Change comes_back(void (*otherwise)(const Entry& entry, Bytes& value)) {
-  return [otherwise](Parts& parts) {
-    parts.nmt.on_reset = [&parts, otherwise, former = parts.nmt.on_reset](Reset reset) {
-      former(reset);
-      if (reset != Reset::node) return;
-      for (auto& [index, object] : parts.device.dictionary.objects()) {
-        for (auto& [sub, entry] : object.entries) {
-          const bool writable = entry.access == Access::rw || entry.access == Access::wo;
-          if (writable && !entry.command && entry.value != entry.default_value) otherwise(entry, entry.value);
-        }
-      }
-    };
   };
 }
 
@@ -470,13 +444,13 @@ DefectTable storage_defects() {
       {"1010-texts-cut",
        "Of texts eight characters are stored",
        {"OD-1010-10"},
-       comes_back([](const Entry& entry, Bytes& value) {
+       comes_back([](std::uint16_t, const Entry& entry, Bytes& value) {
          if (fixed_size(entry.type) == 0 && value.size() > 8) value.resize(8);
        })},
       {"1010-long-values-cut",
        "Of values of more than four bytes the first four are stored",
        {"OD-1010-10"},
-       comes_back([](const Entry& entry, Bytes& value) {
+       comes_back([](std::uint16_t, const Entry& entry, Bytes& value) {
          if (fixed_size(entry.type) > 4) std::fill(value.begin() + 4, value.end(), std::uint8_t{0});
        })},
       {"1011-restore-outlives-save",

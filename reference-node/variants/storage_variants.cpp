@@ -48,12 +48,23 @@ How wrong_signature(AbortCode code) {
   return [code](Parts& node) { node.store.choices.wrong_signature = code; };
 }
 
+/// What was written is there, and is stored before the answer.
+bool ends_download(const SdoExchange& sdo) {
+  constexpr unsigned expedited = 2;
+  constexpr unsigned last_segment = 1;
+  switch (sdo.step) {
+    case SdoStep::download_initiate: return (sdo.request[0] & expedited) != 0;
+    case SdoStep::download_segment: return (sdo.request[0] & last_segment) != 0;
+    case SdoStep::block_download_end: return true;
+    default: return false;
+  }
+}
+
 /// Storing and restoring take their time.
 How slow_storage(std::chrono::milliseconds delay) {
   return [delay](Parts& parts) {
     parts.device.outbox.add_filter([delay](const FilterContext& context, std::vector<Outgoing>& frames) {
-      if (context.sdo == nullptr || context.sdo->step != SdoStep::download_initiate || context.sdo->aborted)
-        return;
+      if (context.sdo == nullptr || !ends_download(*context.sdo) || context.sdo->aborted) return;
       if (context.sdo->index() != 0x1010 && context.sdo->index() != 0x1011) return;
       for (Outgoing& outgoing : frames) outgoing.delay += delay;
     });

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of storing (1010h) and restoring (1011h) that show with certain values and transfers, or behind
+// another command.
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "defects/hooks.hpp"
+#include "defects/power_on_values.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+constexpr std::uint32_t save_signature = 0x65766173;
+constexpr std::uint32_t load_signature = 0x64616F6C;
+
+/// A command that fails with the hardware error erases the memory all the same.
+Change failure_erases(std::uint16_t index) {
+  return checking_all(index, [](Parts& parts, const Check& former, std::uint8_t, ByteView bytes) -> Accepted {
+    const Accepted done = former(bytes);
+    if (!done && done.error() == abort_code::hardware_error) [[maybe_unused]]
+      const auto erased = parts.store.memory->replace({});
+    return done;
+  });
+}
+
+/// From the command on the entry reads as its signature, until a reset.
+Change shows_its_command(std::uint16_t index, std::uint32_t signature) {
+  return [index, signature](Parts& parts) {
+    const auto given = std::make_shared<std::uint8_t>();
+    checking_all(index, [given](Parts&, const Check& former, std::uint8_t sub, ByteView bytes) {
+      const Accepted done = former(bytes);
+      if (done) *given = sub;
+      return done;
+    })(parts);
+    reading_all(index, [given, signature](Parts&, const Read& former, std::uint8_t sub) -> Upload {
+      if (*given != sub) return former();
+      Bytes out(4);
+      conform::store_le(std::span(out), signature);
+      return out;
+    })(parts);
+    with_boot_up([given](Parts&) { *given = 0; })(parts);
+  };
+}
+
+/// What begins such a transfer is confirmed at its end, and nothing done.
+Change does_nothing_by(std::uint16_t index, std::uint32_t signature, bool (*begins)(std::uint8_t command)) {
+  return [=](Parts& parts) {
+    const auto such = std::make_shared<bool>(false);
+    misreads([such, index, begins](Parts& node, Frame& frame) {
+      const bool request = frame.id == 0x600U + node.device.node_id && !frame.extended && !frame.remote;
+      if (!request || frame.size() != 8) return;
+      const unsigned named = frame.data[1] | unsigned{frame.data[2]} << 8U;
+      const std::uint8_t command = frame.data[0];
+      const bool initiates = command >> 5U == 1 || (command >> 5U == 6 && (command & 1U) == 0);
+      if (initiates && named == index) *such = begins(command);
+    })(parts);
+    checking_all(index, [such, signature](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
+      return *such && conform::load_le(bytes) == signature ? Accepted{} : former(bytes);
+    })(parts);
+  };
+}
+
+bool begins_segments(std::uint8_t command) { return command >> 5U == 1 && (command & 2U) == 0; }
+bool begins_blocks(std::uint8_t command) { return command >> 5U == 6; }
+
+/// The dynamic bit of an SDO client is no reason not to store it.
+void stores_dynamic_clients(ObjectDictionary& od, std::uint8_t) {
+  for (auto& [index, object] : od.objects()) {
+    if (index < 0x1280 || index > 0x12FF) continue;
+    for (auto& [sub, entry] : object.entries) entry.not_stored_now = {};
+  }
+}
+
+/// Once application parameters are stored, reset communication loads them, too.
+void loads_stored_application(Parts& parts) {
+  parts.store.rules.reset_loads.replace([&parts](const auto& former, Group group, bool whole_node) {
+    const bool stored = group == Group::application && parts.store.memory->images().contains(group);
+    return stored || former(group, whole_node);
+  });
+}
+
+bool is_later_element_of_application(std::uint16_t index, std::uint8_t sub) {
+  return index >= 0x6000 && index <= 0x9FFF && sub > 4;
+}
+
+void cuts_at_16(std::uint16_t, const Entry& entry, Bytes& value) {
+  constexpr std::size_t kept = 16;
+  if (fixed_size(entry.type) == 0 && value.size() > kept) value.resize(kept);
+}
+
+void takes_empty_for_nothing(std::uint16_t, const Entry& entry, Bytes& value) {
+  if (value.empty()) value = entry.default_value;
+}
+
+void takes_ff_for_nothing(std::uint16_t, const Entry& entry, Bytes& value) {
+  const bool erased = std::ranges::all_of(value, [](std::uint8_t byte) { return byte == 0xFF; });
+  if (fixed_size(entry.type) != 0 && erased) value = entry.default_value;
+}
+
+template <std::uint16_t first, std::uint16_t last>
+void loses_bit31(std::uint16_t index, const Entry& entry, Bytes& value) {
+  const bool cob_id = index >= first && index <= last && entry.type == DataType::unsigned32;
+  if (cob_id && (entry.default_value[3] & 0x80U) == 0) value[3] &= 0x7FU;
+}
+
+/// TIME is neither consumed nor produced behind a reset.
+void loses_bits_of_time(std::uint16_t index, const Entry&, Bytes& value) {
+  if (index == 0x1012) value[3] &= 0x3FU;
+}
+
+}  // namespace
+
+DefectTable storage_course_defects() {
+  return {
+      {"1010-failure-erases",
+       "\"save\" that fails erases what was stored",
+       {"OD-1010-14"},
+       failure_erases(0x1010)},
+      {"1011-failure-erases",
+       "\"load\" that fails erases what was stored",
+       {"OD-1011-15"},
+       failure_erases(0x1011)},
+      {"1010-shows-the-signature",
+       "Behind \"save\" 1010h reads as the signature",
+       {"OD-1010-04"},
+       shows_its_command(0x1010, save_signature)},
+      {"1011-shows-the-signature",
+       "Behind \"load\" 1011h reads as the signature, until the reset",
+       {"OD-1011-04"},
+       shows_its_command(0x1011, load_signature)},
+      {"1010-by-segments-without-effect",
+       "\"save\" in a segment is confirmed, and nothing is stored",
+       {"OD-1010-10"},
+       does_nothing_by(0x1010, save_signature, begins_segments)},
+      {"1010-by-blocks-without-effect",
+       "\"save\" in a block is confirmed, and nothing is stored",
+       {"OD-1010-10"},
+       does_nothing_by(0x1010, save_signature, begins_blocks)},
+      {"1011-by-segments-without-effect",
+       "\"load\" in a segment is confirmed, and nothing is restored",
+       {"OD-1011-10"},
+       does_nothing_by(0x1011, load_signature, begins_segments)},
+      {"1011-by-blocks-without-effect",
+       "\"load\" in a block is confirmed, and nothing is restored",
+       {"OD-1011-10"},
+       does_nothing_by(0x1011, load_signature, begins_blocks)},
+      {"1010-texts-cut-at-16", "Of texts 16 characters are stored", {"OD-1010-10"}, comes_back(cuts_at_16)},
+      {"1010-empty-text-not-stored",
+       "A text that is stored empty comes back as the default",
+       {"OD-1010-10"},
+       comes_back(takes_empty_for_nothing)},
+      {"1010-ff-taken-for-erased",
+       "A value that is stored with all bytes FFh comes back as the default",
+       {"OD-1010-10"},
+       comes_back(takes_ff_for_nothing)},
+      {"1010-tpdo-switched-off-not-stored",
+       "A TPDO that was stored switched off is valid after a reset",
+       {"OD-1010-10"},
+       comes_back(loses_bit31<0x1800, 0x19FF>)},
+      {"1010-rpdo-switched-off-not-stored",
+       "An RPDO that was stored switched off is valid after a reset",
+       {"OD-1010-10"},
+       comes_back(loses_bit31<0x1400, 0x15FF>)},
+      {"1010-emcy-switched-off-not-stored",
+       "EMCY that was stored switched off is valid after a reset",
+       {"OD-1010-10"},
+       comes_back(loses_bit31<0x1014, 0x1014>)},
+      {"1010-sdo-channel-switched-off-not-stored",
+       "A COB-ID of an SDO channel that was stored switched off is valid after a reset",
+       {"OD-1010-10"},
+       comes_back([](std::uint16_t index, const Entry& entry, Bytes& value) {
+         const bool channel = index >= 0x1201 && index <= 0x12FF;
+         if (channel && entry.type == DataType::unsigned32) value[3] &= 0x7FU;
+       })},
+      {"1010-time-switched-on-not-stored",
+       "TIME that was stored consumed or produced is neither after a reset",
+       {"OD-1010-10"},
+       comes_back(loses_bits_of_time)},
+      {"1280-dynamic-stored",
+       "Dynamic COB-IDs of an SDO client are stored",
+       {"OD-1201-08"},
+       DictionaryEdit(stores_dynamic_clients)},
+      {"1010-later-elements-not-stored",
+       "Of the arrays of the application four elements are stored",
+       {"OD-1010-10"},
+       leaves_out(is_later_element_of_application)},
+      {"reset-communication-loads-stored-application",
+       "Reset communication loads the application parameters, too, once they were stored",
+       {"NMT-FSA-26"},
+       Change(loads_stored_application)},
+  };
+}
+
+}  // namespace refnode
