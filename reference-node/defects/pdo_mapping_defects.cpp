@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "defects/pdos.hpp"
@@ -166,6 +169,76 @@ Change skips(std::uint16_t signed_type, std::uint16_t unsigned_type, std::uint8_
                    }
                    return all;
                  });
+}
+
+bool is_placeholder(const Mapped& mapped) { return mapped.index <= 0x1F; }
+
+Entries without_placeholders_at_the_end(const PdoParameters&, Entries counted) {
+  while (!counted.empty() && is_placeholder(counted.back())) counted.pop_back();
+  return counted;
+}
+
+Entries with_one_placeholder(const PdoParameters&, Entries counted) {
+  bool seen = false;
+  std::erase_if(counted,
+                [&](const Mapped& mapped) { return is_placeholder(mapped) && std::exchange(seen, true); });
+  return counted;
+}
+
+/// A sub-index that an object does not have is taken for one of eight bits.
+Change maps_absent_sub_indices(PdoRulesPart of) {
+  return [of](Parts& parts) {
+    of(parts).mappable.replace([&parts](const auto& former, const Mapped& mapped) {
+      const ObjectDictionary& od = parts.device.dictionary;
+      const bool absent =
+          od.objects().contains(mapped.index) && od.entry(mapped.index, mapped.sub) == nullptr;
+      return absent && mapped.bits == 8 ? Accepted{} : former(mapped);
+    });
+  };
+}
+
+/// No length passes for every length.
+Change maps_without_length(PdoRulesPart of) {
+  return [of](Parts& parts) {
+    of(parts).mappable.replace([&parts](const auto& former, Mapped mapped) {
+      const Entry* entry = parts.device.dictionary.entry(mapped.index, mapped.sub);
+      if (entry != nullptr && mapped.bits == 0)
+        mapped.bits = static_cast<std::uint8_t>(entry->value.size() * 8);
+      return former(mapped);
+    });
+  };
+}
+
+/// What the last entry names is looked at neither when it is written nor when the mapping is enabled.
+Change leaves_the_last_entry_unchecked(PdoRulesPart of, std::uint16_t first_mapping) {
+  return [of, first_mapping](Parts& parts) {
+    constexpr std::uint8_t last_entry = 8;
+    const auto taken = std::make_shared<std::set<std::uint64_t>>();
+    for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+      const auto mapping = static_cast<std::uint16_t>(first_mapping + number);
+      checking(mapping, last_entry, [=](Parts& node, const Check& former, ByteView bytes) {
+        if (node.device.dictionary.number(mapping, 0) != 0) return former(bytes);
+        taken->insert(conform::load_le(bytes));
+        return Accepted{};
+      })(parts);
+    }
+    of(parts).mappable.replace([taken](const auto& former, const Mapped& mapped) {
+      const auto packed =
+          (std::uint64_t{mapped.index} << 16U) | (std::uint64_t{mapped.sub} << 8U) | mapped.bits;
+      return taken->contains(packed) ? Accepted{} : former(mapped);
+    });
+  };
+}
+
+/// Whether a mapping can be changed is asked of the first PDO of the direction.
+Change locked_by_the_first(PdoRulesPart of, std::uint16_t first_communication) {
+  return [of, first_communication](Parts& parts) {
+    of(parts).locked.replace([&parts, first_communication](const auto& former, const PdoParameters& pdo,
+                                                           PdoPart part, bool, bool enabled) {
+      const auto cob_id = parts.device.dictionary.number(first_communication, 1);
+      return former(pdo, part, (cob_id & 0x8000'0000U) == 0, enabled);
+    });
+  };
 }
 
 }  // namespace
@@ -383,6 +456,46 @@ DefectTable pdo_mapping_defects() {
        "The placeholder INTEGER8 skips no byte of an RPDO",
        {"PDO-MAP-15"},
        skips(0x0002, 0x0002, 0)},
+      {"rpdo-placeholder-at-the-end-not-counted",
+       "Placeholders at the end of the mapping of an RPDO do not count for its length",
+       {"PDO-RX-06"},
+       uses(rpdo_parameters, without_placeholders_at_the_end)},
+      {"rpdo-second-placeholder-skips-nothing",
+       "Of several placeholders in the mapping of an RPDO the first one is skipped only",
+       {"PDO-MAP-15"},
+       uses(rpdo_parameters, with_one_placeholder)},
+      {"1600-absent-sub-index-of-one-byte",
+       "A sub-index that an object does not have can be mapped to an RPDO as one byte",
+       {"PDO-MAP-05"},
+       maps_absent_sub_indices(rpdo_parameters)},
+      {"1a00-absent-sub-index-of-one-byte",
+       "A sub-index that an object does not have can be mapped to a TPDO as one byte",
+       {"PDO-MAP-05"},
+       maps_absent_sub_indices(tpdo_parameters)},
+      {"1600-entry-without-length",
+       "An entry with length 0 of an object can be mapped to an RPDO",
+       {"PDO-MAP-10"},
+       maps_without_length(rpdo_parameters)},
+      {"1a00-entry-without-length",
+       "An entry with length 0 of an object can be mapped to a TPDO",
+       {"PDO-MAP-10"},
+       maps_without_length(tpdo_parameters)},
+      {"1600-last-entry-not-checked",
+       "The eighth entry of the mapping of an RPDO may name what does not exist",
+       {"OD-1600-06"},
+       leaves_the_last_entry_unchecked(rpdo_parameters, 0x1600)},
+      {"1a00-last-entry-not-checked",
+       "The eighth entry of the mapping of a TPDO may name what does not exist",
+       {"OD-1A00-06"},
+       leaves_the_last_entry_unchecked(tpdo_parameters, 0x1A00)},
+      {"1600-mapping-locked-by-the-first",
+       "The mapping of an RPDO can be changed while the first RPDO is not valid",
+       {"OD-1600-12"},
+       locked_by_the_first(rpdo_parameters, 0x1400)},
+      {"1a00-mapping-locked-by-the-first",
+       "The mapping of a TPDO can be changed while the first TPDO is not valid",
+       {"OD-1A00-12"},
+       locked_by_the_first(tpdo_parameters, 0x1800)},
   };
 }
 
