@@ -64,6 +64,7 @@ std::span<const Defect> defects() {
                                        lss_sequence_defects,
                                        pdo_traffic_defects,
                                        pdo_course_defects,
+                                       pdo_receive_course_defects,
                                        device_traffic_defects,
                                        device_load_defects});
   return all;
