@@ -23,6 +23,7 @@ TransmitPdoRules::TransmitPdoRules()
       made_up_for([](const PdoParameters&) { return true; }),
       answers_remote(
           [](const PdoParameters& pdo, bool enabled) { return enabled && pdo.cob_id().remote_allowed(); }),
+      sampled([](const PdoParameters&, const Bytes&, const Bytes& now) { return now; }),
       carried([](const PdoParameters&, const Bytes& due) { return due; }),
       takes_effect([](const PdoParameters&) { return true; }) {}
 
@@ -111,7 +112,7 @@ void TransmitPdo::on_sync(std::optional<std::uint8_t> counter) {
     if (counter && terms_->choices.sends_at_start_value && type >= 1 && is_synchronous(type))
       syncs_ = type - 1U;
   }
-  if (type == remote_synchronous_type) sampled_ = content();
+  if (type == remote_synchronous_type) sampled_ = terms_->rules.sampled(parameters_, sampled_, content());
   ++syncs_;
   if (terms_->rules.sent_at_sync(parameters_, syncs_, event_)) transmit(content());
 }

@@ -47,6 +47,8 @@ struct TransmitPdoRules {
   Rule<bool(const PdoParameters&)> made_up_for;
   /// A remote frame is answered in every type, where the PDO is valid and bit 30 allows it.
   Rule<bool(const PdoParameters&, bool enabled)> answers_remote;
+  /// Type FCh: the SYNC samples, whether or not what was sampled before has been asked for.
+  Rule<Bytes(const PdoParameters&, const Bytes& held, const Bytes& now)> sampled;
   /// It carries what the mapped objects hold at the moment; type FCh: with the last SYNC.
   Rule<Bytes(const PdoParameters&, const Bytes& due)> carried;
   /// Parameters that are written in Operational take effect there.
