@@ -101,6 +101,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable pdo_course_defects();
 [[nodiscard]] DefectTable pdo_receive_course_defects();
 [[nodiscard]] DefectTable pdo_transmit_course_defects();
+[[nodiscard]] DefectTable pdo_reset_defects();
 [[nodiscard]] DefectTable dictionary_structure_defects();
 [[nodiscard]] DefectTable error_control_behaviour_defects();
 [[nodiscard]] DefectTable emergency_consumer_defects();

@@ -66,6 +66,7 @@ std::span<const Defect> defects() {
                                        pdo_course_defects,
                                        pdo_receive_course_defects,
                                        pdo_transmit_course_defects,
+                                       pdo_reset_defects,
                                        device_traffic_defects,
                                        device_load_defects});
   return all;
