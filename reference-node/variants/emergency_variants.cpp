@@ -250,10 +250,13 @@ VariantTable emergency_variants() {
        [](Parts& node) { node.emergency.choices.error_reset_for_each = true; }},
       {"emcy-dropped-in-stopped", "EMCYs of Stopped are not made up for", "EMCY-NMT-01",
        [](Parts& node) { node.emergency.choices.dropped_in_stopped = true; }},
-      {"emcy-completed-when-sent",
-       "the error register of an EMCY, and the manufacturer's half of its field in 1003h, are those of the "
-       "moment it is sent",
-       "7.2.7.1: no moment is named", [](Parts& node) { node.emergency.choices.completed_when_sent = true; }},
+      {.id = "emcy-completed-when-sent",
+       .summary =
+           "the error register of an EMCY, and the manufacturer's half of its field in 1003h, are those "
+           "of the moment it is sent",
+       .legal = "7.2.7.1: no moment is named; EMCY-FMT-04 warns where the error is over by then",
+       .how = [](Parts& node) { node.emergency.choices.completed_when_sent = true; },
+       .warns = {"EMCY-FMT-04"}},
       {"emcy-overflow-told",
        "where seven EMCYs wait, the next ones are lost, which is an error 1000h until all are sent",
        "7.2.7: how many may wait is not said",
