@@ -117,6 +117,7 @@ void Emergency::begin_inhibiting() {
   if (!choices.inhibited_from_setting) return;
   inhibited_until_.reset();
   if (inhibit_time() > Duration::zero()) inhibited_until_ = device_->now + inhibit_time();
+  flush();  // what waited for the former inhibit time
 }
 
 void Emergency::report(const Message& message) {
