@@ -34,6 +34,7 @@ std::span<const Defect> defects() {
                                        emergency_history_defects,
                                        emergency_defects,
                                        emergency_course_defects,
+                                       emergency_waiting_defects,
                                        nmt_defects,
                                        error_control_heartbeat_defects,
                                        error_control_monitoring_defects,

@@ -37,7 +37,10 @@ std::uint8_t bits_of(std::uint16_t code) {
 EmergencyRules::EmergencyRules()
     : register_bits(bits_of),
       inhibit_time([](std::int64_t value) -> Duration { return std::chrono::microseconds(value * 100); }),
-      only_latest_of_stopped([] { return true; }) {}
+      only_latest_of_stopped([] { return true; }),
+      kept_waiting([](WhileWaiting occasion) {
+        return occasion == WhileWaiting::state_change || occasion == WhileWaiting::inhibit_time_written;
+      }) {}
 
 Emergency::Emergency(Device& device)
     : history(device), device_(&device), cob_id_(device, cob_id_rules, 0x1014, 0, 0x80U + device.node_id) {
@@ -60,7 +63,10 @@ void Emergency::bind() {
   history.bind();
   cob_id_.bind();
   if (Entry* inhibit = device_->dictionary.entry(0x1015, 0))
-    inhibit->written = [this] { begin_inhibiting(); };
+    inhibit->written = [this] {
+      keep_or_drop(WhileWaiting::inhibit_time_written);
+      begin_inhibiting();
+    };
 }
 
 std::uint8_t Emergency::error_register() const {
@@ -105,10 +111,19 @@ void Emergency::on_reset(bool whole_node) {
     return whole_node || cause.source != ErrorSource::application;
   });
   history.clear();
-  pending_.clear();
+  keep_or_drop(whole_node ? WhileWaiting::reset_node : WhileWaiting::reset_communication);
   inhibited_until_.reset();
   lost_ = false;
   reported_ = !causes_.empty();
+}
+
+void Emergency::on_state_change() {
+  keep_or_drop(WhileWaiting::state_change);
+  flush();
+}
+
+void Emergency::keep_or_drop(WhileWaiting occasion) {
+  if (!rules.kept_waiting(occasion)) pending_.clear();
 }
 
 Duration Emergency::inhibit_time() const { return rules.inhibit_time(device_->time_value(0x1015, 0)); }

@@ -29,6 +29,14 @@ struct EmergencyChoices {
   Duration error_reset_delay{};         ///< EMCY 0000h waits so long, or until the next error
 };
 
+/// What may happen while an EMCY waits for the inhibit time.
+enum class WhileWaiting : std::uint8_t {
+  state_change,
+  inhibit_time_written,
+  reset_communication,
+  reset_node
+};
+
 struct EmergencyRules {
   /// Table 54: the bits of the error register that an error sets.
   Rule<std::uint8_t(std::uint16_t code)> register_bits;
@@ -36,6 +44,8 @@ struct EmergencyRules {
   Rule<Duration(std::int64_t value)> inhibit_time;
   /// 7.3.2.2.5: of the EMCYs of Stopped only the latest is made up for, if any.
   Rule<bool()> only_latest_of_stopped;
+  /// 7.5.2.18: what waits is sent in the end; a reset begins with nothing (7.3.2.2).
+  Rule<bool(WhileWaiting)> kept_waiting;
   EmergencyRules();
 };
 
@@ -62,7 +72,7 @@ class Emergency {
 
   /// Communication (and, with reset node, all) causes and everything unsent are forgotten.
   void on_reset(bool whole_node);
-  void on_state_change() { flush(); }
+  void on_state_change();
   /// The boot-up message has been sent.
   void on_boot_up() { begin_inhibiting(); }
   void on_time();
@@ -85,6 +95,7 @@ class Emergency {
   void tell_of_overflow();
   [[nodiscard]] std::optional<BusTime> waits_until() const;
   void begin_inhibiting();
+  void keep_or_drop(WhileWaiting occasion);
   void transmit(const Message& message);
   [[nodiscard]] Duration inhibit_time() const;
 

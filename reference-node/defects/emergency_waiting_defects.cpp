@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of EMCY and of what belongs to it when something else happens beside the error: what waits for the
+// inhibit time is dropped or outlives a reset, and the end of an error is told in another way than its
+// beginning.
+#include <memory>
+#include <vector>
+
+#include "defects/cob_ids.hpp"
+#include "defects/hooks.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+bool is_end(const Outgoing& message) { return message.frame.data[0] == 0 && message.frame.data[1] == 0; }
+
+EmergencyRules& rules_of(Parts& parts) { return parts.emergency.rules; }
+
+/// What waits is dropped on one occasion, or kept.
+Change on(WhileWaiting occasion, bool kept) {
+  return decides(rules_of, &EmergencyRules::kept_waiting,
+                 [=](const auto& former, WhileWaiting now) { return now == occasion ? kept : former(now); });
+}
+
+/// EMCY 0000h of one source has the error register of the message before.
+Change ends_with_former_register(ErrorSource source) {
+  return [source](Parts& parts) {
+    const auto before = std::make_shared<std::uint8_t>(0);
+    parts.device.outbox.add_filter(
+        [before, source](const FilterContext& context, std::vector<Outgoing>& frames) {
+          if (context.service != Service::emergency) return;
+          for (Outgoing& each : frames) {
+            auto& data = each.frame.data;
+            if (is_end(each) && data[4] == static_cast<std::uint8_t>(source))
+              data[2] = *before;
+            else
+              *before = data[2];
+          }
+        });
+  };
+}
+
+/// One state empties the history.
+Change empties_history_in(NmtState state) {
+  return ahead_of_state_change([state](Parts& parts) {
+    if (parts.device.state == state) parts.emergency.history.clear();
+  });
+}
+
+/// One entry takes whatever is written, without a look at what is there.
+Change takes_any(std::uint8_t producer) {
+  return checking(0x1028, producer, [](Parts&, const Check&, ByteView) -> Accepted { return {}; });
+}
+
+}  // namespace
+
+DefectTable emergency_waiting_defects() {
+  return {
+      {"emcy-end-on-default-can-id",
+       "EMCY 0000h is sent on 80h + node-ID, whatever 1014h says",
+       {"OD-1014-07"},
+       reshape(Service::emergency,
+               [](const FilterContext& context, Frame& frame) {
+                 if (is_end({frame, {}})) frame.id = 0x80U + context.node_id;
+               })},
+      {"emcy-dropped-by-nmt-state",
+       "What waits for the inhibit time of EMCY is dropped by a change of the NMT state",
+       {"EMCY-INH-01"},
+       on(WhileWaiting::state_change, false)},
+      {"emcy-dropped-by-1015",
+       "What waits for the inhibit time of EMCY is dropped by a write of 1015h",
+       {"EMCY-INH-01"},
+       on(WhileWaiting::inhibit_time_written, false)},
+      {"emcy-end-of-heartbeat-loss-with-register-before",
+       "EMCY 0000h of a heartbeat that has come back has the error register of before",
+       {"EMCY-FMT-03"},
+       ends_with_former_register(ErrorSource::heartbeat)},
+      {"1003-emptied-by-pre-operational",
+       "Entering Pre-operational empties the history of errors",
+       {"OD-1003-10"},
+       empties_history_in(NmtState::pre_operational)},
+      {"1003-emptied-by-stopped",
+       "Entering Stopped empties the history of errors",
+       {"OD-1003-10"},
+       empties_history_in(NmtState::stopped)},
+      {"1028-lock-missing-in-one-entry",
+       "The CAN-ID of 1028h:03 can be changed while it is valid",
+       {"OD-1028-06"},
+       takes_any(3)},
+  };
+}
+
+}  // namespace refnode
