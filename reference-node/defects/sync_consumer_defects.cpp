@@ -40,6 +40,18 @@ Change obeys_after(bool (*which)(std::uint8_t last, std::uint8_t counter)) {
   };
 }
 
+/// A window that was used is not changed any more in the ways that `stays` names.
+Change keeps_window(bool (*stays)(std::int64_t present, std::int64_t written)) {
+  return [stays](Parts& parts) {
+    const auto used = std::make_shared<std::int64_t>(0);
+    with_boot_up([used](Parts&) { *used = 0; })(parts);
+    parts.sync_window.rules.length.replace([used, stays](const auto& former, std::int64_t value) {
+      if (*used == 0 || !stays(*used, value)) *used = value;
+      return former(*used);
+    });
+  };
+}
+
 /// After a reset no SYNC is taken before 1005h is written.
 void deaf_after_reset(Parts& parts) {
   const auto deaf = std::make_shared<bool>(false);
@@ -285,6 +297,14 @@ DefectTable sync_consumer_defects() {
                [](const auto& former, Duration since_sync, Duration window) {
                  return window != Duration::zero() && former(since_sync, window);
                })},
+      {"1007-zero-ends-no-window",
+       "A window of 1007h that was used stays when 0 is written",
+       {"OD-1007-02"},
+       keeps_window([](std::int64_t, std::int64_t written) { return written == 0; })},
+      {"1007-window-not-made-longer",
+       "A window of 1007h that was used stays when a longer one is written",
+       {"OD-1007-03"},
+       keeps_window([](std::int64_t present, std::int64_t written) { return written > present; })},
       {"1007-never-resumes",
        "When the window of 1007h was over once synchronous RPDOs are discarded for ever",
        {"OD-1007-03"},

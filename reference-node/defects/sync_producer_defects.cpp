@@ -143,6 +143,42 @@ void counts_anew_with_the_period(Parts& parts) {
   });
 }
 
+/// A write of `index` that ends production takes effect behind the SYNC that is due next.
+Change ends_one_later(std::uint16_t index) {
+  return [index](Parts& parts) {
+    const auto ending = std::make_shared<bool>(false);
+    after_writing(index, 0, [ending](Parts& node, const std::function<void()>& former) {
+      const bool on = (node.device.dictionary.number(0x1005, 0) & 0x40000000U) != 0;
+      *ending = node.sync_producer.next_wakeup() && (!on || node.device.dictionary.number(0x1006, 0) == 0);
+      if (!*ending) former();
+    })(parts);
+    parts.device.outbox.add_filter(
+        [&parts, ending](const FilterContext& context, const std::vector<Outgoing>&) {
+          if (context.service == Service::boot_up) *ending = false;
+          if (context.service == Service::sync && std::exchange(*ending, false))
+            parts.sync_producer.on_reset();
+        });
+  };
+}
+
+/// A write of `index` begins production anew; or one of the value that is there.
+Change begins_anew_with(std::uint16_t index, bool of_same_value = false) {
+  return [=](Parts& parts) {
+    const auto restarts = std::make_shared<bool>(false);
+    checking(index, 0, [=](Parts& node, const Check& former, ByteView bytes) {
+      const bool same = node.device.dictionary.number(index, 0) == conform::load_le(bytes);
+      *restarts = node.sync_producer.next_wakeup().has_value() && (same || !of_same_value);
+      return former(bytes);
+    })(parts);
+    after_writing(index, 0, [restarts](Parts& node, const std::function<void()>& former) {
+      former();
+      if (!*restarts || !node.sync_producer.next_wakeup()) return;
+      node.sync_producer.on_reset();
+      node.sync_producer.on_boot_up();
+    })(parts);
+  };
+}
+
 DefectTable switch_rows() {
   return {
       {"sync-counter-anew-with-start",
@@ -177,6 +213,26 @@ DefectTable switch_rows() {
        "SYNC is produced on 080h, whatever 1005h says",
        {"OD-1005-09"},
        reshape(Service::sync, [](const FilterContext&, Frame& frame) { frame.id = 0x80; })},
+      {"sync-due-one-sent-behind-bit-30",
+       "When bit 30 of 1005h is cleared the SYNC that is due next is still sent",
+       {"SYNC-PRO-03"},
+       ends_one_later(0x1005)},
+      {"sync-due-one-sent-behind-period-0",
+       "When 0 is written to 1006h the SYNC that is due next is still sent",
+       {"SYNC-PRO-03"},
+       ends_one_later(0x1006)},
+      {"sync-anew-with-1017",
+       "A write of 1017h begins the production of SYNC anew",
+       {"SYNC-PRO-01"},
+       begins_anew_with(0x1017)},
+      {"sync-anew-with-1005",
+       "A write of 1005h that changes nothing begins the production of SYNC anew",
+       {"SYNC-PRO-04"},
+       begins_anew_with(0x1005, true)},
+      {"sync-anew-with-1006",
+       "A write of the period that there is begins the production of SYNC anew",
+       {"SYNC-PRO-04"},
+       begins_anew_with(0x1006, true)},
       {"1005-lock-missing",
        "The CAN-ID of 1005h can be changed while SYNC is produced",
        {"OD-1005-05"},
