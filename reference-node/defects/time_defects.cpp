@@ -56,6 +56,45 @@ Change adds_written_time() {
   });
 }
 
+/// Behind a time that was written the clock stops with the last one that there is.
+Change stops_at_the_end() {
+  return [](Parts& parts) {
+    const auto written = std::make_shared<std::uint64_t>(0);
+    with_boot_up([written](Parts&) { *written = 0; })(parts);
+    checking(0x1013, 0, [written](Parts&, const Check& former, ByteView bytes) {
+      *written = conform::load_le(bytes);
+      return former(bytes);
+    })(parts);
+    reading(0x1013, 0, [written](Parts&, const Read& former) {
+      Upload ticks = former();
+      if (ticks && conform::load_le(*ticks) < *written) ticks->assign(ticks->size(), 0xFF);
+      return ticks;
+    })(parts);
+  };
+}
+
+/// A TIME message that is received loses bits of one byte.
+Change consumes_without(std::size_t byte, std::uint8_t bits) {
+  return misreads([=](Parts& parts, Frame& frame) {
+    const auto id = static_cast<std::uint32_t>(parts.device.dictionary.number(0x1012, 0) & 0x7FFU);
+    if (frame.id == id && !frame.extended && !frame.remote && frame.size() == 6)
+      frame.data[byte] &= static_cast<std::uint8_t>(~bits);
+  });
+}
+
+/// The clock of the producer is set to the milliseconds and the four bits above them.
+void sets_clock_by_reserved_bits(Parts& parts) {
+  const auto reserved = std::make_shared<std::uint32_t>(0);
+  parts.device.inbox.add_filter([reserved](std::vector<Frame>& frames) {
+    for (const Frame& frame : frames)
+      if (frame.size() == 6) *reserved = frame.data[3] & 0xF0U;
+  });
+  parts.time.on_time_of_day = [reserved, former = parts.time.on_time_of_day](std::uint32_t milliseconds,
+                                                                             std::uint16_t days) {
+    former(milliseconds | (*reserved << 24U), days);
+  };
+}
+
 TimeProducerRules& of_producer(Parts& parts) { return parts.time_producer.rules; }
 
 /// TIME tells another time than it is.
@@ -144,6 +183,31 @@ DefectTable producer_rows() {
        tells([](TimeOfDay right) -> TimeOfDay {
          return {right.milliseconds, static_cast<std::uint16_t>(right.days + 5113)};
        })},
+      {"time-days-of-15-bits",
+       "The days of TIME that is produced have 15 bits",
+       {"TIME-PRO-01"},
+       tells([](TimeOfDay right) -> TimeOfDay {
+         return {right.milliseconds, static_cast<std::uint16_t>(right.days & 0x7FFFU)};
+       })},
+      {"time-not-produced-by-a-consumer",
+       "With bits 31 and 30 of 1012h both set no TIME is produced",
+       {"TIME-PRO-01"},
+       decides(of_time, &CobIdRules::produced,
+               [](const auto& former, std::uint32_t value) {
+                 return former(value) && (value & 0x80000000U) == 0;
+               })},
+      {"time-clock-set-by-reserved-bits",
+       "The clock of the producer takes the reserved bits of a TIME message for milliseconds",
+       {"TIME-CON-02"},
+       sets_clock_by_reserved_bits},
+      {"time-consumed-days-of-15-bits",
+       "Of the days of a TIME message 15 bits are taken",
+       {"TIME-CON-01"},
+       consumes_without(5, 0x80)},
+      {"time-consumed-in-26-bits",
+       "Of the milliseconds of a TIME message 26 bits are taken",
+       {"TIME-CON-01"},
+       consumes_without(3, 0x0C)},
       {"time-produced-in-stopped",
        "TIME is produced in Stopped, too",
        {"TIME-PRO-02"},
@@ -174,6 +238,10 @@ DefectTable clock_rows() {
        "1013h does not begin with 0 after a reset",
        {"OD-1013-04"},
        clock_starts_at(0x12345678)},
+      {"1013-stops-at-the-end",
+       "1013h stays at FFFF FFFFh instead of beginning with 0 again",
+       {"OD-1013-03"},
+       stops_at_the_end()},
       {"1013-unit-ms",
        "1013h counts milliseconds",
        {"OD-1013-05"},
