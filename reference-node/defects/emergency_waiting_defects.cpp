@@ -3,6 +3,7 @@
 // inhibit time is dropped or outlives a reset, and the end of an error is told in another way than its
 // beginning.
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "defects/cob_ids.hpp"
@@ -43,6 +44,49 @@ Change ends_with_former_register(ErrorSource source) {
   };
 }
 
+/// The bits of 1001h go all together, with the last of the errors.
+void keeps_bits_to_the_end(Parts& parts) {
+  const auto kept = std::make_shared<std::uint8_t>(0);
+  const auto shown = [&parts, kept](std::uint8_t bits) {
+    *kept = parts.emergency.active().empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(*kept | bits);
+    return *kept;
+  };
+  parts.device.errors.raise.replace(
+      [&parts, shown](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        former(cause, detail);
+        shown(parts.emergency.error_register());
+      });
+  reading(0x1001, 0, [shown](Parts&, const Read& former) {
+    Upload bits = former();
+    if (bits) bits->front() = shown(bits->front());
+    return bits;
+  })(parts);
+  parts.device.outbox.add_filter([shown](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::emergency) return;
+    for (Outgoing& each : frames) each.frame.data[2] = shown(each.frame.data[2]);
+  });
+}
+
+/// The errors of RPDOs are forgotten when Operational ends.
+void forgets_errors_of_rpdos(Parts& parts) {
+  const auto present = std::make_shared<std::vector<ErrorCause>>();
+  const auto quiet = std::make_shared<bool>(false);
+  parts.device.errors.raise.replace(
+      [present](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        if (cause.source == ErrorSource::rpdo) present->push_back(cause);
+        former(cause, detail);
+      });
+  parts.device.outbox.add_filter([quiet](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::emergency && *quiet) frames.clear();
+  });
+  ahead_of_state_change([present, quiet](Parts& node) {
+    if (node.device.state != NmtState::pre_operational) return;
+    *quiet = true;
+    for (const ErrorCause& cause : std::exchange(*present, {})) node.device.errors.clear(cause);
+    *quiet = false;
+  })(parts);
+}
+
 /// One state empties the history.
 Change empties_history_in(NmtState state) {
   return ahead_of_state_change([state](Parts& parts) {
@@ -74,6 +118,18 @@ DefectTable emergency_waiting_defects() {
        "What waits for the inhibit time of EMCY is dropped by a write of 1015h",
        {"EMCY-INH-01"},
        on(WhileWaiting::inhibit_time_written, false)},
+      {"emcy-waiting-survives-reset-communication",
+       "What waits for the inhibit time of EMCY is sent behind the reset of the communication",
+       {"EMCY-SEQ-03"},
+       on(WhileWaiting::reset_communication, true)},
+      {"1001-bits-go-with-the-last-error",
+       "The bits of 1001h stay until the last error has gone",
+       {"OD-1001-06"},
+       keeps_bits_to_the_end},
+      {"emcy-errors-of-rpdos-forgotten-in-pre-operational",
+       "Entering Pre-operational ends the errors of RPDOs, and no EMCY tells so",
+       {"EMCY-SEQ-02"},
+       forgets_errors_of_rpdos},
       {"emcy-end-of-heartbeat-loss-with-register-before",
        "EMCY 0000h of a heartbeat that has come back has the error register of before",
        {"EMCY-FMT-03"},
