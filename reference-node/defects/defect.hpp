@@ -116,6 +116,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable objects_operating_system_defects();
 [[nodiscard]] DefectTable lss_defects();
 [[nodiscard]] DefectTable lss_sequence_defects();
+[[nodiscard]] DefectTable lss_frame_defects();
 [[nodiscard]] DefectTable pdo_traffic_defects();
 [[nodiscard]] DefectTable device_traffic_defects();
 [[nodiscard]] DefectTable device_load_defects();

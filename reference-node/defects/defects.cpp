@@ -63,6 +63,7 @@ std::span<const Defect> defects() {
                                        objects_operating_system_defects,
                                        lss_defects,
                                        lss_sequence_defects,
+                                       lss_frame_defects,
                                        pdo_traffic_defects,
                                        pdo_course_defects,
                                        pdo_receive_course_defects,

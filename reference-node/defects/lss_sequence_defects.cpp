@@ -23,8 +23,10 @@ constexpr std::uint8_t selective_serial = 0x43;
 constexpr std::uint8_t selective_answer = 0x44;
 constexpr std::uint8_t identify_vendor = 0x46;
 constexpr std::uint8_t identify_serial_high = 0x4B;
+constexpr std::uint8_t identify_unconfigured = 0x4C;
 constexpr std::uint8_t fastscan = 0x51;
 constexpr std::uint8_t begin_of_scan = 0x80;
+constexpr std::uint8_t last_part_of_scan = 3;
 
 bool is_request(const Frame& frame) {
   return frame.id == request_id && !frame.extended && !frame.remote && frame.size() == 8;
@@ -70,8 +72,8 @@ Change keeps_the_address() {
   };
 }
 
-/// A slave in the configuration state takes each serial number for its own.
-void answers_any_serial_in_configuration(Parts& parts) {
+/// Whether the slave is in the configuration state.
+std::shared_ptr<bool> in_configuration(Parts& parts) {
   const auto configuration = std::make_shared<bool>(false);
   parts.device.outbox.add_filter(
       [configuration](const FilterContext& context, const std::vector<Outgoing>& frames) {
@@ -79,26 +81,85 @@ void answers_any_serial_in_configuration(Parts& parts) {
         const bool answers = context.service == Service::lss && !frames.empty();
         if (answers && frames.front().frame.data[0] == selective_answer) *configuration = true;
       });
-  parts.device.inbox.add_filter([configuration, &parts](std::vector<Frame>& frames) {
+  parts.device.inbox.add_filter([configuration](const std::vector<Frame>& frames) {
     if (frames.size() != 1 || !is_request(frames[0])) return;
     const auto& data = frames[0].data;
     if (data[0] == switch_state_global) *configuration = data[1] == 1;
-    if (!*configuration || data[0] != selective_serial) return;
-    answer(parts, selective_answer);
-    frames.clear();
+  });
+  return configuration;
+}
+
+/// A slave in the configuration state takes each serial number for its own.
+void answers_any_serial_in_configuration(Parts& parts) {
+  parts.device.inbox.add_filter(
+      [configuration = in_configuration(parts), &parts](std::vector<Frame>& frames) {
+        if (frames.size() != 1 || !is_request(frames[0])) return;
+        const auto& data = frames[0].data;
+        if (!*configuration || data[0] != selective_serial) return;
+        answer(parts, selective_answer);
+        frames.clear();
+      });
+}
+
+/// In the configuration state a slave answers who asks for those without node-ID, though it has one.
+void counts_as_unconfigured_in_configuration(Parts& parts) {
+  parts.lss.rules.configured.replace(
+      [configuration = in_configuration(parts)](const auto& former, const Frame& frame) {
+        return former(frame) && (frame.data[0] != identify_unconfigured || !*configuration);
+      });
+}
+
+/// An SDO request to this device makes it forget how far the frames from `first` to `last` had come.
+Change forgets_with_an_sdo_request(std::uint8_t first, std::uint8_t last) {
+  return deaf_to([first, last, forgotten = false](Parts& parts, const Frame& frame) mutable {
+    if (frame.id == 0x600U + parts.device.node_id) forgotten = true;
+    if (!is_request(frame) || frame.data[0] < first || frame.data[0] > last) return false;
+    if (frame.data[0] == first) forgotten = false;
+    return forgotten;
   });
 }
 
-/// A scan that begins behind one that was given up waits for the part that was due there.
-Change goes_on_with_a_scan() {
-  return deaf_to([parts_found = 0](Parts& parts, const Frame& frame) mutable {
+/// A scan that begins behind one that was given up waits for the part that was due there, if it had found as
+/// many as this.
+Change goes_on_with_a_scan(int at_least) {
+  return deaf_to([at_least, parts_found = 0](Parts& parts, const Frame& frame) mutable {
     if (!is_request(frame) || frame.data[0] != fastscan || parts.device.node_id <= 127) return false;
     if (frame.data[5] != begin_of_scan) {
       parts_found = frame.data[7];
       return false;
     }
-    if (parts_found != 0) identify(parts);
-    return parts_found != 0;
+    if (parts_found >= at_least) identify(parts);
+    return parts_found >= at_least;
+  });
+}
+
+/// Once found, the slave takes part in no other scan.
+Change is_found_once() {
+  return deaf_to([found = false](Parts& parts, const Frame& frame) mutable {
+    if (!is_request(frame) || frame.data[0] != fastscan || parts.device.node_id <= 127) return false;
+    const bool deaf = found;
+    const std::uint32_t serial = parts.lss.rules.address(last_part_of_scan);
+    const auto named = static_cast<std::uint32_t>(conform::load_le(frame.bytes().subspan(1, 4)));
+    found = found || (frame.data[5] == 0 && frame.data[6] == last_part_of_scan && named == serial);
+    return deaf;
+  });
+}
+
+/// A slave without node-ID tells so once.
+Change tells_once_that_it_has_no_node_id() {
+  return deaf_to([told = false](Parts& parts, const Frame& frame) mutable {
+    if (!is_request(frame) || frame.data[0] != identify_unconfigured) return false;
+    return parts.device.node_id > 127 && std::exchange(told, true);
+  });
+}
+
+/// A slave without node-ID begins with one as soon as it is told, in the configuration state.
+void begins_in_configuration(Parts& parts) {
+  constexpr std::uint8_t configure_node_id = 0x11;
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, const std::vector<Outgoing>& frames) {
+    if (context.service != Service::lss || frames.empty() || parts.device.node_id <= 127) return;
+    const auto& data = frames.front().frame.data;
+    if (data[0] == configure_node_id && data[1] == 0) parts.lss.on_node_id();
   });
 }
 
@@ -139,6 +200,43 @@ void remembers_over_reset_node(Parts& parts) {
       });
 }
 
+/// As soon as the configuration is stored, inquire node-ID tells what was.
+void tells_the_stored_one(Parts& parts) {
+  constexpr std::uint8_t inquire_node_id = 0x5E;
+  const auto stored = std::make_shared<std::optional<std::uint8_t>>();
+  with_boot_up([stored](Parts&) { stored->reset(); })(parts);
+  parts.lss.keep = [stored, former = parts.lss.keep](std::uint8_t node_id,
+                                                     std::optional<std::uint8_t> bit_rate) {
+    const bool kept = former(node_id, bit_rate);
+    if (kept) *stored = node_id;
+    return kept;
+  };
+  parts.device.outbox.add_filter([stored](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::lss || !*stored) return;
+    for (Outgoing& each : frames) {
+      if (each.frame.data[0] == inquire_node_id) each.frame.data[1] = **stored;
+    }
+  });
+}
+
+/// A node-ID that waits for the reset is stored with the parameters.
+void is_stored_with_the_parameters(Parts& parts) {
+  const auto latest = latest_configured(parts);
+  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
+  after_writing(0x1010, 1, [latest](Parts& node, const std::function<void()>& former) {
+    if (former) former();
+    if (latest->accepted) static_cast<void>(node.lss.keep(*latest->accepted, {}));
+  })(parts);
+}
+
+/// A stored node-ID that is none is taken for nothing stored.
+void never_stores_none(Parts& parts) {
+  parts.lss.stored_node_id = [former = parts.lss.stored_node_id] {
+    const auto stored = former();
+    return stored == LssSlave::no_node_id ? std::nullopt : stored;
+  };
+}
+
 void tells_the_configured_one(Parts& parts) {
   constexpr std::uint8_t inquire_node_id = 0x5E;
   const auto latest = latest_configured(parts);
@@ -161,6 +259,15 @@ Change keeps_listening_to_its_first_node_id(bool (*holds_node_id)(const Frame&),
       const std::uint8_t present = node.device.node_id;
       if (present == first || !holds_node_id(frame) || get(frame) == 0) return;
       put(frame, get(frame) == first ? present : nobody);
+    })(parts);
+  };
+}
+
+/// SDO requests to the node-ID that the device was switched on with are served, too.
+Change answers_sdo_of_its_first_node_id() {
+  return [](Parts& parts) {
+    misreads([first = parts.device.node_id](Parts& node, Frame& frame) {
+      if (!frame.extended && frame.id == 0x600U + first) frame.id = 0x600U + node.device.node_id;
     })(parts);
   };
 }
@@ -209,7 +316,35 @@ DefectTable lss_sequence_defects() {
       {"lss-fastscan-goes-on",
        "A fastscan that begins behind one that was given up goes on with that",
        {"LSS-FS-03"},
-       goes_on_with_a_scan()},
+       goes_on_with_a_scan(1)},
+      {"lss-fastscan-goes-on-behind-two-parts",
+       "A fastscan that begins behind one that was given up after two parts or more goes on with that",
+       {"LSS-FS-03"},
+       goes_on_with_a_scan(2)},
+      {"lss-fastscan-finds-once",
+       "A slave that a fastscan has found is found by no other",
+       {"LSS-FS-03"},
+       is_found_once()},
+      {"lss-unconfigured-answers-once",
+       "A slave without node-ID answers 4Ch once, until power is switched",
+       {"LSS-ID-04"},
+       tells_once_that_it_has_no_node_id()},
+      {"lss-configured-slave-answers-4c-in-configuration",
+       "In the configuration state a slave with a node-ID answers 4Ch",
+       {"LSS-ID-03"},
+       Change(counts_as_unconfigured_in_configuration)},
+      {"lss-sdo-request-forgets-address",
+       "An SDO request between the parts of an LSS address makes the slave forget them",
+       {"LSS-SS-01"},
+       forgets_with_an_sdo_request(selective_vendor, selective_serial)},
+      {"lss-sdo-request-forgets-ranges",
+       "An SDO request between the frames of identify remote slave makes the slave forget them",
+       {"LSS-ID-02"},
+       forgets_with_an_sdo_request(identify_vendor, identify_serial_high)},
+      {"lss-boots-in-configuration",
+       "A slave without node-ID boots up with 11h, before it leaves the configuration state",
+       {"LSS-CN-06"},
+       Change(begins_in_configuration)},
       {"lss-does-not-boot-with-new-node-id",
        "A slave without node-ID that is given one goes on waiting, until power is switched",
        {"LSS-CN-06"},
@@ -236,6 +371,22 @@ DefectTable lss_sequence_defects() {
        "Inquire node-ID tells the one that waits for the reset",
        {"LSS-INQ-05"},
        Change(tells_the_configured_one)},
+      {"lss-stored-node-id-inquired",
+       "Inquire node-ID tells the one that waits for the reset as soon as it is stored",
+       {"LSS-INQ-05"},
+       Change(tells_the_stored_one)},
+      {"lss-node-id-stored-with-parameters",
+       "A node-ID that waits for the reset is stored with 1010h:01",
+       {"LSS-CN-05"},
+       Change(is_stored_with_the_parameters)},
+      {"lss-missing-node-id-not-stored",
+       "With reset node a slave forgets that it has stored to have no node-ID",
+       {"LSS-ST-02"},
+       Change(never_stores_none)},
+      {"lss-sdo-keeps-node-id",
+       "With another node-ID SDO requests to the former one are answered",
+       {"LSS-CN-04"},
+       answers_sdo_of_its_first_node_id()},
       {"lss-guarding-keeps-node-id",
        "With another node-ID guard requests to the former one are answered",
        {"LSS-CN-04"},
