@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of what a node has no business to send: frames of services that it does not have, or that are
-// switched off, and frames that were left in from the days of development.
+// switched off, and frames that were left in from the days of development. And of frames that it takes for
+// its own: by a part of their identifiers.
+#include <cstdint>
 #include <initializer_list>
 
 #include "defects/hooks.hpp"
@@ -46,6 +48,35 @@ Frame extended(Frame frame) {
   return frame;
 }
 
+/// A part of a 29-bit identifier, or of a CAN-ID, that is looked at in place of the whole.
+using Part = std::uint32_t (*)(const Frame&);
+
+/// Extended frames are base frames by the upper eleven bits of their identifier: the filter looks there only.
+std::uint32_t upper_bits(const Frame& frame) { return frame.extended ? frame.id >> 18U : frame.id; }
+/// ... or by the lower ones: the rest is cut.
+std::uint32_t lower_bits(const Frame& frame) { return frame.id & 0x7FFU; }
+
+/// Data frames for the CAN-IDs from `first` to `last` are those for which `part` says so. The right ones
+/// stay.
+Change known_by(Part part, std::uint32_t first, std::uint32_t last) {
+  return misreads([part, first, last](Parts&, Frame& frame) {
+    // With a whole CAN-ID in an extended frame it would be known to many.
+    if (!frame.extended || frame.remote || frame.id <= 0x7FFU) return;
+    const std::uint32_t id = part(frame);
+    if (id < first || id > last) return;
+    frame.id = id;
+    frame.extended = false;
+  });
+}
+
+/// Bit 6 of the CAN-ID of the second RPDO is not compared.
+void takes_rpdo_of_another(Parts& parts, Frame& frame) {
+  constexpr std::uint32_t bit = 0x40;
+  const auto cob_id = parts.device.dictionary.number(0x1401, 1);
+  const bool base = (cob_id & 0xA000'0000U) == 0;
+  if (base && !frame.extended && !frame.remote && frame.id == ((cob_id & 0x7FFU) ^ bit)) frame.id ^= bit;
+}
+
 }  // namespace
 
 DefectTable device_traffic_defects() {
@@ -88,6 +119,54 @@ DefectTable device_traffic_defects() {
        "The boot-up message is followed by an LSS answer that nobody asked for",
        {"LSS-GEN-08"},
        sends_behind_boot_up([](std::uint8_t) { return frame_of(0x7E4, {0x4F, 0, 0, 0, 0, 0, 0, 0}); })},
+      {"nmt-known-by-lower-bits",
+       "Extended frames whose lower eleven bits are 0, but not all, are NMT commands",
+       {"NMT-FSA-19"},
+       known_by(lower_bits, 0x000, 0x000)},
+      {"sync-known-by-lower-bits",
+       "Extended frames whose lower eleven bits are 080h, and others set, are SYNC",
+       {"SYNC-CON-02"},
+       known_by(lower_bits, 0x080, 0x080)},
+      {"sync-known-by-upper-bits",
+       "Extended frames whose upper eleven bits are 080h are SYNC",
+       {"SYNC-CON-02"},
+       known_by(upper_bits, 0x080, 0x080)},
+      {"time-known-by-lower-bits",
+       "Extended frames whose lower eleven bits are 100h, and others set, are TIME",
+       {"TIME-CON-03"},
+       known_by(lower_bits, 0x100, 0x100)},
+      {"time-known-by-upper-bits",
+       "Extended frames whose upper eleven bits are 100h are TIME",
+       {"TIME-CON-03"},
+       known_by(upper_bits, 0x100, 0x100)},
+      {"rpdo-known-by-lower-bits",
+       "Extended frames whose lower eleven bits are those of an RPDO, and others set, are that RPDO",
+       {"PDO-RX-13"},
+       known_by(lower_bits, 0x200, 0x57F)},
+      {"rpdo-known-by-upper-bits",
+       "Extended frames whose upper eleven bits are those of an RPDO are that RPDO",
+       {"PDO-RX-13"},
+       known_by(upper_bits, 0x200, 0x57F)},
+      {"rpdo-2-known-without-bit-6",
+       "The second RPDO is also received with bit 6 of its CAN-ID inverted, as that of another node",
+       {"PDO-RX-13"},
+       misreads(takes_rpdo_of_another)},
+      {"sdo-known-by-lower-bits",
+       "Extended frames whose lower eleven bits are those of SDO requests, and others set, are requests",
+       {"SDO-GEN-11"},
+       known_by(lower_bits, 0x600, 0x67F)},
+      {"sdo-known-by-upper-bits",
+       "Extended frames whose upper eleven bits are those of SDO requests are requests",
+       {"SDO-GEN-11"},
+       known_by(upper_bits, 0x600, 0x67F)},
+      {"heartbeat-known-by-lower-bits",
+       "Extended frames whose lower eleven bits are those of a heartbeat, and others set, are heartbeats",
+       {"EC-HBC-11"},
+       known_by(lower_bits, 0x701, 0x77F)},
+      {"heartbeat-known-by-upper-bits",
+       "Extended frames whose upper eleven bits are those of a heartbeat are heartbeats",
+       {"EC-HBC-11"},
+       known_by(upper_bits, 0x701, 0x77F)},
   };
 }
 
