@@ -85,6 +85,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable emergency_course_defects();
 [[nodiscard]] DefectTable emergency_waiting_defects();
 [[nodiscard]] DefectTable nmt_defects();
+[[nodiscard]] DefectTable nmt_course_defects();
 [[nodiscard]] DefectTable error_control_heartbeat_defects();
 [[nodiscard]] DefectTable error_control_monitoring_defects();
 [[nodiscard]] DefectTable cob_id_defects();

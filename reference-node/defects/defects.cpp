@@ -36,6 +36,7 @@ std::span<const Defect> defects() {
                                        emergency_course_defects,
                                        emergency_waiting_defects,
                                        nmt_defects,
+                                       nmt_course_defects,
                                        error_control_heartbeat_defects,
                                        error_control_monitoring_defects,
                                        cob_id_defects,

@@ -44,6 +44,8 @@ class SdoServers {
   [[nodiscard]] std::optional<BusTime> next_wakeup() const;
   /// Where transfers end they are dropped without a word.
   void on_state_change();
+  /// The transfer of the default server is forgotten without a word.
+  void drop() { default_.reset(); }
 
  private:
   struct Additional {

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of the NMT slave and of resets that show only behind something else: another command, another
+// node's command, an error, a reset before.
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "defects/hooks.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+constexpr std::uint8_t start = 0x01;
+constexpr std::uint8_t reset_node = 0x81;
+constexpr std::uint8_t reset_communication = 0x82;
+
+bool is_command(const Frame& frame) {
+  return frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
+}
+bool is_for(const Parts& parts, const Frame& frame) {
+  return frame.data[1] == 0 || frame.data[1] == parts.device.node_id;
+}
+bool is_reset(const Frame& frame) {
+  return frame.data[0] == reset_node || frame.data[0] == reset_communication;
+}
+
+/// The driver hands on the data of the last frame with a remote frame.
+void repeats_by_remote_frame(Parts& parts) {
+  const auto last = std::make_shared<std::optional<Frame>>();
+  misreads([last](Parts&, Frame& frame) {
+    if (is_command(frame)) *last = frame;
+    if (frame.id == 0x000 && !frame.extended && frame.remote && *last) frame = **last;
+  })(parts);
+}
+
+/// The command that was given last is taken for done, although an error may have changed the state since.
+void drops_repeated_commands(Parts& parts) {
+  const auto last = std::make_shared<std::uint8_t>(0);
+  deaf_to([last](Parts& node, const Frame& frame) {
+    if (!is_command(frame) || !is_for(node, frame)) return false;
+    const bool same = std::exchange(*last, frame.data[0]) == frame.data[0];
+    return same && !is_reset(frame);
+  })(parts);
+}
+
+/// RPDOs are switched on by the way through Pre-operational alone.
+void ignores_rpdos_behind_stopped(Parts& parts) {
+  const auto off = std::make_shared<bool>(false);
+  with_boot_up([off](Parts&) { *off = false; })(parts);
+  ahead_of_state_change([off](Parts& node) {
+    if (node.device.state != NmtState::operational) *off = node.device.state == NmtState::stopped;
+  })(parts);
+  deaf_to([off](Parts&, const Frame& frame) {
+    return *off && !frame.remote && (frame.extended || (frame.id >= 0x180 && frame.id < 0x580));
+  })(parts);
+}
+
+/// With such a command the SDO server forgets its transfer.
+Change drops_transfer_with(bool (*command)(const Parts& parts, const Frame& frame)) {
+  return deaf_to([command](Parts& parts, const Frame& frame) {
+    if (is_command(frame) && command(parts, frame)) parts.sdo.drop();
+    return false;
+  });
+}
+
+/// Reset communication leaves this entry as it was written.
+Change kept_by_reset_communication(Multiplexer mux) {
+  return [mux](Parts& parts) {
+    parts.nmt.on_reset = [&parts, mux, former = parts.nmt.on_reset](Reset kind) {
+      ObjectDictionary& od = parts.device.dictionary;
+      const std::uint64_t written = od.number(mux.index.value(), mux.sub.value());
+      former(kind);
+      if (kind == Reset::communication) od.set_number(mux.index.value(), mux.sub.value(), written);
+    };
+  };
+}
+
+/// Behind reset communication the timer is left as it is where 1017h has not changed; but the reset had
+/// stopped it.
+void heartbeat_waits_for_a_change(Parts& parts) {
+  const auto off = std::make_shared<bool>(false);
+  parts.nmt.on_reset = [&parts, off, former = parts.nmt.on_reset](Reset kind) {
+    const std::uint64_t before = parts.device.dictionary.number(0x1017, 0);
+    former(kind);
+    *off = kind == Reset::communication && parts.device.dictionary.number(0x1017, 0) == before;
+  };
+  after_writing(0x1017, 0, [off](Parts&, const std::function<void()>& written) {
+    *off = false;
+    written();
+  })(parts);
+  parts.device.outbox.add_filter([off](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::heartbeat && *off) frames.clear();
+  });
+}
+
+/// The timer of the heartbeat runs on while the node starts, and the state is that of the boot-up message.
+void heartbeat_goes_on_in_start_up(Parts& parts) {
+  parts.nmt.on_reset = [&parts, former = parts.nmt.on_reset](Reset kind) {
+    const Duration period = parts.producer.rules.period(parts.device.time_value(0x1017, 0));
+    former(kind);
+    if (period == Duration::zero()) return;
+    const Duration start_up = parts.nmt.rules.start_up_time(kind);
+    const Frame frame = conform::can::data_frame(conform::CanId(0x700U + parts.device.node_id), {0x00});
+    std::vector<Outgoing> frames;
+    for (Duration at = period / 2; at < start_up; at += period) frames.push_back({frame, at});
+    if (frames.empty()) return;
+    const FilterContext context{Service::heartbeat, parts.device.node_id, parts.device.state};
+    parts.device.outbox.send(context, std::move(frames), parts.device.now);
+  };
+}
+
+/// Stopped that an error has led to leaves the SDO server on.
+void serves_where_an_error_stopped(Parts& parts) {
+  const auto by_error = std::make_shared<bool>(false);
+  parts.error_behaviour.enter = [by_error, former = parts.error_behaviour.enter](NmtState state) {
+    *by_error = state == NmtState::stopped;
+    former(state);
+  };
+  deaf_to([by_error](Parts& node, const Frame& frame) {
+    if (is_command(frame) && is_for(node, frame)) *by_error = false;
+    return false;
+  })(parts);
+  parts.device.works.replace([by_error](const auto& former, Service service, NmtState state) {
+    return (*by_error && service == Service::sdo && state == NmtState::stopped) || former(service, state);
+  });
+}
+
+/// One receive buffer for CAN-ID 000h: a command right behind another frame of it is lost.
+Change has_one_buffer() {
+  return [](Parts& parts) {
+    const auto last = std::make_shared<std::optional<BusTime>>();
+    deaf_to([last](Parts& node, const Frame& frame) {
+      constexpr Duration until_read = std::chrono::milliseconds(1);
+      if (!is_command(frame)) return false;
+      const auto before = std::exchange(*last, node.device.now);
+      return before && node.device.now - *before < until_read;
+    })(parts);
+  };
+}
+
+/// While an NMT frame is looked at, of whichever node, an SDO request is lost.
+void loses_requests_behind_commands(Parts& parts) {
+  const auto last = std::make_shared<std::optional<BusTime>>();
+  deaf_to([last](Parts& node, const Frame& frame) {
+    constexpr Duration until_read = std::chrono::milliseconds(1);
+    if (is_command(frame)) *last = node.device.now;
+    return *last && node.device.now - **last < until_read && node.sdo.server_of(frame) != nullptr;
+  })(parts);
+}
+
+}  // namespace
+
+DefectTable nmt_course_defects() {
+  return {
+      {"nmt-repeated-by-remote-frame",
+       "A remote frame on CAN-ID 000h is taken for the last command once more",
+       {"NMT-FSA-19"},
+       Change(repeats_by_remote_frame)},
+      {"nmt-repeated-command-dropped",
+       "Start, stop or enter pre-operational is dropped when it was the last command, too, whatever happened since",
+       {"NMT-FSA-01"},
+       Change(drops_repeated_commands)},
+      {"rpdo-ignored-behind-stopped",
+       "In Operational that was entered from Stopped no RPDO is processed",
+       {"NMT-FSA-22"},
+       Change(ignores_rpdos_behind_stopped)},
+      {"nmt-of-another-drops-transfer",
+       "An NMT command for another node ends the SDO transfer that runs",
+       {"NMT-FSA-15"},
+       drops_transfer_with([](const Parts& parts, const Frame& frame) { return !is_for(parts, frame); })},
+      {"nmt-start-again-drops-transfer",
+       "NMT start in Operational ends the SDO transfer that runs",
+       {"NMT-FSA-13"},
+       drops_transfer_with([](const Parts& parts, const Frame& frame) {
+         return frame.data[0] == start && is_for(parts, frame) && parts.device.state == NmtState::operational;
+       })},
+      {"reset-communication-keeps-last-monitored-node",
+       "Reset communication leaves 1016h:04 as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(mux(0x1016, 4))},
+      {"reset-communication-keeps-life-time-factor",
+       "Reset communication leaves 100Dh as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(mux(0x100D, 0))},
+      {"heartbeat-silent-behind-reset-communication",
+       "Where reset communication does not change 1017h the heartbeat does not start behind it",
+       {"EC-HBP-05"},
+       Change(heartbeat_waits_for_a_change)},
+      {"heartbeat-in-start-up",
+       "The heartbeat goes on while the node starts, and shows 00h",
+       {"NMT-BOOT-02", "NMT-BOOT-03"},
+       Change(heartbeat_goes_on_in_start_up)},
+      {"nmt-node-id-bit6-masked",
+       "Bit 6 of the node-ID of a command is not looked at",
+       {"NMT-FSA-15"},
+       misreads([](Parts& parts, Frame& frame) {
+         if (is_command(frame) && frame.data[1] == (parts.device.node_id ^ 0x40U))
+           frame.data[1] = parts.device.node_id;
+       })},
+      {"nmt-reset-node-of-all-resets-communication",
+       "Reset node for all nodes resets the communication only",
+       {"NMT-FSA-25"},
+       misreads([](Parts&, Frame& frame) {
+         if (is_command(frame) && frame.data[0] == reset_node && frame.data[1] == 0)
+           frame.data[0] = reset_communication;
+       })},
+      {"sdo-served-in-stopped-by-error",
+       "In Stopped that an error has led to SDO is served",
+       {"NMT-FSA-23"},
+       Change(serves_where_an_error_stopped)},
+      {"nmt-lost-behind-another",
+       "Of commands on the bus one right behind the other the first one is obeyed",
+       {"NMT-FSA-20"},
+       has_one_buffer()},
+      {"sdo-request-lost-behind-nmt",
+       "An SDO request right behind an NMT command of another node is lost",
+       {"CAN-LOAD-02"},
+       Change(loses_requests_behind_commands)},
+  };
+}
+
+}  // namespace refnode
