@@ -39,6 +39,7 @@ std::span<const Defect> defects() {
                                        nmt_course_defects,
                                        error_control_heartbeat_defects,
                                        error_control_monitoring_defects,
+                                       error_control_course_defects,
                                        cob_id_defects,
                                        cob_id_course_defects,
                                        storage_defects,

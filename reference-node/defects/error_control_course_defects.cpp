@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// Defects of error control that show only beside other frames, behind a reset, or in the long run.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "defects/heartbeats.hpp"
+#include "defects/tools.hpp"
+
+namespace refnode {
+
+using namespace defect;
+
+namespace {
+
+constexpr std::uint8_t toggle_bit = 0x80;
+
+bool is_request(const Parts& parts, const Frame& frame) {
+  return frame.remote && !frame.extended && frame.id == 0x700U + parts.device.node_id;
+}
+bool is_command(const Frame& frame) {
+  return frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
+}
+
+/// A frame that `node_of` finds a node for counts as a heartbeat of that node, once its monitoring has begun.
+Change counts_as_heartbeat(std::optional<std::uint8_t> (*node_of)(const Frame& frame)) {
+  return Reading([node_of](Parts& parts, std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) {
+      const auto node = node_of(frame);
+      if (!node) continue;
+      for (std::uint8_t sub = 1; sub <= consumer_entries(parts); ++sub) {
+        if (node_at(parts, sub) == node && parts.consumer.due(sub)) parts.consumer.on_heartbeat(*node, 0x05);
+      }
+    }
+  });
+}
+
+/// Only the lower seven bits of a node-ID in 1016h count.
+void knows_nodes_by_seven_bits(Parts& parts) {
+  parts.consumer.rules.used.replace(
+      [](const auto& former, std::uint64_t entry) { return former(entry & 0xFF7FFFFFU); });
+  parts.device.inbox.add_filter([&parts](std::vector<Frame>& frames) {
+    for (const Frame& frame : frames) {
+      if (is_heartbeat(frame) && parts.device.state != NmtState::initialising)
+        parts.consumer.on_heartbeat(static_cast<std::uint8_t>(producer_of(frame) | 0x80U), frame.data[0]);
+    }
+  });
+}
+
+/// One receive buffer for the heartbeats of all nodes: the second of two that follow each other is lost.
+void has_one_buffer_for_heartbeats(Parts& parts) {
+  const auto last = std::make_shared<std::optional<BusTime>>();
+  deaf_to([last](Parts& node, const Frame& frame) {
+    constexpr Duration until_read = std::chrono::milliseconds(1);
+    if (!is_heartbeat(frame)) return false;
+    const auto before = std::exchange(*last, node.device.now);
+    return before && node.device.now - *before < until_read;
+  })(parts);
+}
+
+/// 32768 ms and more are taken for a negative time, and a node with such a time is not monitored.
+bool below_the_sign(std::uint64_t entry) { return (entry & 0x8000U) == 0; }
+
+/// Every 256th heartbeat is left out: a counter passes 0.
+Change leaves_out_each_256th() {
+  return Filter(
+      [count = std::uint8_t{0}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+        if (context.service == Service::heartbeat && !frames.empty() && ++count == 0) frames.clear();
+      });
+}
+
+/// A request for any node puts off the end of the life time: the event is told later.
+void counts_requests_for_others(Parts& parts) {
+  const auto last = std::make_shared<BusTime>();
+  deaf_to([last](Parts& node, const Frame& frame) {
+    if (frame.remote && !frame.extended && frame.id > 0x700 && frame.id <= 0x77F) *last = node.device.now;
+    return false;
+  })(parts);
+  parts.device.outbox.add_filter([&parts, last](const FilterContext& context, std::vector<Outgoing>& frames) {
+    constexpr std::uint8_t by_guarding = 4;
+    if (context.service != Service::emergency) return;
+    const ObjectDictionary& od = parts.device.dictionary;
+    const Duration life_time = parts.guarding.rules.life_time(od.number(0x100C, 0), od.number(0x100D, 0));
+    for (Outgoing& each : frames) {
+      if (each.frame.data[1] != 0x81 || each.frame.data[4] != by_guarding) continue;
+      each.delay = std::max(each.delay, Duration(*last + life_time - context.now));
+    }
+  });
+}
+
+/// Behind reset communication guard replies show the state before it, until there is a command.
+void tells_the_state_before_the_reset(Parts& parts) {
+  struct Memory {
+    NmtState present = NmtState::pre_operational;
+    std::optional<NmtState> told;
+  };
+  const auto memory = std::make_shared<Memory>();
+  ahead_of_state_change([memory](Parts& node) { memory->present = node.device.state; })(parts);
+  parts.nmt.on_reset = [memory, former = parts.nmt.on_reset](Reset kind) {
+    const NmtState before = std::exchange(memory->present, NmtState::pre_operational);
+    memory->told = kind == Reset::communication ? std::optional(before) : std::nullopt;
+    former(kind);
+  };
+  deaf_to([memory](Parts&, const Frame& frame) {
+    if (is_command(frame)) memory->told.reset();
+    return false;
+  })(parts);
+  parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::guarding || !memory->told) return;
+    for (Outgoing& each : frames) {
+      each.frame.data[0] = static_cast<std::uint8_t>((each.frame.data[0] & toggle_bit) |
+                                                     static_cast<std::uint8_t>(*memory->told));
+    }
+  });
+}
+
+/// A request that is not answered, since there is a heartbeat, changes the toggle bit all the same.
+void toggles_unanswered(Parts& parts) {
+  const auto other = std::make_shared<bool>(false);
+  with_boot_up([other](Parts&) { *other = false; })(parts);
+  deaf_to([other](Parts& node, const Frame& frame) {
+    if (is_request(node, frame) && node.device.dictionary.number(0x1017, 0) != 0) *other = !*other;
+    return false;
+  })(parts);
+  parts.device.outbox.add_filter([other](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::guarding || !*other) return;
+    for (Outgoing& each : frames) each.frame.data[0] ^= toggle_bit;
+  });
+}
+
+/// The toggle bit begins anew where this node goes from Operational to Stopped.
+void toggle_begins_anew_in_stopped(Parts& parts) {
+  struct Memory {
+    NmtState state = NmtState::initialising;
+    bool next = false;   ///< the toggle bit that would be right
+    bool other = false;  ///< the one that is sent is another
+  };
+  const auto memory = std::make_shared<Memory>();
+  with_boot_up([memory](Parts&) { *memory = {}; })(parts);
+  ahead_of_state_change([memory](Parts& node) {
+    const NmtState before = std::exchange(memory->state, node.device.state);
+    if (before == NmtState::operational && memory->state == NmtState::stopped) memory->other = memory->next;
+  })(parts);
+  parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::guarding) return;
+    for (Outgoing& each : frames) {
+      memory->next = (each.frame.data[0] & toggle_bit) == 0;
+      if (memory->other) each.frame.data[0] ^= toggle_bit;
+    }
+  });
+}
+
+void guarded_in_stopped_beside_heartbeat(Parts& parts) {
+  parts.guarding.rules.is_used.replace([&parts](const auto& former, std::uint64_t heartbeat_time) {
+    return parts.device.state == NmtState::stopped || former(heartbeat_time);
+  });
+}
+
+/// From 1016h:03 on a stored node is looked after once its entry has been written.
+void last_entries_wait_for_a_write(Parts& parts) {
+  const auto written = written_since_boot_up(parts, {0x1016});
+  deaf_to([written](Parts& node, const Frame& frame) {
+    if (!is_heartbeat(frame)) return false;
+    for (std::uint8_t sub = 3; sub <= consumer_entries(node); ++sub) {
+      if (node_at(node, sub) == producer_of(frame)) return !written->contains(mux(0x1016, sub));
+    }
+    return false;
+  })(parts);
+}
+
+DefectTable consumer_rows() {
+  return {
+      {"hbc-kept-alive-by-extended-frames",
+       "A frame with the lower eleven bits of a heartbeat and 18 more keeps a monitored node alive",
+       {"EC-HBC-03"},
+       counts_as_heartbeat([](const Frame& frame) -> std::optional<std::uint8_t> {
+         const std::uint32_t id = frame.id & 0x7FFU;
+         if (!frame.extended || frame.remote || frame.size() != 1 || id <= 0x700 || id > 0x77F) return {};
+         return static_cast<std::uint8_t>(id - 0x700U);
+       })},
+      {"hbc-kept-alive-by-emcy",
+       "An EMCY keeps a monitored node alive",
+       {"EC-HBC-03"},
+       counts_as_heartbeat([](const Frame& frame) -> std::optional<std::uint8_t> {
+         if (frame.extended || frame.remote || frame.id <= 0x80 || frame.id > 0xFF) return {};
+         return static_cast<std::uint8_t>(frame.id - 0x80U);
+       })},
+      {"hbc-kept-alive-by-requests",
+       "A guard request for a monitored node counts as its heartbeat",
+       {"EC-HBC-11"},
+       counts_as_heartbeat([](const Frame& frame) -> std::optional<std::uint8_t> {
+         if (frame.extended || !frame.remote || frame.id <= 0x700 || frame.id > 0x77F) return {};
+         return static_cast<std::uint8_t>(frame.id - 0x700U);
+       })},
+      {"1016-node-id-cut-to-7-bits",
+       "Bit 7 of a node-ID in 1016h is not looked at",
+       {"OD-1016-09"},
+       Change(knows_nodes_by_seven_bits)},
+      {"1016-long-time-not-monitored",
+       "A node with a consumer heartbeat time from 8000h on is not monitored",
+       {"EC-HBC-03", "OD-1016-11"},
+       decides(
+           of_consumer, &HeartbeatConsumerRules::used,
+           [](const auto& former, std::uint64_t entry) { return below_the_sign(entry) && former(entry); })},
+      {"1016-last-entries-stored-without-effect",
+       "From 1016h:03 on stored entries monitor nobody until they are written",
+       {"OD-RST-04"},
+       Change(last_entries_wait_for_a_write)},
+      {"hbc-second-of-two-lost",
+       "Of the heartbeats of two nodes right behind each other the second one is lost",
+       {"EC-HBC-04"},
+       Change(has_one_buffer_for_heartbeats)},
+  };
+}
+
+DefectTable producer_rows() {
+  return {
+      {"1017-coarse-rounded-down",
+       "1017h is rounded down to multiples of 10 ms",
+       {"EC-HBP-11"},
+       decides(of_producer, &HeartbeatProducerRules::period,
+               [](const auto& former, std::int64_t value) {
+                 return former(value > 10 ? value / 10 * 10 : value);
+               })},
+      {"heartbeat-each-256th-missing",
+       "Every 256th heartbeat is left out",
+       {"EC-HBP-01"},
+       leaves_out_each_256th()},
+  };
+}
+
+DefectTable guarding_rows() {
+  return {
+      {"guard-toggle-begins-anew-in-stopped",
+       "The toggle bit begins with 0 when the node goes from Operational to Stopped",
+       {"EC-NG-03"},
+       Change(toggle_begins_anew_in_stopped)},
+      {"life-time-begins-with-requests-for-others",
+       "A guard request for any node begins the life time anew",
+       {"EC-NG-07"},
+       Change(counts_requests_for_others)},
+      {"guard-state-of-before-reset-communication",
+       "Behind reset communication guard replies tell the state before it until there is an NMT command",
+       {"EC-NG-01"},
+       Change(tells_the_state_before_the_reset)},
+      {"guard-answered-in-stopped-beside-heartbeat",
+       "In Stopped guard requests are answered while the heartbeat is on",
+       {"EC-HBP-12"},
+       Change(guarded_in_stopped_beside_heartbeat)},
+      {"guard-toggle-counts-unanswered-requests",
+       "Guard requests that are not answered beside the heartbeat change the toggle bit",
+       {"EC-NG-03"},
+       Change(toggles_unanswered)},
+  };
+}
+
+}  // namespace
+
+DefectTable error_control_course_defects() {
+  DefectTable rows = consumer_rows();
+  for (DefectTable table : {producer_rows(), guarding_rows()}) append(rows, std::move(table));
+  return rows;
+}
+
+}  // namespace refnode
