@@ -161,11 +161,11 @@ DefectTable device_traffic_defects() {
        known_by(upper_bits, 0x600, 0x67F)},
       {"heartbeat-known-by-lower-bits",
        "Extended frames whose lower eleven bits are those of a heartbeat, and others set, are heartbeats",
-       {"EC-HBC-11"},
+       {"EC-HBC-11", "EC-HBC-03"},
        known_by(lower_bits, 0x701, 0x77F)},
       {"heartbeat-known-by-upper-bits",
        "Extended frames whose upper eleven bits are those of a heartbeat are heartbeats",
-       {"EC-HBC-11"},
+       {"EC-HBC-11", "EC-HBC-03"},
        known_by(upper_bits, 0x701, 0x77F)},
   };
 }

@@ -180,7 +180,7 @@ DefectTable pdo_receive_course_defects() {
        Change(swaps_the_second_long)},
       {"rpdo-third-without-the-lowest-bits",
        "The third RPDO is received whatever the two lowest bits of the CAN-ID are",
-       {"OD-1400-11"},
+       {"OD-1400-11", "PDO-RX-13"},
        Change(compares_all_but_two_bits)},
       {"rpdo-waiting-outlives-stopped",
        "A synchronous RPDO that waits for its SYNC takes effect when the device was stopped and started meanwhile",

@@ -446,7 +446,7 @@ DefectTable end_rows() {
        })},
       {"block-upload-goes-on-in-stopped",
        "A running sub-block goes on in Stopped",
-       {"SDO-BUP-27"},
+       {"SDO-BUP-27", "SDO-SUP-19"},
        keeps_transfers_in(NmtState::stopped)},
       {"block-new-request-refused",
        "While a block upload is open every new request is aborted",
