@@ -108,7 +108,8 @@ bool Emergency::full() const {
 
 void Emergency::on_reset(bool whole_node) {
   std::erase_if(causes_, [&](const ErrorCause& cause) {
-    return whole_node || cause.source != ErrorSource::application;
+    // Nothing waits any more.
+    return whole_node || cause.source != ErrorSource::application || cause == overflow;
   });
   history.clear();
   keep_or_drop(whole_node ? WhileWaiting::reset_node : WhileWaiting::reset_communication);

@@ -19,11 +19,10 @@ struct EmergencyChoices {
   bool register_generic_only = false;  ///< no other bit than 0
   bool error_reset_for_each = false;   ///< EMCY 0000h also while other errors remain
   bool dropped_in_stopped = false;     ///< not made up for afterwards
-  bool kept_in_stopped = false;        ///< all of them made up for afterwards, in their order
-  bool completed_when_sent =
-      false;  ///< the error register of an EMCY and the upper half of its field in 1003h
-  std::size_t overflow_told_from =
-      0;  ///< an EMCY more than so many is lost, which is an error of its own; 0: never
+  /// The error register of an EMCY and the upper half of its field in 1003h are those of that moment.
+  bool completed_when_sent = false;
+  /// An EMCY more than so many is lost, which is an error of its own; 0: never.
+  std::size_t overflow_told_from = 0;
   bool error_resets_recorded = false;   ///< EMCY 0000h has its field in 1003h, too
   bool inhibited_from_setting = false;  ///< the first EMCY waits, too, from boot-up or the write of 1015h on
   Duration error_reset_delay{};         ///< EMCY 0000h waits so long, or until the next error
