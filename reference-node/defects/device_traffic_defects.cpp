@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "defects/hooks.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -46,27 +47,6 @@ Change sends_behind_aborts(Frame frame) {
 Frame extended(Frame frame) {
   frame.extended = true;
   return frame;
-}
-
-/// A part of a 29-bit identifier, or of a CAN-ID, that is looked at in place of the whole.
-using Part = std::uint32_t (*)(const Frame&);
-
-/// Extended frames are base frames by the upper eleven bits of their identifier: the filter looks there only.
-std::uint32_t upper_bits(const Frame& frame) { return frame.extended ? frame.id >> 18U : frame.id; }
-/// ... or by the lower ones: the rest is cut.
-std::uint32_t lower_bits(const Frame& frame) { return frame.id & 0x7FFU; }
-
-/// Data frames for the CAN-IDs from `first` to `last` are those for which `part` says so. The right ones
-/// stay.
-Change known_by(Part part, std::uint32_t first, std::uint32_t last) {
-  return misreads([part, first, last](Parts&, Frame& frame) {
-    // With a whole CAN-ID in an extended frame it would be known to many.
-    if (!frame.extended || frame.remote || frame.id <= 0x7FFU) return;
-    const std::uint32_t id = part(frame);
-    if (id < first || id > last) return;
-    frame.id = id;
-    frame.extended = false;
-  });
 }
 
 /// Bit 6 of the CAN-ID of the second RPDO is not compared.

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "defects/emergencies.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -19,12 +20,10 @@ using namespace defect;
 
 namespace {
 
-EmergencyRules& rules_of(Parts& parts) { return parts.emergency.rules; }
-
 /// The error register for one error code only.
 Change sets_bits_for(std::uint16_t code, std::uint8_t bits) {
   return decides(
-      rules_of, &EmergencyRules::register_bits,
+      of_emergency_rules, &EmergencyRules::register_bits,
       [code, bits](const auto& former, std::uint16_t given) { return given == code ? bits : former(given); });
 }
 

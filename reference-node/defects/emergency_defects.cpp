@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "defects/emergencies.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -14,12 +15,6 @@ using namespace defect;
 namespace {
 
 CobIdRules& of_emergency(Parts& parts) { return parts.emergency.cob_id_rules; }
-EmergencyRules& rules_of(Parts& parts) { return parts.emergency.rules; }
-
-bool is_error_reset(const Outgoing& outgoing) {
-  return outgoing.frame.data[0] == 0 && outgoing.frame.data[1] == 0;
-}
-
 /// What a lost heartbeat has set in 1001h only its return clears.
 void register_outlives_reset(Parts& parts) {
   const auto left = std::make_shared<std::uint8_t>(0);
@@ -40,13 +35,14 @@ void register_outlives_reset(Parts& parts) {
 
 /// Other bits of the error register for an error than those of table 54.
 Change sets_bits(int (*changed)(std::uint8_t bits)) {
-  return decides(rules_of, &EmergencyRules::register_bits, [changed](const auto& former, std::uint16_t code) {
-    return static_cast<std::uint8_t>(changed(former(code)));
-  });
+  return decides(of_emergency_rules, &EmergencyRules::register_bits,
+                 [changed](const auto& former, std::uint16_t code) {
+                   return static_cast<std::uint8_t>(changed(former(code)));
+                 });
 }
 
 Change inhibit_time(Duration (*other)(std::int64_t value)) {
-  return decides(rules_of, &EmergencyRules::inhibit_time,
+  return decides(of_emergency_rules, &EmergencyRules::inhibit_time,
                  [other](const auto&, std::int64_t value) { return other(value); });
 }
 

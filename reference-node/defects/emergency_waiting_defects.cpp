@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "defects/cob_ids.hpp"
+#include "defects/emergencies.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -16,13 +17,9 @@ using namespace defect;
 
 namespace {
 
-bool is_end(const Outgoing& message) { return message.frame.data[0] == 0 && message.frame.data[1] == 0; }
-
-EmergencyRules& rules_of(Parts& parts) { return parts.emergency.rules; }
-
 /// What waits is dropped on one occasion, or kept.
 Change on(WhileWaiting occasion, bool kept) {
-  return decides(rules_of, &EmergencyRules::kept_waiting,
+  return decides(of_emergency_rules, &EmergencyRules::kept_waiting,
                  [=](const auto& former, WhileWaiting now) { return now == occasion ? kept : former(now); });
 }
 
@@ -35,7 +32,7 @@ Change ends_with_former_register(ErrorSource source) {
           if (context.service != Service::emergency) return;
           for (Outgoing& each : frames) {
             auto& data = each.frame.data;
-            if (is_end(each) && data[4] == static_cast<std::uint8_t>(source))
+            if (is_error_reset(each) && data[4] == static_cast<std::uint8_t>(source))
               data[2] = *before;
             else
               *before = data[2];
@@ -108,7 +105,7 @@ DefectTable emergency_waiting_defects() {
        {"OD-1014-07"},
        reshape(Service::emergency,
                [](const FilterContext& context, Frame& frame) {
-                 if (is_end({frame, {}})) frame.id = 0x80U + context.node_id;
+                 if (is_error_reset({frame, {}})) frame.id = 0x80U + context.node_id;
                })},
       {"emcy-dropped-by-nmt-state",
        "What waits for the inhibit time of EMCY is dropped by a change of the NMT state",

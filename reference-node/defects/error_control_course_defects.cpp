@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of error control that show only beside other frames, behind a reset, or in the long run.
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "defects/heartbeats.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -22,10 +21,6 @@ constexpr std::uint8_t toggle_bit = 0x80;
 bool is_request(const Parts& parts, const Frame& frame) {
   return frame.remote && !frame.extended && frame.id == 0x700U + parts.device.node_id;
 }
-bool is_command(const Frame& frame) {
-  return frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
-}
-
 /// A frame that `node_of` finds a node for counts as a heartbeat of that node, once its monitoring has begun.
 Change counts_as_heartbeat(std::optional<std::uint8_t> (*node_of)(const Frame& frame)) {
   return Reading([node_of](Parts& parts, std::vector<Frame>& frames) {
@@ -49,17 +44,6 @@ void knows_nodes_by_seven_bits(Parts& parts) {
         parts.consumer.on_heartbeat(static_cast<std::uint8_t>(producer_of(frame) | 0x80U), frame.data[0]);
     }
   });
-}
-
-/// One receive buffer for the heartbeats of all nodes: the second of two that follow each other is lost.
-void has_one_buffer_for_heartbeats(Parts& parts) {
-  const auto last = std::make_shared<std::optional<BusTime>>();
-  deaf_to([last](Parts& node, const Frame& frame) {
-    constexpr Duration until_read = std::chrono::milliseconds(1);
-    if (!is_heartbeat(frame)) return false;
-    const auto before = std::exchange(*last, node.device.now);
-    return before && node.device.now - *before < until_read;
-  })(parts);
 }
 
 /// 32768 ms and more are taken for a negative time, and a node with such a time is not monitored.
@@ -106,7 +90,7 @@ void tells_the_state_before_the_reset(Parts& parts) {
     former(kind);
   };
   deaf_to([memory](Parts&, const Frame& frame) {
-    if (is_command(frame)) memory->told.reset();
+    if (is_nmt_command(frame)) memory->told.reset();
     return false;
   })(parts);
   parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
@@ -213,7 +197,7 @@ DefectTable consumer_rows() {
       {"hbc-second-of-two-lost",
        "Of the heartbeats of two nodes right behind each other the second one is lost",
        {"EC-HBC-04"},
-       Change(has_one_buffer_for_heartbeats)},
+       has_one_buffer_for(is_heartbeat)},
   };
 }
 

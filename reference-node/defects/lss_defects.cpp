@@ -8,26 +8,15 @@
 #include <utility>
 
 #include "defects/hooks.hpp"
+#include "defects/lss_frames.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
 
 using namespace defect;
+using namespace defect::lss;
 
 namespace {
-
-constexpr std::uint32_t request_id = 0x7E5;
-constexpr std::uint32_t answer_id = 0x7E4;
-
-LssRules& of_lss(Parts& parts) { return parts.lss.rules; }
-LssAddressRules& of_address(Parts& parts) { return parts.lss.address_rules; }
-
-bool is_request(const Frame& frame) {
-  return frame.id == request_id && !frame.extended && !frame.remote && frame.size() == 8;
-}
-bool is_request(const Frame& frame, std::uint8_t specifier) {
-  return is_request(frame) && frame.data[0] == specifier;
-}
 
 /// Requests with this specifier reach nobody.
 Change deaf_to_command(std::uint8_t specifier) {

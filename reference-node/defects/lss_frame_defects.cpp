@@ -8,27 +8,20 @@
 #include <vector>
 
 #include "defects/hooks.hpp"
+#include "defects/lss_frames.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
 
 using namespace defect;
+using namespace defect::lss;
 
 namespace {
 
-constexpr std::uint32_t request_id = 0x7E5;
-constexpr std::uint32_t answer_id = 0x7E4;
-constexpr std::uint32_t base_bits = 0x7FF;
 constexpr std::uint8_t configure_node_id = 0x11;
 constexpr std::uint8_t inquire_vendor = 0x5A;
 constexpr std::uint8_t inquire_serial = 0x5D;
-
-bool is_request(const Frame& frame) {
-  return frame.id == request_id && !frame.extended && !frame.remote && frame.size() == 8;
-}
-
-LssRules& of_lss(Parts& parts) { return parts.lss.rules; }
-LssAddressRules& of_address(Parts& parts) { return parts.lss.address_rules; }
 
 /// Where a range is wider than one number, one of its ends is outside.
 Change excludes_end(bool highest) {
@@ -44,14 +37,6 @@ Change takes_for_requests(bool (*when)(const Frame&)) {
     if (frame.remote || !when(frame)) return;
     frame.id = request_id;
     frame.extended = false;
-  });
-}
-
-/// A remote frame is the request before it once more.
-Change repeats_with_a_remote_frame() {
-  return misreads([last = std::optional<Frame>{}](Parts&, Frame& frame) mutable {
-    if (is_request(frame)) last = frame;
-    if (frame.id == request_id && frame.remote && !frame.extended && last) frame = *last;
   });
 }
 
@@ -136,14 +121,11 @@ DefectTable lss_frame_defects() {
       {"lss-upper-eleven-bits-count",
        "Of the identifier of an extended frame the upper eleven bits count",
        {"LSS-GEN-03"},
-       takes_for_requests(
-           [](const Frame& frame) { return frame.extended && frame.id >> 18U == request_id; })},
+       known_by(upper_bits, request_id, request_id)},
       {"lss-lower-eleven-bits-count",
        "Extended frames are commands when the upper bits of their identifier are set, too",
        {"LSS-GEN-03"},
-       takes_for_requests([](const Frame& frame) {
-         return frame.extended && frame.id != request_id && (frame.id & base_bits) == request_id;
-       })},
+       known_by(lower_bits, request_id, request_id)},
       {"lss-can-id-bit-6-not-looked-at",
        "Frames with CAN-ID 7A5h are commands",
        {"LSS-GEN-03"},
@@ -157,7 +139,7 @@ DefectTable lss_frame_defects() {
       {"lss-remote-frame-repeats-request",
        "A remote frame is answered like the request before it",
        {"LSS-GEN-03"},
-       repeats_with_a_remote_frame()},
+       repeats_by_remote_frame(request_id, is_request)},
       {"lss-inquiry-echoes-reserved-bytes",
        "Behind the number that is told an answer has the bytes of the request",
        {"LSS-GEN-01"},

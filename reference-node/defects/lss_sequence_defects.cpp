@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "defects/hooks.hpp"
+#include "defects/lss_frames.hpp"
+#include "defects/receivers.hpp"
 
 namespace refnode {
 
 using namespace defect;
+using namespace defect::lss;
 
 namespace {
 
-constexpr std::uint32_t request_id = 0x7E5;
 constexpr std::uint8_t switch_state_global = 0x04;
 constexpr std::uint8_t selective_vendor = 0x40;
 constexpr std::uint8_t selective_serial = 0x43;
@@ -28,13 +30,9 @@ constexpr std::uint8_t fastscan = 0x51;
 constexpr std::uint8_t begin_of_scan = 0x80;
 constexpr std::uint8_t last_part_of_scan = 3;
 
-bool is_request(const Frame& frame) {
-  return frame.id == request_id && !frame.extended && !frame.remote && frame.size() == 8;
-}
-
 void answer(Parts& parts, std::uint8_t specifier) {
   parts.device.send(Service::lss,
-                    conform::can::data_frame(conform::CanId(0x7E4), {specifier, 0, 0, 0, 0, 0, 0, 0}));
+                    conform::can::data_frame(conform::CanId(answer_id), {specifier, 0, 0, 0, 0, 0, 0, 0}));
 }
 void identify(Parts& parts) { answer(parts, 0x4F); }
 
@@ -274,9 +272,6 @@ Change answers_sdo_of_its_first_node_id() {
 
 bool is_guard_request(const Frame& frame) {
   return frame.remote && !frame.extended && frame.id > 0x700 && frame.id <= 0x77F;
-}
-bool is_nmt_command(const Frame& frame) {
-  return frame.id == 0x000 && !frame.remote && !frame.extended && frame.size() == 2;
 }
 
 /// The default COB-IDs of all PDOs but the first ones are fixed.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "defects/hooks.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -21,9 +22,6 @@ constexpr std::uint8_t start = 0x01;
 constexpr std::uint8_t reset_node = 0x81;
 constexpr std::uint8_t reset_communication = 0x82;
 
-bool is_command(const Frame& frame) {
-  return frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
-}
 bool is_for(const Parts& parts, const Frame& frame) {
   return frame.data[1] == 0 || frame.data[1] == parts.device.node_id;
 }
@@ -31,20 +29,11 @@ bool is_reset(const Frame& frame) {
   return frame.data[0] == reset_node || frame.data[0] == reset_communication;
 }
 
-/// The driver hands on the data of the last frame with a remote frame.
-void repeats_by_remote_frame(Parts& parts) {
-  const auto last = std::make_shared<std::optional<Frame>>();
-  misreads([last](Parts&, Frame& frame) {
-    if (is_command(frame)) *last = frame;
-    if (frame.id == 0x000 && !frame.extended && frame.remote && *last) frame = **last;
-  })(parts);
-}
-
 /// The command that was given last is taken for done, although an error may have changed the state since.
 void drops_repeated_commands(Parts& parts) {
   const auto last = std::make_shared<std::uint8_t>(0);
   deaf_to([last](Parts& node, const Frame& frame) {
-    if (!is_command(frame) || !is_for(node, frame)) return false;
+    if (!is_nmt_command(frame) || !is_for(node, frame)) return false;
     const bool same = std::exchange(*last, frame.data[0]) == frame.data[0];
     return same && !is_reset(frame);
   })(parts);
@@ -65,7 +54,7 @@ void ignores_rpdos_behind_stopped(Parts& parts) {
 /// With such a command the SDO server forgets its transfer.
 Change drops_transfer_with(bool (*command)(const Parts& parts, const Frame& frame)) {
   return deaf_to([command](Parts& parts, const Frame& frame) {
-    if (is_command(frame) && command(parts, frame)) parts.sdo.drop();
+    if (is_nmt_command(frame) && command(parts, frame)) parts.sdo.drop();
     return false;
   });
 }
@@ -124,7 +113,7 @@ void serves_where_an_error_stopped(Parts& parts) {
     former(state);
   };
   deaf_to([by_error](Parts& node, const Frame& frame) {
-    if (is_command(frame) && is_for(node, frame)) *by_error = false;
+    if (is_nmt_command(frame) && is_for(node, frame)) *by_error = false;
     return false;
   })(parts);
   parts.device.works.replace([by_error](const auto& former, Service service, NmtState state) {
@@ -132,25 +121,12 @@ void serves_where_an_error_stopped(Parts& parts) {
   });
 }
 
-/// One receive buffer for CAN-ID 000h: a command right behind another frame of it is lost.
-Change has_one_buffer() {
-  return [](Parts& parts) {
-    const auto last = std::make_shared<std::optional<BusTime>>();
-    deaf_to([last](Parts& node, const Frame& frame) {
-      constexpr Duration until_read = std::chrono::milliseconds(1);
-      if (!is_command(frame)) return false;
-      const auto before = std::exchange(*last, node.device.now);
-      return before && node.device.now - *before < until_read;
-    })(parts);
-  };
-}
-
 /// While an NMT frame is looked at, of whichever node, an SDO request is lost.
 void loses_requests_behind_commands(Parts& parts) {
   const auto last = std::make_shared<std::optional<BusTime>>();
   deaf_to([last](Parts& node, const Frame& frame) {
     constexpr Duration until_read = std::chrono::milliseconds(1);
-    if (is_command(frame)) *last = node.device.now;
+    if (is_nmt_command(frame)) *last = node.device.now;
     return *last && node.device.now - **last < until_read && node.sdo.server_of(frame) != nullptr;
   })(parts);
 }
@@ -162,7 +138,7 @@ DefectTable nmt_course_defects() {
       {"nmt-repeated-by-remote-frame",
        "A remote frame on CAN-ID 000h is taken for the last command once more",
        {"NMT-FSA-19"},
-       Change(repeats_by_remote_frame)},
+       repeats_by_remote_frame(0x000, is_nmt_command)},
       {"nmt-repeated-command-dropped",
        "Start, stop or enter pre-operational is dropped when it was the last command, too, whatever happened since",
        {"NMT-FSA-01"},
@@ -201,14 +177,14 @@ DefectTable nmt_course_defects() {
        "Bit 6 of the node-ID of a command is not looked at",
        {"NMT-FSA-15"},
        misreads([](Parts& parts, Frame& frame) {
-         if (is_command(frame) && frame.data[1] == (parts.device.node_id ^ 0x40U))
+         if (is_nmt_command(frame) && frame.data[1] == (parts.device.node_id ^ 0x40U))
            frame.data[1] = parts.device.node_id;
        })},
       {"nmt-reset-node-of-all-resets-communication",
        "Reset node for all nodes resets the communication only",
        {"NMT-FSA-25"},
        misreads([](Parts&, Frame& frame) {
-         if (is_command(frame) && frame.data[0] == reset_node && frame.data[1] == 0)
+         if (is_nmt_command(frame) && frame.data[0] == reset_node && frame.data[1] == 0)
            frame.data[0] = reset_communication;
        })},
       {"sdo-served-in-stopped-by-error",
@@ -218,7 +194,7 @@ DefectTable nmt_course_defects() {
       {"nmt-lost-behind-another",
        "Of commands on the bus one right behind the other the first one is obeyed",
        {"NMT-FSA-20"},
-       has_one_buffer()},
+       has_one_buffer_for(is_nmt_command)},
       {"sdo-request-lost-behind-nmt",
        "An SDO request right behind an NMT command of another node is lost",
        {"CAN-LOAD-02"},
