@@ -83,6 +83,7 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
     // Perhaps a request on a channel that nobody saw being made.
     if (!from_device && !frame.remote) note_download(frame, captured.time);
   }
+  nmt_.look_at(key);
   if (from_device && !now_.from_device()) look_at_sender();
   if (now_.from_device()) nmt_.spoke(captured.time);
   if (frame.id <= canopen::sync_can_id.value() && !frame.extended) nmt_.was_first(captured.time);
@@ -203,11 +204,13 @@ void Follower::lose_track() {
   nmt_.lose_track();
   entries_.lose_track();
   bait_ = {};
+  asked_.reset();
 }
 
 void Follower::request(Server& server) {
   now_.subject = Subject::sdo_request;
   server.channel.request(now_.frame(), now_.time());
+  if (&server == &default_ && !asked_) asked_ = now_.time();
   note_download(now_.frame(), now_.time());
   // What comes next may answer the abort, as some servers do, and then nothing else.
   if (&server == &default_ && !now_.frame().remote && now_.frame().data[0] == 0x80) bait_ = {};
@@ -218,6 +221,10 @@ void Follower::response(Server& server, bool default_channel) {
   now_.answer = server.channel.response(now_.frame(), now_.time());
   auto& answer = now_.answer;
   answer.default_channel = default_channel;
+  if (default_channel) {
+    const auto asked = std::exchange(asked_, std::nullopt);
+    if (asked && answer.to == SdoAnswer::To::request) nmt_.answered(*asked, default_.response);
+  }
   if (answer.to == SdoAnswer::To::nothing && answer.cause == SdoAnswer::Cause::none && default_channel &&
       bait_.cause != SdoAnswer::Cause::none && now_.time() <= bait_.time + explained_for &&
       std::ranges::equal(bait_.multiplexer, std::span(now_.frame().data).subspan(1, 3))) {

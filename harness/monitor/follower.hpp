@@ -125,6 +125,7 @@ class Follower {
   std::optional<BusTime> guard_request_, heard_;
   bool guard_open_ = false;  ///< the last guarding request has had no answer, and no reset came since
   Bait bait_;
+  std::optional<BusTime> asked_;  ///< the first request on the default channel since the last answer
 };
 
 }  // namespace conform::monitor

@@ -9,6 +9,11 @@ void NmtState::spoke(BusTime time) {
   spoke_at_ = time;
 }
 
+void NmtState::answered(BusTime asked, std::uint32_t can_id) {
+  answered_since_ = asked;
+  answers_with_ = can_id;
+}
+
 void NmtState::was_first(BusTime time) {
   if (time > first_at_ + pause_of_none) first_began_ = time;
   first_at_ = time;
@@ -72,6 +77,7 @@ void NmtState::reset_had_no_effect() {
 }
 
 void NmtState::lose_track() {
+  answers_with_ = 0;
   booting_ = false;
   commanded_.reset();
   ordered_at_.reset();

@@ -21,6 +21,12 @@ class NmtState {
 
   /// The device sends a frame.
   void spoke(BusTime time);
+  /// The device was asked something that it answers with `can_id`, and has answered. Who answers what came at
+  /// `asked` has nothing in its queue from before that goes first on the bus: a pause let it ask and be
+  /// heard.
+  void answered(BusTime asked, std::uint32_t can_id);
+  /// The frame that is looked at from now on.
+  void look_at(std::uint32_t can_id) { goes_before_answers_ = can_id < answers_with_; }
   /// A frame with a CAN-ID that goes before all that the device sends (NMT, SYNC).
   void was_first(BusTime time);
   /// A frame with the identifier 0.
@@ -49,10 +55,12 @@ class NmtState {
   [[nodiscard]] bool is_newer(BusTime now, BusTime command) const {
     return made_since(now) > command + facts_.nmt_time;
   }
-  /// The earliest time at which what the device sends at `now` may have been made.
+  /// The earliest time at which what the device sends at `now`, the frame that is looked at, may have been
+  /// made.
   [[nodiscard]] BusTime made_since(BusTime now) const {
     const auto unhindered = now <= first_at_ + pause_of_none ? std::min(now, first_began_) : now;
-    return now <= spoke_at_ + longest_frame ? std::min(unhindered, queue_began_) : unhindered;
+    const auto since = now <= spoke_at_ + longest_frame ? std::min(unhindered, queue_began_) : unhindered;
+    return goes_before_answers_ ? std::max(since, answered_since_) : since;
   }
   /// A reset was commanded and the boot-up message has not come.
   [[nodiscard]] bool booting() const { return booting_; }
@@ -74,6 +82,9 @@ class NmtState {
   Facts facts_;
   BusTime spoke_at_{}, queue_began_{};  ///< the last frame, and the first of those that came in one go
   BusTime first_at_{}, first_began_{};  ///< the same of those that go before
+  BusTime answered_since_{};            ///< when the request came that was answered last
+  std::uint32_t answers_with_ = 0;
+  bool goes_before_answers_ = false;
   std::optional<canopen::NmtState> commanded_;
   BusTime commanded_at_{};
   std::optional<BusTime> booted_at_, ordered_at_;

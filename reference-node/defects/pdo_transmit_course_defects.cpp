@@ -137,6 +137,24 @@ Change carries(void (*change)(const Mapped& mapped, Bytes& data, std::size_t pos
                  });
 }
 
+/// A change of process data sends its TPDO at once, whatever the state is.
+void sends_changes_in_every_state(Parts& parts) {
+  const auto changing = std::make_shared<bool>(false);
+  parts.device.works.replace([changing](const auto& former, Service service, NmtState state) {
+    return (service == Service::tpdo && *changing) || former(service, state);
+  });
+  for (auto& [index, object] : parts.device.dictionary.objects()) {
+    for (auto& [sub, entry] : object.entries) {
+      if (index < 0x2000 || !entry.written) continue;
+      entry.written = [changing, former = entry.written] {
+        *changing = true;
+        former();
+        *changing = false;
+      };
+    }
+  }
+}
+
 }  // namespace
 
 DefectTable pdo_transmit_course_defects() {
@@ -194,6 +212,10 @@ DefectTable pdo_transmit_course_defects() {
        "With types FCh and FDh a remote frame within the inhibit time is not answered",
        {"PDO-TX-19"},
        Change(inhibits_answers)},
+      {"tpdo-of-a-change-in-every-state",
+       "A change of process data is sent in Pre-operational, too, where nothing else sends a TPDO",
+       {"PDO-TX-02"},
+       sends_changes_in_every_state},
       {"tpdo-error-register-always-0",
        "A TPDO that the error register is mapped to carries 00h for it, whatever errors there are",
        {"PDO-TX-01"},

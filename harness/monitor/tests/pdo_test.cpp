@@ -35,6 +35,24 @@ TEST_CASE("A TPDO comes in Operational only") {
   CHECK(Story().line(stop).later("> 181: 01 02").told().empty());
 }
 
+TEST_CASE("What was asked and answered since says that a TPDO has not waited in a queue") {
+  const std::string request = "> 40 00 10 00 00 00 00 00", answer = "< 43 00 10 00 00 00 00 00";
+  // An SDO conversation without a pause, which began before the command: 6 ms for an exchange.
+  const auto conversation = [&](const std::string& command, int exchanges) {
+    auto out = Story().write(0x1801, 1, 0x6A0).line(command);
+    for (int i = 0; i < exchanges; ++i) out.line(request).line("wait 5 ms").line(answer);
+    return out;
+  };
+  CHECK(conversation(pre_operational, 40).line(tpdo).told() == Told{"fail PDO-TX-02"});
+  CHECK(conversation(start, 40).line(tpdo).told().empty());
+  // Within T_NMT, and before the answer to what came behind it.
+  CHECK(conversation(pre_operational, 10).line(tpdo).told().empty());
+  CHECK(conversation(pre_operational, 40).line(request).line("wait 5 ms").line(tpdo).told() ==
+        Told{"fail PDO-TX-02"});
+  // Answers may keep back what has to give way to them.
+  CHECK(conversation(pre_operational, 40).line("< 6A0: 01 02").told().empty());
+}
+
 TEST_CASE("A TPDO that is not valid is not sent, as far as anybody knows") {
   CHECK(Story().line(start).read(0x1800, 1, 0x8000'0181).later(tpdo).told() == Told{"fail OD-1800-09"});
   CHECK(Story().line(start).write(0x1800, 1, 0x8000'0181).line(tpdo).told().empty());
