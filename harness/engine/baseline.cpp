@@ -50,7 +50,13 @@ Result<void> enter_pre_operational(RunContext& run) {
   (void)session.take_state_changed();
   // What follows a boot-up, an EMCY 0000h perhaps, is not to come into the case: a heartbeat that shows the
   // state ends the wait for T_NMT behind other commands only.
-  return reset ? session.wait_until(session.now() + run.profile.nmt_time) : session.await_state();
+  if (!reset) return session.await_state();
+  if (auto waited = session.wait_until(session.now() + run.profile.nmt_time); !waited) return waited;
+  // So soon behind its boot-up it may have missed the command: without another one nobody could tell later on
+  // in which state it has to be.
+  sent = session.command(canopen::NmtCommand::pre_operational);
+  (void)session.take_state_changed();
+  return sent;
 }
 
 Result<bool> reset(RunContext& run, canopen::NmtCommand command) {

@@ -60,10 +60,11 @@ bool names_a_monitor(const scenario::Selection& selection, const scenario::Catal
 
 monitor::Facts facts_of(const device::Profile& profile) {
   // A short time in the profile makes a run short; CiA 301 has no limit, so nobody may hold it against the
-  // device.
+  // device. That it hears what comes behind that time is what the run goes by, too.
   return {.node = profile.node,
           .boot_time = profile.boot_time,
           .nmt_time = std::max(profile.nmt_time, monitor::Facts{}.nmt_time),
+          .deaf_time = profile.nmt_time,
           .alone = profile.claimed("only node on the bus")};
 }
 

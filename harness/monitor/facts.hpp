@@ -14,6 +14,8 @@ struct Facts {
   NodeId node{1};
   Duration boot_time = std::chrono::seconds{5};        ///< T_BOOT
   Duration nmt_time = std::chrono::milliseconds{100};  ///< T_NMT
+  /// So long after its boot-up message the device may miss an NMT command.
+  Duration deaf_time = std::chrono::milliseconds{100};
   /// Nobody switches the power of the device unseen. A recorded trace does not tell.
   bool power_is_known = false;
   /// The trace tells which frames the host sent itself.

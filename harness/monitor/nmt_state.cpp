@@ -44,7 +44,7 @@ void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index)
   }
   ordered_at_ = time;
   // While it boots a device may miss commands, and with another node-ID those to the one that it had.
-  if (booting_ || readdressed_ || (booted_at_ && time <= *booted_at_ + facts_.nmt_time)) return;
+  if (booting_ || readdressed_ || (booted_at_ && time <= *booted_at_ + facts_.deaf_time)) return;
   commanded_at_ = time;
   commanded_ = *command == NmtCommand::start  ? canopen::NmtState::operational
                : *command == NmtCommand::stop ? canopen::NmtState::stopped

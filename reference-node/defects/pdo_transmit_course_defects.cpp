@@ -137,22 +137,29 @@ Change carries(void (*change)(const Mapped& mapped, Bytes& data, std::size_t pos
                  });
 }
 
-/// A change of process data sends its TPDO at once, whatever the state is.
-void sends_changes_in_every_state(Parts& parts) {
-  const auto changing = std::make_shared<bool>(false);
-  parts.device.works.replace([changing](const auto& former, Service service, NmtState state) {
-    return (service == Service::tpdo && *changing) || former(service, state);
-  });
-  for (auto& [index, object] : parts.device.dictionary.objects()) {
-    for (auto& [sub, entry] : object.entries) {
-      if (index < 0x2000 || !entry.written) continue;
-      entry.written = [changing, former = entry.written] {
-        *changing = true;
-        former();
-        *changing = false;
-      };
+/// A change of process data sends its TPDO at once, whatever the state is; or until the first NMT start only.
+Change sends_changes_in_other_states(bool until_the_first_start) {
+  return [until_the_first_start](Parts& parts) {
+    const auto changing = std::make_shared<bool>(false);
+    const auto started = std::make_shared<bool>(false);
+    with_boot_up([started](Parts&) { *started = false; })(parts);
+    ahead_of_state_change([started, until_the_first_start](Parts& node) {
+      if (until_the_first_start && node.device.state == NmtState::operational) *started = true;
+    })(parts);
+    parts.device.works.replace([changing, started](const auto& former, Service service, NmtState state) {
+      return (service == Service::tpdo && *changing && !*started) || former(service, state);
+    });
+    for (auto& [index, object] : parts.device.dictionary.objects()) {
+      for (auto& [sub, entry] : object.entries) {
+        if (index < 0x2000 || !entry.written) continue;
+        entry.written = [changing, former = entry.written] {
+          *changing = true;
+          former();
+          *changing = false;
+        };
+      }
     }
-  }
+  };
 }
 
 }  // namespace
@@ -215,7 +222,11 @@ DefectTable pdo_transmit_course_defects() {
       {"tpdo-of-a-change-in-every-state",
        "A change of process data is sent in Pre-operational, too, where nothing else sends a TPDO",
        {"PDO-TX-02"},
-       sends_changes_in_every_state},
+       sends_changes_in_other_states(false)},
+      {"tpdo-of-a-change-before-the-first-start",
+       "Between the boot-up and the first NMT start a change of process data is sent",
+       {"PDO-TX-02"},
+       sends_changes_in_other_states(true)},
       {"tpdo-error-register-always-0",
        "A TPDO that the error register is mapped to carries 00h for it, whatever errors there are",
        {"PDO-TX-01"},

@@ -76,6 +76,13 @@ TEST_CASE("behind a case that only looked a device is still fresh, and is not re
   for (const auto& one : out.run.cases) CHECK(one.verdict == Verdict::pass);
 }
 
+TEST_CASE("a device that may have missed the command right behind its boot-up is told once more") {
+  ScriptedDevice device;
+  (void)play(device, fresh_case("a", "node"));
+  const auto booted = std::ranges::find(device.nmt, std::uint8_t{0x81});
+  CHECK(std::count(booted, device.nmt.end(), std::uint8_t{0x80}) >= 2);
+}
+
 TEST_CASE("a reset of the communication does not make the application fresh") {
   ScriptedDevice device;
   (void)play(device, fresh_case("a", "communication") + fresh_case("b", "node"));

@@ -272,6 +272,8 @@ TEST_CASE(
   auto profile = writing_profile();
   profile.nmt_time = 30ms;
   CHECK(facts_of(profile).nmt_time == 100ms);
+  // But it hears what the run tells it behind its boot-up.
+  CHECK(facts_of(profile).deaf_time == 30ms);
   profile.nmt_time = 2s;
   CHECK(facts_of_run(profile).nmt_time == 2s);
 }
