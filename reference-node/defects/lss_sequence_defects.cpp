@@ -198,6 +198,46 @@ void remembers_over_reset_node(Parts& parts) {
       });
 }
 
+/// Reset communication brings back the node-ID that the device was delivered with, unless another one waits
+/// for it.
+void forgets_the_stored_one(Parts& parts) {
+  const auto latest = latest_configured(parts);
+  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
+  parts.lss.rules.after_reset_communication.replace(
+      [latest, first = parts.device.node_id](const auto& former, std::uint8_t active, std::uint8_t pending) {
+        return latest->accepted ? former(active, pending) : first;
+      });
+}
+
+/// A number in this part of an LSS address that stands for any.
+Change takes_for_any(std::uint8_t part, std::uint32_t any) {
+  return [part, any](Parts& parts) {
+    parts.lss.address_rules.is_own.replace(
+        [&parts, part, any](const auto& former, std::uint32_t named, std::uint32_t own) {
+          return former(named, own) || (named == any && own == parts.lss.rules.address(part));
+        });
+  };
+}
+
+/// A slave that has identified itself answers the inquiry of its node-ID.
+void is_selected_by_identifying(Parts& parts) {
+  constexpr std::uint8_t inquire_node_id = 0x5E, identified = 0x4F;
+  const auto open = std::make_shared<bool>(false);
+  parts.device.outbox.add_filter([open](const FilterContext& context, const std::vector<Outgoing>& frames) {
+    if (context.service == Service::lss && !frames.empty() && frames.front().frame.data[0] == identified)
+      *open = true;
+  });
+  deaf_to([open](Parts& node, const Frame& frame) {
+    if (!is_request(frame)) return false;
+    if (frame.data[0] == switch_state_global) *open = false;
+    if (!*open || frame.data[0] != inquire_node_id) return false;
+    node.device.send(Service::lss,
+                     conform::can::data_frame(conform::CanId(answer_id),
+                                              {inquire_node_id, node.device.node_id, 0, 0, 0, 0, 0, 0}));
+    return true;
+  })(parts);
+}
+
 /// As soon as the configuration is stored, inquire node-ID tells what was.
 void tells_the_stored_one(Parts& parts) {
   constexpr std::uint8_t inquire_node_id = 0x5E;
@@ -304,6 +344,26 @@ DefectTable lss_sequence_defects() {
        "The first three parts of an LSS address stay, and the fourth one alone is answered",
        {"LSS-SS-03", "LSS-SS-04"},
        keeps_the_address()},
+      {"lss-vendor-0-is-any",
+       "Vendor-ID 0 in an LSS address stands for any",
+       {"LSS-SS-02"},
+       takes_for_any(0, 0)},
+      {"lss-product-0-is-any",
+       "Product code 0 in an LSS address stands for any",
+       {"LSS-SS-02"},
+       takes_for_any(1, 0)},
+      {"lss-revision-of-all-ones-is-any",
+       "Revision number FFFF FFFFh in an LSS address stands for any",
+       {"LSS-SS-02"},
+       takes_for_any(2, 0xFFFF'FFFF)},
+      {"lss-identifying-selects",
+       "A slave that has identified itself answers the inquiry of its node-ID",
+       {"LSS-INQ-06"},
+       Change(is_selected_by_identifying)},
+      {"lss-stored-node-id-lost-with-reset-communication",
+       "The stored node-ID is active after power-on, and with reset communication the delivered one is",
+       {"LSS-ST-02"},
+       Change(forgets_the_stored_one)},
       {"lss-selective-answered-in-configuration",
        "In the configuration state every serial number of switch state selective is answered",
        {"LSS-SS-02"},
