@@ -80,6 +80,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable dictionary_abort_defects();
 [[nodiscard]] DefectTable dictionary_defects();
 [[nodiscard]] DefectTable dictionary_value_defects();
+[[nodiscard]] DefectTable dictionary_leftover_defects();
 [[nodiscard]] DefectTable emergency_history_defects();
 [[nodiscard]] DefectTable emergency_defects();
 [[nodiscard]] DefectTable emergency_course_defects();

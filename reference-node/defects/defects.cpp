@@ -31,6 +31,7 @@ std::span<const Defect> defects() {
                                        dictionary_abort_defects,
                                        dictionary_defects,
                                        dictionary_value_defects,
+                                       dictionary_leftover_defects,
                                        emergency_history_defects,
                                        emergency_defects,
                                        emergency_course_defects,

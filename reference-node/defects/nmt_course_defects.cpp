@@ -59,18 +59,6 @@ Change drops_transfer_with(bool (*command)(const Parts& parts, const Frame& fram
   });
 }
 
-/// Reset communication leaves this entry as it was written.
-Change kept_by_reset_communication(Multiplexer mux) {
-  return [mux](Parts& parts) {
-    parts.nmt.on_reset = [&parts, mux, former = parts.nmt.on_reset](Reset kind) {
-      ObjectDictionary& od = parts.device.dictionary;
-      const std::uint64_t written = od.number(mux.index.value(), mux.sub.value());
-      former(kind);
-      if (kind == Reset::communication) od.set_number(mux.index.value(), mux.sub.value(), written);
-    };
-  };
-}
-
 /// Behind reset communication the timer is left as it is where 1017h has not changed; but the reset had
 /// stopped it.
 void heartbeat_waits_for_a_change(Parts& parts) {
@@ -157,14 +145,6 @@ DefectTable nmt_course_defects() {
        drops_transfer_with([](const Parts& parts, const Frame& frame) {
          return frame.data[0] == start && is_for(parts, frame) && parts.device.state == NmtState::operational;
        })},
-      {"reset-communication-keeps-last-monitored-node",
-       "Reset communication leaves 1016h:04 as it was written",
-       {"NMT-FSA-24"},
-       kept_by_reset_communication(mux(0x1016, 4))},
-      {"reset-communication-keeps-life-time-factor",
-       "Reset communication leaves 100Dh as it was written",
-       {"NMT-FSA-24"},
-       kept_by_reset_communication(mux(0x100D, 0))},
       {"heartbeat-silent-behind-reset-communication",
        "Where reset communication does not change 1017h the heartbeat does not start behind it",
        {"EC-HBP-05"},
