@@ -89,6 +89,15 @@ Change unlocks_lowest_bit(std::uint16_t index, std::uint8_t sub) {
   });
 }
 
+/// This bit of a CAN-ID may be changed at any time, where no restricted CAN-ID comes of it.
+Change unlocks_bit(std::uint16_t index, std::uint8_t sub, std::uint32_t bit) {
+  return checking(index, sub, [index, sub, bit](Parts& parts, const Check& former, ByteView bytes) {
+    const auto wanted = static_cast<std::uint32_t>(conform::load_le(bytes));
+    const bool alone = (parts.device.dictionary.number(index, sub) ^ wanted) == bit;
+    return alone && !restricted_can_id(wanted & 0x7FFU) ? Accepted{} : former(bytes);
+  });
+}
+
 /// The restricted ranges above those of the PDOs are taken to begin and to end one CAN-ID further out.
 Change restricts_neighbours(CobIdPart part) {
   return decides(part, &CobIdRules::restricted, [](const auto& former, std::uint32_t id) {
@@ -250,6 +259,26 @@ DefectTable cob_id_defects() {
        "The lowest bit of the CAN-ID of EMCY can be changed while EMCY is valid",
        {"OD-1014-06"},
        unlocks_lowest_bit(0x1014, 0)},
+      {"1014-bit-7-not-locked",
+       "Bit 7 of the CAN-ID of EMCY can be changed while EMCY is valid",
+       {"OD-1014-06"},
+       unlocks_bit(0x1014, 0, 0x80)},
+      {"1400-highest-bit-not-locked",
+       "Bit 10 of the CAN-ID of a valid RPDO can be changed",
+       {"OD-1400-10"},
+       unlocks_bit(0x1400, 1, 0x400)},
+      {"1800-highest-bit-not-locked",
+       "Bit 10 of the CAN-ID of a valid TPDO can be changed",
+       {"OD-1800-10"},
+       unlocks_bit(0x1800, 1, 0x400)},
+      {"1201-request-highest-bit-not-locked",
+       "Bit 10 of the CAN-ID of the requests to a valid SDO server can be changed",
+       {"OD-1201-05"},
+       unlocks_bit(0x1201, 1, 0x400)},
+      {"1201-response-bit-9-not-locked",
+       "Bit 9 of the CAN-ID of the responses of a valid SDO server can be changed",
+       {"OD-1201-05"},
+       unlocks_bit(0x1201, 2, 0x200)},
       {"1014-valid-bit-polarity-inverted",
        "EMCY is sent with bit 31 of 1014h set and not without",
        {"OD-1014-08", "EMCY-COB-03", "EMCY-FMT-01", "OD-1014-07"},

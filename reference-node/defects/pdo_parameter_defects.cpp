@@ -17,6 +17,14 @@ constexpr std::uint64_t no_remote = 0x40000000;
 
 bool any_value(std::uint64_t) { return true; }
 
+/// A change that leaves these bits alone is taken at any time.
+Change locked_by_bits(std::uint16_t index, std::uint8_t sub, std::uint64_t bits) {
+  return checking(index, sub, [index, sub, bits](Parts& parts, const Check& former, ByteView bytes) {
+    const std::uint64_t change = parts.device.dictionary.number(index, sub) ^ conform::load_le(bytes);
+    return (change & bits) == 0 ? Accepted{} : former(bytes);
+  });
+}
+
 }  // namespace
 
 DefectTable pdo_parameter_defects() {
@@ -66,6 +74,26 @@ DefectTable pdo_parameter_defects() {
        "1803h:03 can be changed while the TPDO is valid",
        {"OD-1800-18"},
        unlocked(tpdo_parameters, PdoPart::inhibit_time, last_pdo)},
+      {"1800-inhibit-locked-by-low-byte",
+       "The high byte of 1800h:03 can be changed while the TPDO is valid",
+       {"OD-1800-18"},
+       locked_by_bits(0x1800, 3, 0x00FF)},
+      {"1803-inhibit-locked-by-high-byte",
+       "The low byte of 1803h:03 can be changed while the TPDO is valid",
+       {"OD-1800-18"},
+       locked_by_bits(0x1803, 3, 0xFF00)},
+      {"1400-inhibit-locked-by-low-byte",
+       "The high byte of 1400h:03 can be changed while the RPDO is valid",
+       {"OD-1400-18"},
+       locked_by_bits(0x1400, 3, 0x00FF)},
+      {"1403-inhibit-locked-by-15-bits",
+       "The highest bit of 1403h:03 can be changed while the RPDO is valid",
+       {"OD-1400-18"},
+       locked_by_bits(0x1403, 3, 0x7FFF)},
+      {"1800-sync-start-locked-by-low-half",
+       "The upper half of the SYNC start value can be changed while the TPDO is valid",
+       {"OD-1800-21"},
+       locked_by_bits(0x1800, 6, 0x0F)},
       {"1800-sync-start-lock-missing",
        "The SYNC start value can be changed while the TPDO is valid",
        {"OD-1800-21"},

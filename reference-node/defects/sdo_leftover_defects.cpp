@@ -228,19 +228,37 @@ Accepted without(Parts& parts, Multiplexer mux, Hook Entry::* hook, Store store)
   entry->*hook = kept;
   return done;
 }
+using Concerned = bool (*)(Multiplexer mux);
+
+bool any_entry(Multiplexer) { return true; }
+bool is_sync(Multiplexer mux) { return mux.index.value() == 0x1005; }
+bool is_time(Multiplexer mux) { return mux.index.value() == 0x1012; }
+bool is_emergency(Multiplexer mux) { return mux.index.value() == 0x1014; }
+bool is_cob_id_of_pdo(Multiplexer mux) {
+  const unsigned index = mux.index.value();
+  return mux.sub.value() == 1 && ((index >= 0x1400 && index < 0x1600) || (index >= 0x1800 && index < 0x1A00));
+}
+bool is_mapping(Multiplexer mux) {
+  const unsigned index = mux.index.value();
+  return (index >= 0x1600 && index < 0x1800) || (index >= 0x1A00 && index < 0x1C00);
+}
+
 template <typename Hook>
-Change segments_without(Hook Entry::* hook) {
-  return [hook](Parts& parts) {
-    of_segments(parts).store.replace([&parts, hook](const auto& former, Multiplexer mux, ByteView data) {
-      return without(parts, mux, hook, [&] { return former(mux, data); });
-    });
+Change segments_without(Hook Entry::* hook, Concerned concerned = any_entry) {
+  return [hook, concerned](Parts& parts) {
+    of_segments(parts).store.replace(
+        [&parts, hook, concerned](const auto& former, Multiplexer mux, ByteView data) {
+          if (!concerned(mux)) return former(mux, data);
+          return without(parts, mux, hook, [&] { return former(mux, data); });
+        });
   };
 }
 template <typename Hook>
-Change blocks_without(Hook Entry::* hook) {
-  return [hook](Parts& parts) {
+Change blocks_without(Hook Entry::* hook, Concerned concerned = any_entry) {
+  return [hook, concerned](Parts& parts) {
     parts.sdo.rules.block_download.store.replace(
-        [&parts, hook](const auto& former, Multiplexer mux, ByteView data) {
+        [&parts, hook, concerned](const auto& former, Multiplexer mux, ByteView data) {
+          if (!concerned(mux)) return former(mux, data);
           return without(parts, mux, hook, [&] { return former(mux, data); });
         });
   };
@@ -391,6 +409,46 @@ DefectTable sdo_leftover_defects() {
        "What a block download brings is looked at for its length and limits only",
        {"OD-1016-06"},
        blocks_without(&Entry::check)},
+      {"1005-by-segments-not-looked-at",
+       "A segmented download brings any value for the CAN-ID of SYNC",
+       {"CAN-RID-01", "OD-CID-03"},
+       segments_without(&Entry::check, is_sync)},
+      {"1005-by-blocks-not-looked-at",
+       "A block download brings any value for the CAN-ID of SYNC",
+       {"CAN-RID-01", "OD-CID-03"},
+       blocks_without(&Entry::check, is_sync)},
+      {"1012-by-segments-not-looked-at",
+       "A segmented download brings any value for the CAN-ID of TIME",
+       {"CAN-RID-02", "OD-CID-03"},
+       segments_without(&Entry::check, is_time)},
+      {"1012-by-blocks-not-looked-at",
+       "A block download brings any value for the CAN-ID of TIME",
+       {"CAN-RID-02", "OD-CID-03"},
+       blocks_without(&Entry::check, is_time)},
+      {"1014-by-segments-not-looked-at",
+       "A segmented download brings any value for the CAN-ID of EMCY",
+       {"CAN-RID-03", "OD-CID-03", "OD-1014-06"},
+       segments_without(&Entry::check, is_emergency)},
+      {"1014-by-blocks-not-looked-at",
+       "A block download brings any value for the CAN-ID of EMCY",
+       {"CAN-RID-03", "OD-CID-03", "OD-1014-06"},
+       blocks_without(&Entry::check, is_emergency)},
+      {"pdo-cob-id-by-segments-not-looked-at",
+       "A segmented download brings any value for the COB-ID of a PDO",
+       {"CAN-RID-04", "CAN-RID-05", "OD-CID-03", "OD-1400-10", "OD-1800-10"},
+       segments_without(&Entry::check, is_cob_id_of_pdo)},
+      {"pdo-cob-id-by-blocks-not-looked-at",
+       "A block download brings any value for the COB-ID of a PDO",
+       {"CAN-RID-04", "CAN-RID-05", "OD-CID-03", "OD-1400-10", "OD-1800-10"},
+       blocks_without(&Entry::check, is_cob_id_of_pdo)},
+      {"pdo-mapping-by-segments-not-looked-at",
+       "A segmented download brings any value for the mapping of a PDO",
+       {"OD-1600-06", "OD-1A00-06"},
+       segments_without(&Entry::check, is_mapping)},
+      {"pdo-mapping-by-blocks-not-looked-at",
+       "A block download brings any value for the mapping of a PDO",
+       {"OD-1600-06", "OD-1A00-06"},
+       blocks_without(&Entry::check, is_mapping)},
   };
   append(rows, std::move(other));
   return rows;

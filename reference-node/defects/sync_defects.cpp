@@ -51,6 +51,19 @@ DefectTable sync_defects() {
        "1019h can be changed while 1006h is not 0",
        {"OD-1019-05", "SYNC-CTR-03"},
        confirms(0x1019, 0, [](std::uint64_t value) { return value == 0 || (value >= 2 && value <= 240); })},
+      {"1019-switched-off-while-running",
+       "1019h can be set to 0 while 1006h is not 0",
+       {"OD-1019-05", "SYNC-CTR-03"},
+       confirms(0x1019, 0, [](std::uint64_t value) { return value == 0; })},
+      {"1019-other-end-while-running",
+       "1019h that is not 0 can be changed to another value while 1006h is not 0",
+       {"OD-1019-05", "SYNC-CTR-03"},
+       checking(0x1019, 0,
+                [](Parts& parts, const Check& former, ByteView bytes) {
+                  const std::uint64_t value = conform::load_le(bytes);
+                  const bool counts = parts.device.dictionary.number(0x1019, 0) != 0;
+                  return counts && value >= 2 && value <= 240 ? Accepted{} : former(bytes);
+                })},
       {"1019-change-while-running-wrong-abort",
        "A change of 1019h while 1006h is not 0 is refused with 0601 0000h",
        {"OD-1019-05", "SYNC-CTR-03"},
