@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of additional SDO servers (1201h-127Fh) and of the parameters of SDO clients (1280h-12FFh).
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -125,6 +126,31 @@ void gives_up_all_at_once(Parts& parts) {
         abort_on(static_cast<std::uint32_t>(request & 0x7FFU));
     }
   });
+}
+
+/// The client of an additional channel is taken to have aborted what it has under way.
+void end_transfer_of(Parts& parts, std::uint8_t channel) {
+  const auto index = static_cast<std::uint16_t>(first_sdo_server + channel);
+  const std::uint64_t request = parts.device.dictionary.number(index, 1, 0x80000000U);
+  if ((request & 0x80000000U) != 0) return;
+  parts.device.inbox.put(
+      conform::can::data_frame(conform::CanId(static_cast<std::uint32_t>(request & 0x7FFU)),
+                               {0x80, 0, 0, 0, 0, 0, 0, 0}),
+      parts.device.now);
+}
+
+/// A request on one additional channel ends the transfer on another one.
+Change request_ends_transfer(std::uint8_t on, std::uint8_t ended) {
+  return misreads([on, ended](Parts& parts, Frame& frame) {
+    if (channel_of(parts, frame) == on && frame.data[0] != 0x80) end_transfer_of(parts, ended);
+  });
+}
+
+/// In Stopped the additional servers go on, and the default one does not.
+Change serves_additional_in_stopped() {
+  return together(works_also(Service::sdo, NmtState::stopped), deaf_to([](Parts& parts, const Frame& frame) {
+                    return parts.device.state == NmtState::stopped && channel_of(parts, frame) == 0;
+                  }));
 }
 
 /// A channel serves every CAN-ID that it has had requests on.
@@ -309,6 +335,34 @@ DefectTable sdo_channel_defects() {
        "A transfer that is given up on one channel ends those on all others",
        {"SDO-MUL-04"},
        Change(gives_up_all_at_once)},
+      {"additional-sdo-ended-by-request-on-the-next",
+       "A request on the second additional channel ends the transfer on the first one",
+       {"SDO-MUL-04"},
+       request_ends_transfer(2, 1)},
+      {"additional-sdo-ended-by-request-on-the-first",
+       "A request on the first additional channel ends the transfer on the second one",
+       {"SDO-MUL-04"},
+       request_ends_transfer(1, 2)},
+      {"additional-sdo-ended-by-parameters-of-the-next",
+       "A write to the parameters of the second additional channel ends the transfer on the first one",
+       {"SDO-MUL-04"},
+       after_writing_all(0x1202,
+                         [](Parts& parts, const std::function<void()>& former, std::uint8_t) {
+                           former();
+                           end_transfer_of(parts, 1);
+                         })},
+      {"additional-sdo-ended-by-node-id-of-the-first",
+       "A write to the node-ID of the first additional channel ends the transfer on the second one",
+       {"SDO-MUL-04"},
+       after_writing(0x1201, 3,
+                     [](Parts& parts, const std::function<void()>& former) {
+                       former();
+                       end_transfer_of(parts, 2);
+                     })},
+      {"additional-sdo-served-in-stopped",
+       "Additional SDO servers answer in Stopped",
+       {"SDO-GEN-15"},
+       serves_additional_in_stopped()},
       {"additional-sdo-completes-short-frames",
        "An additional SDO server completes a request that is too short with bytes of the one before",
        {"SDO-ERR-06"},
