@@ -114,6 +114,57 @@ void loses_bits_of_time(std::uint16_t index, const Entry&, Bytes& value) {
   if (index == 0x1012) value[3] &= 0x3FU;
 }
 
+/// One sub-index takes the signature of the other object for its own.
+Change takes_also(std::uint16_t index, std::uint8_t sub, std::uint32_t other, std::uint32_t right) {
+  return checking(index, sub, [other, right](Parts&, const Check& former, ByteView bytes) {
+    return former(conform::load_le(bytes) == other ? conform::to_le(right, 4)
+                                                   : Bytes(bytes.begin(), bytes.end()));
+  });
+}
+/// One sub-index acts first and looks at the signature then.
+Change acts_on_any(std::uint16_t index, std::uint8_t sub, std::uint32_t right) {
+  return checking(index, sub, [right](Parts&, const Check& former, ByteView bytes) {
+    const Accepted done = former(conform::to_le(right, 4));
+    return done ? former(bytes) : done;
+  });
+}
+
+/// Behind a wrong signature the entry reads as 0: it can nothing any more, until a reset.
+Change loses_capability(std::uint16_t index) {
+  return [index](Parts& parts) {
+    const auto lost = std::make_shared<std::uint8_t>();
+    checking_all(index, [lost](Parts&, const Check& former, std::uint8_t sub, ByteView bytes) {
+      const Accepted done = former(bytes);
+      if (!done) *lost = sub;
+      return done;
+    })(parts);
+    reading_all(index, [lost](Parts&, const Read& former, std::uint8_t sub) -> Upload {
+      return *lost == sub ? Bytes(4) : former();
+    })(parts);
+    with_boot_up([lost](Parts&) { *lost = 0; })(parts);
+  };
+}
+
+/// The last parameter of a group is none to 1010h.
+DictionaryEdit leaves_out_last(Group group) {
+  return [group](ObjectDictionary& od, std::uint8_t) {
+    Entry* last = nullptr;
+    for (auto& [index, object] : od.objects()) {
+      if (group_of(conform::Index(index)) != group) continue;
+      for (auto& [sub, entry] : object.entries) {
+        if (entry.access == Access::rw && !entry.command && entry.storable) last = &entry;
+      }
+    }
+    if (last != nullptr) last->storable = false;
+  };
+}
+
+/// Of one entry so many bytes are stored.
+template <std::uint16_t at, std::size_t kept>
+void cuts(std::uint16_t index, const Entry&, Bytes& value) {
+  if (index == at) std::ranges::fill(std::span(value).subspan(kept), std::uint8_t{0});
+}
+
 }  // namespace
 
 DefectTable storage_course_defects() {
@@ -194,6 +245,82 @@ DefectTable storage_course_defects() {
        "Reset communication loads the application parameters, too, once they were stored",
        {"NMT-FSA-26"},
        Change(loads_stored_application)},
+      {"1010-sub2-takes-load",
+       "1010h:02 takes \"load\" for \"save\"",
+       {"OD-1010-08"},
+       takes_also(0x1010, 2, load_signature, save_signature)},
+      {"1010-sub2-wrong-signature-wrong-abort",
+       "A wrong signature in 1010h:02 is aborted with 0609 0030h",
+       {"OD-1010-08"},
+       wrong_abort_at(mux(0x1010, 2), abort_code::cannot_store, abort_code::invalid_value)},
+      {"1010-sub2-wrong-signature-still-stores",
+       "A wrong signature in 1010h:02 is refused, but stores the communication parameters",
+       {"OD-1010-09"},
+       acts_on_any(0x1010, 2, save_signature)},
+      {"1010-sub3-takes-load",
+       "1010h:03 takes \"load\" for \"save\"",
+       {"OD-1010-08"},
+       takes_also(0x1010, 3, load_signature, save_signature)},
+      {"1010-sub3-wrong-signature-wrong-abort",
+       "A wrong signature in 1010h:03 is aborted with 0609 0030h",
+       {"OD-1010-08"},
+       wrong_abort_at(mux(0x1010, 3), abort_code::cannot_store, abort_code::invalid_value)},
+      {"1010-sub3-wrong-signature-still-stores",
+       "A wrong signature in 1010h:03 is refused, but stores the application parameters",
+       {"OD-1010-09"},
+       acts_on_any(0x1010, 3, save_signature)},
+      {"1010-wrong-signature-loses-capability",
+       "Behind a wrong signature 1010h reads as 0",
+       {"OD-1010-04"},
+       loses_capability(0x1010)},
+      {"1011-sub2-takes-save",
+       "1011h:02 takes \"save\" for \"load\"",
+       {"OD-1011-08"},
+       takes_also(0x1011, 2, save_signature, load_signature)},
+      {"1011-sub2-wrong-signature-wrong-abort",
+       "A wrong signature in 1011h:02 is aborted with 0609 0030h",
+       {"OD-1011-08"},
+       wrong_abort_at(mux(0x1011, 2), abort_code::cannot_store, abort_code::invalid_value)},
+      {"1011-sub2-wrong-signature-still-restores",
+       "A wrong signature in 1011h:02 is refused, but restores the communication parameters",
+       {"OD-1011-09"},
+       acts_on_any(0x1011, 2, load_signature)},
+      {"1011-sub3-takes-save",
+       "1011h:03 takes \"save\" for \"load\"",
+       {"OD-1011-08"},
+       takes_also(0x1011, 3, save_signature, load_signature)},
+      {"1011-sub3-wrong-signature-wrong-abort",
+       "A wrong signature in 1011h:03 is aborted with 0609 0030h",
+       {"OD-1011-08"},
+       wrong_abort_at(mux(0x1011, 3), abort_code::cannot_store, abort_code::invalid_value)},
+      {"1011-sub3-wrong-signature-still-restores",
+       "A wrong signature in 1011h:03 is refused, but restores the application parameters",
+       {"OD-1011-09"},
+       acts_on_any(0x1011, 3, load_signature)},
+      {"1011-wrong-signature-loses-capability",
+       "Behind a wrong signature 1011h reads as 0",
+       {"OD-1011-04"},
+       loses_capability(0x1011)},
+      {"1010-last-communication-parameter-not-stored",
+       "The last communication parameter is not stored",
+       {"OD-1010-10"},
+       leaves_out_last(Group::communication)},
+      {"1010-last-application-parameter-not-stored",
+       "The last application parameter is not stored",
+       {"OD-1010-10"},
+       leaves_out_last(Group::application)},
+      {"1010-16-bits-of-the-period-stored",
+       "Of the communication cycle period (1006h) 16 bits are stored",
+       {"OD-1010-10"},
+       comes_back(cuts<0x1006, 2>)},
+      {"1010-16-bits-of-the-window-stored",
+       "Of the synchronous window length (1007h) 16 bits are stored",
+       {"OD-1010-10"},
+       comes_back(cuts<0x1007, 2>)},
+      {"1010-8-bits-of-the-inhibit-time-stored",
+       "Of the inhibit time of EMCY (1015h) eight bits are stored",
+       {"OD-1010-10"},
+       comes_back(cuts<0x1015, 1>)},
   };
 }
 
