@@ -104,6 +104,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable pdo_parameter_defects();
 [[nodiscard]] DefectTable pdo_course_defects();
 [[nodiscard]] DefectTable pdo_receive_course_defects();
+[[nodiscard]] DefectTable pdo_receive_waiting_defects();
 [[nodiscard]] DefectTable pdo_transmit_course_defects();
 [[nodiscard]] DefectTable pdo_reset_defects();
 [[nodiscard]] DefectTable dictionary_structure_defects();

@@ -70,6 +70,7 @@ std::span<const Defect> defects() {
                                        pdo_traffic_defects,
                                        pdo_course_defects,
                                        pdo_receive_course_defects,
+                                       pdo_receive_waiting_defects,
                                        pdo_transmit_course_defects,
                                        pdo_reset_defects,
                                        device_traffic_defects,
