@@ -159,6 +159,24 @@ Change counts_bits(std::uint16_t first, bool (*fits)(std::size_t bits)) {
   };
 }
 
+/// Placeholders are no part of what is counted.
+Change counts_objects_only(std::uint16_t first) {
+  return [first](Parts& parts) {
+    for (std::uint16_t index = first; index <= first + last_pdo; ++index) {
+      checking(index, 0, [index](Parts& node, const Check& former, ByteView bytes) -> Accepted {
+        const Accepted done = former(bytes);
+        if (done || done.error() != abort_code::mapping_too_long) return done;
+        std::size_t bits = 0;
+        for (std::uint8_t sub = 1; sub <= bytes[0] && sub <= most_mapped; ++sub) {
+          const Mapped mapped = Mapped::unpack(node.device.dictionary.number(index, sub));
+          if (mapped.index > 0x1F) bits += mapped.bits;
+        }
+        return bits_held(node.device.dictionary, index, bytes[0]) > 64 && bits <= 64 ? Accepted() : done;
+      })(parts);
+    }
+  };
+}
+
 /// What is received for a placeholder of these types is as long as `bits` says.
 Change skips(std::uint16_t signed_type, std::uint16_t unsigned_type, std::uint8_t bits) {
   return decides(rpdo_parameters, &PdoRules::mapping,
@@ -444,6 +462,10 @@ DefectTable pdo_mapping_defects() {
        "A mapping of nine bytes is taken for an RPDO",
        {"OD-1600-09"},
        counts_bits(0x1600, [](std::size_t bits) { return bits <= 72; })},
+      {"1600-placeholders-not-counted",
+       "Placeholders do not count for the 64 bits of an RPDO",
+       {"OD-1600-09"},
+       counts_objects_only(0x1600)},
       {"rpdo-placeholder-of-16-bits-skips-8",
        "A placeholder of 16 bits skips one byte of an RPDO",
        {"PDO-MAP-15"},
