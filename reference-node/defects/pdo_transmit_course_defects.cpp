@@ -123,6 +123,146 @@ void inhibits_answers(Parts& parts) {
   });
 }
 
+/// What the mapped objects hold at the moment.
+Bytes present_data(const Parts& parts, const PdoParameters& pdo) {
+  Bytes data(pdo.mapped_size(), 0);
+  std::size_t position = 0;  // in bits
+  for (const Mapped& mapped : pdo.mapping()) {
+    const Upload held =
+        parts.device.dictionary.upload({conform::Index(mapped.index), conform::SubIndex(mapped.sub)});
+    if (position + mapped.bits > data.size() * 8) break;
+    if (held && held->size() == whole_bytes(mapped.bits)) copy_bits(*held, 0, data, position, mapped.bits);
+    position += mapped.bits;
+  }
+  return data;
+}
+
+/// Type FCh: what was sampled answers one remote frame.
+void uses_up_the_sample(Parts& parts) {
+  const auto used = while_it_runs<bool>(parts);
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.sampled.replace(
+      [used](const auto& former, const PdoParameters& pdo, const Bytes& held, const Bytes& now) {
+        (*used)[pdo.number()] = false;
+        return former(pdo, held, now);
+      });
+  rules.carried.replace([&parts, used](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+    const bool again =
+        pdo.transmission_type() == remote_synchronous_type && std::exchange((*used)[pdo.number()], true);
+    return former(pdo, again ? present_data(parts, pdo) : due);
+  });
+}
+
+/// Type FDh: what was there with the last SYNC is sent.
+void samples_fdh(Parts& parts) {
+  const auto sampled = while_it_runs<Bytes>(parts);
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.sent_at_sync.replace(
+      [&parts, sampled](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        if (pdo.transmission_type() == remote_event_driven_type)
+          (*sampled)[pdo.number()] = present_data(parts, pdo);
+        return former(pdo, syncs, event);
+      });
+  rules.carried.replace([sampled](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+    const auto old = sampled->find(pdo.number());
+    const bool kept = pdo.transmission_type() == remote_event_driven_type && old != sampled->end();
+    return former(pdo, kept ? old->second : due);
+  });
+}
+
+/// Type FCh: a SYNC behind an answer sends once more.
+void sends_behind_an_answer(Parts& parts) {
+  const auto answered = while_it_runs<bool>(parts);
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.answers_remote.replace([answered](const auto& former, const PdoParameters& pdo, bool enabled) {
+    const bool answers = former(pdo, enabled);
+    if (answers && pdo.transmission_type() == remote_synchronous_type) (*answered)[pdo.number()] = true;
+    return answers;
+  });
+  rules.sent_at_sync.replace(
+      [answered](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        return former(pdo, syncs, event) || std::exchange((*answered)[pdo.number()], false);
+      });
+}
+
+/// `answers(latched, right)`: `latched` is what bit 30 has allowed when Operational was entered.
+Change answers_by_the_start(bool (*answers)(bool latched, bool right)) {
+  return [answers](Parts& parts) {
+    const auto allowed = std::make_shared<std::set<std::uint16_t>>();
+    ahead_of_state_change([allowed](Parts& node) {
+      allowed->clear();
+      for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+        const auto index = static_cast<std::uint16_t>(0x1800 + number);
+        if ((node.device.dictionary.number(index, 1, 0x4000'0000U) & 0x4000'0000U) == 0)
+          allowed->insert(number);
+      }
+    })(parts);
+    parts.pdos.tpdo.rules.answers_remote.replace(
+        [allowed, answers](const auto& former, const PdoParameters& pdo, bool enabled) {
+          return enabled && answers(allowed->contains(pdo.number()), former(pdo, enabled));
+        });
+  };
+}
+
+/// The inhibit time holds back a TPDO of type 00h as well.
+void inhibits_acyclic(Parts& parts) {
+  const auto sent = while_it_runs<BusTime>(parts);
+  parts.pdos.tpdo.rules.sent_at_sync.replace(
+      [&parts, sent](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        const auto last = sent->find(pdo.number());
+        const BusTime now = parts.device.now;
+        const bool inhibited =
+            pdo.transmission_type() == 0 && last != sent->end() && now < last->second + pdo.inhibit_time();
+        const bool due = former(pdo, syncs, event) && !inhibited;
+        if (due) sent->insert_or_assign(pdo.number(), now);
+        return due;
+      });
+}
+
+/// Whoever writes a communication parameter begins to count the SYNCs of all TPDOs anew.
+void any_write_restarts_the_count(Parts& parts) {
+  const auto counts = while_it_runs<std::uint32_t>(parts);
+  for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+    after_writing_all(static_cast<std::uint16_t>(0x1800 + number),
+                      [counts](Parts&, const std::function<void()>& former, std::uint8_t) {
+                        former();
+                        counts->clear();
+                      })(parts);
+  }
+  parts.pdos.tpdo.rules.sent_at_sync.replace(
+      [counts](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        const std::uint8_t type = pdo.transmission_type();
+        if (type < 2 || !is_synchronous(type)) return former(pdo, syncs, event);
+        std::uint32_t& count = (*counts)[pdo.number()];
+        const bool due = ++count >= type;
+        if (due) count = 0;
+        return due;
+      });
+}
+
+/// An answer to a remote frame leaves the event timer where it has ended.
+void answer_ends_the_timer(Parts& parts) {
+  struct Memory {
+    bool asked = false;
+    bool ended = false;
+  };
+  const auto memory = while_it_runs<Memory>(parts);
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.answers_remote.replace([memory](const auto& former, const PdoParameters& pdo, bool enabled) {
+    const bool answers = former(pdo, enabled);
+    (*memory)[pdo.number()].asked = answers;
+    return answers;
+  });
+  rules.carried.replace([memory](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+    Memory& of_this = (*memory)[pdo.number()];
+    of_this.ended = std::exchange(of_this.asked, false);
+    return former(pdo, due);
+  });
+  rules.has_event_timer.replace([memory](const auto& former, const PdoParameters& pdo) {
+    return !(*memory)[pdo.number()].ended && former(pdo);
+  });
+}
+
 /// `change(mapped, data, position)` is done to what is sent, for every mapped object.
 Change carries(void (*change)(const Mapped& mapped, Bytes& data, std::size_t position)) {
   return decides(tpdo_traffic, &TransmitPdoRules::carried,
@@ -208,6 +348,45 @@ DefectTable pdo_transmit_course_defects() {
        "With type FCh a SYNC samples only when there is no sample that was not asked for",
        {"PDO-TX-20"},
        Change(keeps_the_first_sample)},
+      {"tpdo-type-fch-sample-used-up",
+       "With type FCh a second remote frame behind a SYNC is answered with the present data",
+       {"PDO-TX-20"},
+       Change(uses_up_the_sample)},
+      {"tpdo-type-fch-sent-behind-an-answer",
+       "With type FCh the SYNC behind an answered remote frame sends the TPDO unasked",
+       {"PDO-TX-20"},
+       Change(sends_behind_an_answer)},
+      {"tpdo-type-fdh-of-the-last-sync",
+       "With type FDh a remote frame is answered with the data of the last SYNC",
+       {"PDO-TX-19"},
+       Change(samples_fdh)},
+      {"tpdo-remote-allowed-with-the-next-start",
+       "Bit 30 of the COB-ID that is cleared in Operational allows remote frames behind the next start only",
+       {"OD-1800-14"},
+       answers_by_the_start([](bool latched, bool right) { return latched && right; })},
+      {"tpdo-remote-forbidden-with-the-next-start",
+       "Bit 30 of the COB-ID that is set in Operational forbids remote frames behind the next start only",
+       {"OD-1800-14"},
+       answers_by_the_start([](bool latched, bool right) { return latched || right; })},
+      {"tpdo-type-0-inhibited",
+       "The inhibit time holds back a TPDO of type 00h",
+       {"PDO-TX-07"},
+       Change(inhibits_acyclic)},
+      {"tpdo-type-feh-not-inhibited",
+       "A TPDO of type FEh has no inhibit time",
+       {"PDO-TX-12"},
+       decides(tpdo_traffic, &TransmitPdoRules::held_back,
+               [](const auto& former, const PdoParameters& pdo, TransmitCause cause) {
+                 return pdo.transmission_type() != 0xFE && former(pdo, cause);
+               })},
+      {"tpdo-sync-count-restarted-by-any-write",
+       "A write of a communication parameter of one TPDO begins the count of SYNCs of all TPDOs anew",
+       {"PDO-TX-06"},
+       Change(any_write_restarts_the_count)},
+      {"tpdo-event-timer-ended-by-an-answer",
+       "Behind the answer to a remote frame the event timer of a TPDO does not run any more",
+       {"PDO-TX-09"},
+       Change(answer_ends_the_timer)},
       {"tpdo-bit-30-ignored-on-request-only",
        "Bit 30 of the COB-ID does not forbid remote frames with types FCh and FDh",
        {"OD-1800-14"},
