@@ -79,6 +79,22 @@ void keeps_can_id(Parts& parts) {
       });
 }
 
+/// What 1005h was before a reset is obeyed beside what it is now, until it is written again.
+void obeys_former_can_id(Parts& parts) {
+  const auto written = std::make_shared<std::uint32_t>(0);
+  const auto obeyed = std::make_shared<std::uint32_t>(0);
+  after_writing(0x1005, 0, [written, obeyed](Parts& node, const std::function<void()>& former) {
+    *obeyed = 0;
+    *written = static_cast<std::uint32_t>(node.device.dictionary.number(0x1005, 0)) & 0x7FFU;
+    former();
+  })(parts);
+  with_boot_up([written, obeyed](Parts&) { *obeyed = std::exchange(*written, 0); })(parts);
+  misreads([obeyed](Parts& node, Frame& frame) {
+    if (*obeyed != 0 && frame.id == *obeyed && !frame.extended && !frame.remote)
+      frame.id = static_cast<std::uint32_t>(node.device.dictionary.number(0x1005, 0)) & 0x7FFU;
+  })(parts);
+}
+
 /// The frame carries a TPDO of the types 00h to F0h.
 bool is_synchronous(Parts& parts, const Frame& frame) {
   const ObjectDictionary& od = parts.device.dictionary;
@@ -197,6 +213,10 @@ DefectTable sync_consumer_defects() {
        "After a reset SYNC is taken on the CAN-ID that 1005h had before",
        {"SYNC-CON-01", "OD-1005-07"},
        keeps_can_id},
+      {"sync-former-can-id-obeyed-after-reset",
+       "After a reset SYNC is taken on the CAN-ID that 1005h had before as well",
+       {"OD-1005-07"},
+       obeys_former_can_id},
       {"sync-long-stops-the-node",
        "A SYNC of more than one byte puts the node into Stopped",
        {"SYNC-CON-07"},
