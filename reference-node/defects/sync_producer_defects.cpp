@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the SYNC producer: when it sends, how often, and what it counts.
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "defects/cob_ids.hpp"
@@ -179,6 +180,74 @@ Change begins_anew_with(std::uint16_t index, bool of_same_value = false) {
   };
 }
 
+/// Entering Operational from Pre-operational begins the period anew, and the counter goes on.
+void begins_the_period_anew(Parts& parts) {
+  struct Count {
+    std::uint8_t last = 0;
+    bool goes_on = false;
+  };
+  const auto count = std::make_shared<Count>();
+  parts.sync_producer.rules.next_count.replace(
+      [count](const auto& former, std::uint8_t last, std::uint8_t overflow) {
+        count->last = former(std::exchange(count->goes_on, false) ? count->last : last, overflow);
+        return count->last;
+      });
+  parts.nmt.on_change = [&parts, count, former = parts.nmt.on_change](NmtState from) {
+    former(from);
+    if (from != NmtState::pre_operational || parts.device.state != NmtState::operational) return;
+    if (!parts.sync_producer.next_wakeup()) return;
+    parts.sync_producer.on_reset();
+    parts.sync_producer.on_boot_up();
+    count->goes_on = true;
+  };
+}
+
+/// A producer that runs is not stopped by a reset, whatever its objects say behind it.
+void goes_on_behind_a_reset(Parts& parts) {
+  const auto period = std::make_shared<std::int64_t>(0);
+  parts.nmt.on_reset = [&parts, period, former = parts.nmt.on_reset](Reset kind) {
+    *period = parts.sync_producer.next_wakeup() ? parts.device.time_value(0x1006, 0) : 0;
+    former(kind);
+  };
+  for (const std::uint16_t index : {std::uint16_t{0x1005}, std::uint16_t{0x1006}}) {
+    after_writing(index, 0, [period](Parts&, const std::function<void()>& former) {
+      *period = 0;
+      former();
+    })(parts);
+  }
+  parts.sync.cob_id_rules.produced.replace(
+      [period](const auto& former, std::uint32_t value) { return *period != 0 || former(value); });
+  parts.sync_producer.rules.period.replace(
+      [period](const auto& former, std::int64_t value) { return former(*period != 0 ? *period : value); });
+}
+
+/// Stopped is left for Operational without another state in between.
+void goes_on_counting_in_operational(Parts& parts) {
+  parts.sync_producer.rules.counts_anew.replace([&parts](const auto& former, SyncStart occasion) {
+    const bool straight = occasion == SyncStart::left_stopped && parts.device.state == NmtState::operational;
+    return !straight && former(occasion);
+  });
+}
+
+/// RPDOs wait for a SYNC of others.
+void own_sync_takes_nothing_over(Parts& parts) {
+  const auto own = std::make_shared<bool>(false);
+  parts.sync_producer.on_sync = [own, former = parts.sync_producer.on_sync](auto counter) {
+    *own = true;
+    former(counter);
+    *own = false;
+  };
+  parts.pdos.rpdo.rules.due_at_sync.replace(
+      [own](const auto& former, const PdoParameters& pdo, std::uint32_t syncs) {
+        return !*own && former(pdo, syncs);
+      });
+}
+
+/// What a SYNC of its own counts is not told to the TPDOs.
+void own_sync_counts_nothing(Parts& parts) {
+  parts.sync_producer.on_sync = [former = parts.sync_producer.on_sync](auto) { former(std::nullopt); };
+}
+
 DefectTable switch_rows() {
   return {
       {"sync-counter-anew-with-start",
@@ -272,6 +341,18 @@ DefectTable switch_rows() {
        "Synchronous TPDOs do not follow the SYNC that the node produces",
        {"SYNC-PRO-08"},
        [](Parts& parts) { parts.sync_producer.on_sync = nullptr; }},
+      {"sync-goes-on-behind-reset",
+       "SYNC is produced behind a reset as before, although 1005h and 1006h have their power-on values",
+       {"NMT-FSA-24"},
+       goes_on_behind_a_reset},
+      {"sync-own-takes-no-rpdo-over",
+       "Synchronous RPDOs do not take effect with a SYNC that the node produces",
+       {"PDO-RX-03"},
+       own_sync_takes_nothing_over},
+      {"sync-own-without-start-value",
+       "The counter of a SYNC that the node produces is not held against the SYNC start value",
+       {"PDO-TX-14"},
+       own_sync_counts_nothing},
       {"sync-own-obeyed-by-turns",
        "Synchronous TPDOs follow every second SYNC that the node produces",
        {"SYNC-PRO-08"},
@@ -302,6 +383,10 @@ DefectTable period_rows() {
        "SYNC comes with a period that is a tenth too long",
        {"SYNC-PRO-01"},
        has_period([](Duration right) { return right * 11 / 10; })},
+      {"sync-period-begun-anew-with-start",
+       "NMT start from Pre-operational begins the period of SYNC anew",
+       {"SYNC-PRO-04"},
+       begins_the_period_anew},
       {"sync-period-inexact",
        "SYNC comes with a period that is three percent too short",
        {"SYNC-PRO-01"},
@@ -418,6 +503,10 @@ DefectTable counter_rows() {
        "The SYNC counter goes on where it was when the node leaves Stopped",
        {"SYNC-PRO-05"},
        goes_on_counting_after(SyncStart::left_stopped)},
+      {"sync-count-survives-stopped-to-operational",
+       "The SYNC counter goes on where it was when the node leaves Stopped for Operational",
+       {"SYNC-PRO-05"},
+       goes_on_counting_in_operational},
       {"1005-without-effect-in-operational",
        "Bit 30 of 1005h that is written in Operational has no effect there",
        {"OD-1005-09"},
