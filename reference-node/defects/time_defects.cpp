@@ -125,6 +125,30 @@ void stands_still(Parts& parts) {
   });
 }
 
+/// A node that was in Stopped tells no time until it is reset, or 1012h is written.
+void silent_after_stopped(Parts& parts) {
+  const auto stopped = std::make_shared<bool>(false);
+  parts.device.works.replace([stopped](const auto& former, Service service, NmtState state) {
+    if (state == NmtState::initialising) *stopped = false;
+    if (state == NmtState::stopped) *stopped = true;
+    return former(service, state) && !(service == Service::time && *stopped);
+  });
+  after_writing(0x1012, 0, [stopped](Parts&, const std::function<void()>& former) {
+    *stopped = false;
+    former();
+  })(parts);
+}
+
+/// Where another one tells the time this one does not any more.
+Change ends_with_a_received_time() {
+  return misreads([](Parts& parts, Frame& frame) {
+    const std::uint64_t cob_id = parts.device.dictionary.number(0x1012, 0);
+    constexpr std::uint32_t consumed = 0x80000000U;
+    if ((cob_id & consumed) != 0 && frame.id == (cob_id & 0x7FFU) && !frame.extended && !frame.remote)
+      parts.time_producer.on_reset();
+  });
+}
+
 DefectTable producer_rows() {
   constexpr std::uint32_t day = 86'400'000;
   return {
@@ -208,6 +232,14 @@ DefectTable producer_rows() {
        "Of the milliseconds of a TIME message 26 bits are taken",
        {"TIME-CON-01"},
        consumes_without(3, 0x0C)},
+      {"time-silent-after-stopped",
+       "After Stopped no TIME is produced until 1012h is written",
+       {"TIME-PRO-01"},
+       silent_after_stopped},
+      {"time-ended-by-a-received-one",
+       "A TIME message that is received ends the production of TIME",
+       {"TIME-PRO-01"},
+       ends_with_a_received_time()},
       {"time-produced-in-stopped",
        "TIME is produced in Stopped, too",
        {"TIME-PRO-02"},
