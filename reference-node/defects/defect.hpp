@@ -77,6 +77,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable sdo_turn_defects();
 [[nodiscard]] DefectTable sdo_leftover_defects();
 [[nodiscard]] DefectTable sdo_end_defects();
+[[nodiscard]] DefectTable sdo_course_defects();
 [[nodiscard]] DefectTable dictionary_abort_defects();
 [[nodiscard]] DefectTable dictionary_defects();
 [[nodiscard]] DefectTable dictionary_value_defects();

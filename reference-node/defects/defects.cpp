@@ -28,6 +28,7 @@ std::span<const Defect> defects() {
                                        sdo_turn_defects,
                                        sdo_leftover_defects,
                                        sdo_end_defects,
+                                       sdo_course_defects,
                                        dictionary_abort_defects,
                                        dictionary_defects,
                                        dictionary_value_defects,
