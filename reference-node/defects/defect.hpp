@@ -91,6 +91,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable error_control_heartbeat_defects();
 [[nodiscard]] DefectTable error_control_monitoring_defects();
 [[nodiscard]] DefectTable error_control_course_defects();
+[[nodiscard]] DefectTable error_control_state_defects();
 [[nodiscard]] DefectTable cob_id_defects();
 [[nodiscard]] DefectTable cob_id_course_defects();
 [[nodiscard]] DefectTable storage_defects();

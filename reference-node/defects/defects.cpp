@@ -42,6 +42,7 @@ std::span<const Defect> defects() {
                                        error_control_heartbeat_defects,
                                        error_control_monitoring_defects,
                                        error_control_course_defects,
+                                       error_control_state_defects,
                                        cob_id_defects,
                                        cob_id_course_defects,
                                        storage_defects,

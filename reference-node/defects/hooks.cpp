@@ -153,6 +153,20 @@ Change ahead_of_state_change(std::function<void(Parts&)> act) {
   };
 }
 
+std::shared_ptr<bool> led_by_error(Parts& parts) {
+  auto led = std::make_shared<bool>(false);
+  parts.error_behaviour.enter = [&parts, led, former = parts.error_behaviour.enter](NmtState state) {
+    *led = *led || state != parts.device.state;
+    former(state);
+  };
+  deaf_to([led](Parts& node, const Frame& frame) {
+    const bool command = frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
+    if (command && (frame.data[1] == 0 || frame.data[1] == node.device.node_id)) *led = false;
+    return false;
+  })(parts);
+  return led;
+}
+
 std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(Parts& parts,
                                                              std::initializer_list<std::uint16_t> indices) {
   const auto written = std::make_shared<std::set<Multiplexer>>();

@@ -61,6 +61,8 @@ using Read = std::function<Upload()>;
 [[nodiscard]] Change with_boot_up(std::function<void(Parts&)> act);
 /// `act` runs when the NMT state has changed, before any service hears of it.
 [[nodiscard]] Change ahead_of_state_change(std::function<void(Parts&)> act);
+/// Whether an error behaviour (1029h) has led to the NMT state, and no command since to another.
+[[nodiscard]] std::shared_ptr<bool> led_by_error(Parts& parts);
 /// What has been written of these objects since the boot-up message.
 [[nodiscard]] std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(
     Parts& parts, std::initializer_list<std::uint16_t> indices);
