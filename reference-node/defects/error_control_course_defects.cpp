@@ -49,6 +49,34 @@ void knows_nodes_by_seven_bits(Parts& parts) {
 /// 32768 ms and more are taken for a negative time, and a node with such a time is not monitored.
 bool below_the_sign(std::uint64_t entry) { return (entry & 0x8000U) == 0; }
 
+/// Every EMCY begins the period of the heartbeat anew.
+void begins_anew_with_emcy(Parts& parts) {
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>&) {
+    if (context.service == Service::emergency) parts.producer.on_boot_up();
+  });
+}
+
+/// A write of the time that there is ends the heartbeat.
+void stops_with_the_same_time(Parts& parts) {
+  const auto present = std::make_shared<std::uint64_t>(0);
+  with_boot_up([present](Parts& node) { *present = node.device.dictionary.number(0x1017, 0); })(parts);
+  after_writing(0x1017, 0, [present](Parts& node, const Written& former) {
+    former();
+    const std::uint64_t written = node.device.dictionary.number(0x1017, 0);
+    if (std::exchange(*present, written) == written) node.producer.on_reset();
+  })(parts);
+}
+
+/// The CAN-ID of the heartbeat is that of the first node-ID.
+Change keeps_the_first_can_id() {
+  return Filter(
+      [first = std::uint32_t{0}](const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+        if (context.service == Service::boot_up && first == 0) first = 0x700U + context.node_id;
+        if (context.service != Service::heartbeat) return;
+        for (Outgoing& each : frames) each.frame.id = first;
+      });
+}
+
 /// Every 256th heartbeat is left out: a counter passes 0.
 Change leaves_out_each_256th() {
   return Filter(
@@ -57,23 +85,26 @@ Change leaves_out_each_256th() {
       });
 }
 
-/// A request for any node puts off the end of the life time: the event is told later.
-void counts_requests_for_others(Parts& parts) {
-  const auto last = std::make_shared<BusTime>();
-  deaf_to([last](Parts& node, const Frame& frame) {
-    if (frame.remote && !frame.extended && frame.id > 0x700 && frame.id <= 0x77F) *last = node.device.now;
-    return false;
-  })(parts);
-  parts.device.outbox.add_filter([&parts, last](const FilterContext& context, std::vector<Outgoing>& frames) {
-    constexpr std::uint8_t by_guarding = 4;
-    if (context.service != Service::emergency) return;
-    const ObjectDictionary& od = parts.device.dictionary;
-    const Duration life_time = parts.guarding.rules.life_time(od.number(0x100C, 0), od.number(0x100D, 0));
-    for (Outgoing& each : frames) {
-      if (each.frame.data[1] != 0x81 || each.frame.data[4] != by_guarding) continue;
-      each.delay = std::max(each.delay, Duration(*last + life_time - context.now));
-    }
-  });
+/// Remote frames for which `such` holds put off the end of the life time: the event is told later.
+Change counts_as_request(bool (*such)(const Frame& frame)) {
+  return [such](Parts& parts) {
+    const auto last = std::make_shared<BusTime>();
+    deaf_to([last, such](Parts& node, const Frame& frame) {
+      if (frame.remote && !frame.extended && such(frame)) *last = node.device.now;
+      return false;
+    })(parts);
+    parts.device.outbox.add_filter([&parts, last](const FilterContext& context,
+                                                  std::vector<Outgoing>& frames) {
+      constexpr std::uint8_t by_guarding = 4;
+      if (context.service != Service::emergency) return;
+      const ObjectDictionary& od = parts.device.dictionary;
+      const Duration life_time = parts.guarding.rules.life_time(od.number(0x100C, 0), od.number(0x100D, 0));
+      for (Outgoing& each : frames) {
+        if (each.frame.data[1] != 0x81 || each.frame.data[4] != by_guarding) continue;
+        each.delay = std::max(each.delay, Duration(*last + life_time - context.now));
+      }
+    });
+  };
 }
 
 /// Behind reset communication guard replies show the state before it, until there is a command.
@@ -214,6 +245,18 @@ DefectTable producer_rows() {
        "Every 256th heartbeat is left out",
        {"EC-HBP-01"},
        leaves_out_each_256th()},
+      {"heartbeat-begins-anew-with-emcy",
+       "An EMCY begins the period of the heartbeat anew",
+       {"EC-HBP-01"},
+       Change(begins_anew_with_emcy)},
+      {"heartbeat-ends-with-the-same-time",
+       "Writing the time to 1017h that it has ends the heartbeat",
+       {"EC-HBP-01", "EC-HBP-02"},
+       Change(stops_with_the_same_time)},
+      {"heartbeat-keeps-can-id-of-first-node-id",
+       "With another node-ID the heartbeat keeps the CAN-ID of the first one",
+       {"CAN-ID-01", "LSS-CN-04"},
+       keeps_the_first_can_id()},
   };
 }
 
@@ -226,7 +269,11 @@ DefectTable guarding_rows() {
       {"life-time-begins-with-requests-for-others",
        "A guard request for any node begins the life time anew",
        {"EC-NG-07"},
-       Change(counts_requests_for_others)},
+       counts_as_request([](const Frame& frame) { return frame.id > 0x700 && frame.id <= 0x77F; })},
+      {"life-time-begins-with-requests-for-tpdos",
+       "A remote frame for a PDO begins the life time anew",
+       {"EC-NG-07"},
+       counts_as_request([](const Frame& frame) { return frame.id >= 0x180 && frame.id < 0x580; })},
       {"guard-state-of-before-reset-communication",
        "Behind reset communication guard replies tell the state before it until there is an NMT command",
        {"EC-NG-01"},
