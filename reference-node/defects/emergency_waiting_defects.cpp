@@ -2,7 +2,10 @@
 // Defects of EMCY and of what belongs to it when something else happens beside the error: what waits for the
 // inhibit time is dropped or outlives a reset, and the end of an error is told in another way than its
 // beginning.
+#include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -91,6 +94,38 @@ Change empties_history_in(NmtState state) {
   });
 }
 
+/// Behind a TPDO an EMCY waits for the inhibit time of 1015h.
+void waits_behind_tpdos(Parts& parts) {
+  const auto last = std::make_shared<std::optional<BusTime>>();
+  parts.device.outbox.add_filter([&parts, last](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::boot_up) last->reset();
+    if (context.service == Service::tpdo && !frames.empty()) *last = context.now;
+    if (context.service != Service::emergency || !*last) return;
+    const Duration inhibit = parts.emergency.rules.inhibit_time(parts.device.time_value(0x1015, 0));
+    for (Outgoing& each : frames) each.delay = std::max(each.delay, Duration(**last + inhibit - context.now));
+  });
+}
+
+/// Where more than one error was there the end of the last one is not told.
+void tells_no_end_of_several(Parts& parts) {
+  struct Memory {
+    bool several = false, quiet = false;
+  };
+  const auto memory = std::make_shared<Memory>();
+  with_boot_up([memory](Parts&) { *memory = {}; })(parts);
+  parts.device.errors.clear.replace([&parts, memory](const auto& former, const ErrorCause& cause) {
+    const std::size_t present = parts.emergency.active().size();
+    memory->several = memory->several || present > 1;
+    memory->quiet = memory->several && present == 1;
+    former(cause);
+    memory->quiet = false;
+    if (parts.emergency.active().empty()) memory->several = false;
+  });
+  parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::emergency && memory->quiet) frames.clear();
+  });
+}
+
 /// One entry takes whatever is written, without a look at what is there.
 Change takes_any(std::uint8_t producer) {
   return checking(0x1028, producer, [](Parts&, const Check&, ByteView) -> Accepted { return {}; });
@@ -107,6 +142,18 @@ DefectTable emergency_waiting_defects() {
                [](const FilterContext& context, Frame& frame) {
                  if (is_error_reset({frame, {}})) frame.id = 0x80U + context.node_id;
                })},
+      {"emcy-newest-first-behind-inhibit-time",
+       "Of the messages that wait for the inhibit time the newest is sent first",
+       {"EMCY-SEQ-02"},
+       decides(of_emergency_rules, &EmergencyRules::oldest_first, [](const auto&) { return false; })},
+      {"emcy-end-of-several-missing",
+       "Where two errors were there at a time no EMCY 0000h tells that both are gone",
+       {"EMCY-SEQ-02"},
+       Change(tells_no_end_of_several)},
+      {"emcy-inhibited-by-tpdo",
+       "The inhibit time of 1015h begins with TPDOs as well",
+       {"EMCY-INH-01"},
+       Change(waits_behind_tpdos)},
       {"emcy-dropped-by-nmt-state",
        "What waits for the inhibit time of EMCY is dropped by a change of the NMT state",
        {"EMCY-INH-01"},

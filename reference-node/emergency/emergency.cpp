@@ -40,7 +40,8 @@ EmergencyRules::EmergencyRules()
       only_latest_of_stopped([] { return true; }),
       kept_waiting([](WhileWaiting occasion) {
         return occasion == WhileWaiting::state_change || occasion == WhileWaiting::inhibit_time_written;
-      }) {}
+      }),
+      oldest_first([] { return true; }) {}
 
 Emergency::Emergency(Device& device)
     : history(device), device_(&device), cob_id_(device, cob_id_rules, 0x1014, 0, 0x80U + device.node_id) {
@@ -151,7 +152,7 @@ void Emergency::report(const Message& message) {
     lost_ = true;
     return;
   }
-  pending_.push_back(message);
+  pending_.insert(rules.oldest_first() ? pending_.end() : pending_.begin(), message);
   if (pending_.size() > pending_limit) pending_.pop_front();
   flush();
 }

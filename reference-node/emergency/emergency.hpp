@@ -45,6 +45,8 @@ struct EmergencyRules {
   Rule<bool()> only_latest_of_stopped;
   /// 7.5.2.18: what waits is sent in the end; a reset begins with nothing (7.3.2.2).
   Rule<bool(WhileWaiting)> kept_waiting;
+  /// 7.2.7.1: what waits is sent in the order in which it happened, the end of the errors behind them.
+  Rule<bool()> oldest_first;
   EmergencyRules();
 };
 
