@@ -95,18 +95,10 @@ void heartbeat_goes_on_in_start_up(Parts& parts) {
 
 /// Stopped that an error has led to leaves the SDO server on.
 void serves_where_an_error_stopped(Parts& parts) {
-  const auto by_error = std::make_shared<bool>(false);
-  parts.error_behaviour.enter = [by_error, former = parts.error_behaviour.enter](NmtState state) {
-    *by_error = state == NmtState::stopped;
-    former(state);
-  };
-  deaf_to([by_error](Parts& node, const Frame& frame) {
-    if (is_nmt_command(frame) && is_for(node, frame)) *by_error = false;
-    return false;
-  })(parts);
-  parts.device.works.replace([by_error](const auto& former, Service service, NmtState state) {
-    return (*by_error && service == Service::sdo && state == NmtState::stopped) || former(service, state);
-  });
+  parts.device.works.replace(
+      [led = led_by_error(parts)](const auto& former, Service service, NmtState state) {
+        return (*led && service == Service::sdo && state == NmtState::stopped) || former(service, state);
+      });
 }
 
 /// While an NMT frame is looked at, of whichever node, an SDO request is lost.
@@ -166,6 +158,13 @@ DefectTable nmt_course_defects() {
        misreads([](Parts&, Frame& frame) {
          if (is_nmt_command(frame) && frame.data[0] == reset_node && frame.data[1] == 0)
            frame.data[0] = reset_communication;
+       })},
+      {"nmt-reset-communication-of-all-resets-node",
+       "Reset communication for all nodes resets the whole node",
+       {"NMT-FSA-14", "NMT-FSA-26"},
+       misreads([](Parts&, Frame& frame) {
+         if (is_nmt_command(frame) && frame.data[0] == reset_communication && frame.data[1] == 0)
+           frame.data[0] = reset_node;
        })},
       {"sdo-served-in-stopped-by-error",
        "In Stopped that an error has led to SDO is served",
