@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "defects/heartbeats.hpp"
 #include "defects/hooks.hpp"
 #include "defects/tools.hpp"
 
@@ -104,15 +103,6 @@ DefectTable error_control_state_defects() {
        "In Stopped that an error has led to guard requests are not answered",
        {"NMT-SVC-04"},
        Change(unguarded_where_an_error_stopped)},
-      {"hbc-loss-in-stopped-unnoticed",
-       "A heartbeat that stays away in Stopped is not noticed, nor is it afterwards",
-       {"EC-HBC-03"},
-       unnoticed_in_stopped(ErrorSource::heartbeat)},
-      {"hbc-loss-unnoticed-behind-nmt-state",
-       "A heartbeat that stays away is not noticed where the NMT state has changed since the last one",
-       {"EC-HBC-03"},
-       unnoticed_in_another_state(ErrorSource::heartbeat,
-                                  [](const Parts&, const Frame& frame) { return is_heartbeat(frame); })},
       {"life-guarding-in-stopped-unnoticed",
        "That guard requests stay away in Stopped is not noticed, nor is it afterwards",
        {"EC-NG-07"},
