@@ -269,6 +269,32 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"TIME-CON-01 TIME-CON-02 TIME-CON-03", "SDO-SUP-01 SDO-UPL-05 SDO-SUP-02"},
     {"EC-EB-* OD-1029-10", "EC-HBC-08"},
     {"OD-1201-04", "SDO-GEN-04"},
+    // What a refused write leaves, and what was refused, by whatever transfer.
+    {"OD-1005-05 OD-1012-05 OD-1014-06 OD-1019-05 OD-1400-10 OD-1800-10 OD-1800-16 OD-1800-21 OD-1A00-10 CAN-RID-01 OD-LEN-02",
+     "OD-ACC-05"},
+    {"OD-ACC-05", "SDO-BDN-09 SDO-BDN-12 SDO-BDN-13 SDO-BDN-15"},
+    {"OD-LEN-01 OD-LEN-02",
+     "SDO-SDN-01 SDO-SDN-02 SDO-SDN-08 SDO-SDN-09 SDO-SDN-10 SDO-BDN-01 SDO-BDN-06 SDO-BDN-16"},
+    {"SDO-SDN-02", "SDO-SDN-08 SDO-SDN-09 SDO-SDN-10"},
+    {"CAN-RID-01", "SDO-SDN-18 SDO-BDN-24"},
+    {"SDO-ERR-01 SDO-ERR-10", "SDO-BUP-01 SDO-BDN-01 SDO-BUP-16"},
+    {"SDO-SDN-05", "SDO-SUP-07"},
+    {"SDO-GEN-06", "SDO-BUP-29"},
+    {"OD-1023-05", "SDO-SDN-01 SDO-SDN-03"},
+    {"OD-1201-05", "CAN-RID-06"},
+    {"SDO-ERR-10", "SDO-MUL-01"},
+    {"OD-1600-06 OD-1A00-06", "OD-1600-13 OD-1A00-13"},
+    // Under another node-ID, in states that errors lead to, behind resets.
+    {"CAN-ID-01", "OD-1017-01 OD-1017-03 EC-HBP-02"},
+    {"NMT-SVC-04",
+     "NMT-BOOT-10 EC-HBC-08 OD-1029-05 EC-EB-02 EC-EB-03 OD-1029-09 OD-1029-10 OD-100C-02 EC-NG-04 EC-NG-07"},
+    {"NMT-BOOT-09", "NMT-FSA-20"},
+    {"LSS-ST-02", "LSS-CN-04"},
+    {"PDO-TX-01 PDO-RX-01", "NMT-FSA-24"},
+    {"PDO-TX-07", "PDO-TX-01 PDO-TX-05"},
+    {"OD-1800-14", "PDO-TX-10"},
+    {"PDO-TX-14", "SYNC-PRO-04"},
+    {"SYNC-PRO-04", "NMT-SVC-01"},
 });
 
 // One rule that CiA 301 gives for each kind of transfer, or for each service, and that one piece of firmware
