@@ -230,6 +230,8 @@ Result<Explorable> explorable_of(const device::Profile& profile, const NodeSwitc
   Explorable out;
   out.words = explore::vocabulary_of(profile);
   out.bench.facts = engine::facts_of_run(profile);
+  // A conversation begins right behind a reset: what was commanded there is not held against the device.
+  out.bench.facts.deaf_time = out.bench.facts.nmt_time;
   out.bench.facts.alone = true;
   for (const auto& rule : monitor::rules()) out.bench.monitors.push_back(&rule);
   out.bench.device = maker_of(device, profile.node);
