@@ -282,7 +282,6 @@ constexpr auto ground_table = std::to_array<Ground>({
     {"SDO-GEN-06", "SDO-BUP-29"},
     {"OD-1023-05", "SDO-SDN-01 SDO-SDN-03"},
     {"OD-1201-05", "CAN-RID-06"},
-    {"SDO-ERR-10", "SDO-MUL-01"},
     {"OD-1600-06 OD-1A00-06", "OD-1600-13 OD-1A00-13"},
     // Under another node-ID, in states that errors lead to, behind resets.
     {"CAN-ID-01", "OD-1017-01 OD-1017-03 EC-HBP-02"},
@@ -290,7 +289,6 @@ constexpr auto ground_table = std::to_array<Ground>({
      "NMT-BOOT-10 EC-HBC-08 OD-1029-05 EC-EB-02 EC-EB-03 OD-1029-09 OD-1029-10 OD-100C-02 EC-NG-04 EC-NG-07"},
     {"NMT-BOOT-09", "NMT-FSA-20"},
     {"LSS-ST-02", "LSS-CN-04"},
-    {"PDO-TX-01 PDO-RX-01", "NMT-FSA-24"},
     {"PDO-TX-07", "PDO-TX-01 PDO-TX-05"},
     {"OD-1800-14", "PDO-TX-10"},
     {"PDO-TX-14", "SYNC-PRO-04"},

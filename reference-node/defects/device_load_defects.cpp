@@ -8,6 +8,7 @@
 
 #include "defects/cob_ids.hpp"
 #include "defects/hooks.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -126,13 +127,6 @@ Change waits_for_sdo(bool (*when)(const Parts&, const Frame&)) {
 bool is_change_of_state(const Parts&, const Frame& frame) {
   return !frame.remote && frame.id == 0x000 && frame.data[0] <= 0x80;
 }
-bool is_guard_request(const Parts& parts, const Frame& frame) {
-  return frame.remote && frame.id == 0x700U + parts.device.node_id;
-}
-bool is_sync(const Parts& parts, const Frame& frame) {
-  return !frame.remote && frame.id == (parts.device.dictionary.number(0x1005, 0) & 0x7FFU);
-}
-
 void takes_no_rpdo_beside_sdo(Parts& parts) {
   parts.pdos.rpdo.rules.valid.replace([&parts](const auto& former, const PdoParameters& pdo) {
     return !has_open_transfer(parts) && former(pdo);

@@ -18,9 +18,6 @@ namespace {
 
 constexpr std::uint8_t toggle_bit = 0x80;
 
-bool is_request(const Parts& parts, const Frame& frame) {
-  return frame.remote && !frame.extended && frame.id == 0x700U + parts.device.node_id;
-}
 /// A frame that `node_of` finds a node for counts as a heartbeat of that node, once its monitoring has begun.
 Change counts_as_heartbeat(std::optional<std::uint8_t> (*node_of)(const Frame& frame)) {
   return Reading([node_of](Parts& parts, std::vector<Frame>& frames) {
@@ -138,7 +135,7 @@ void toggles_unanswered(Parts& parts) {
   const auto other = std::make_shared<bool>(false);
   with_boot_up([other](Parts&) { *other = false; })(parts);
   deaf_to([other](Parts& node, const Frame& frame) {
-    if (is_request(node, frame) && node.device.dictionary.number(0x1017, 0) != 0) *other = !*other;
+    if (is_guard_request(node, frame) && node.device.dictionary.number(0x1017, 0) != 0) *other = !*other;
     return false;
   })(parts);
   parts.device.outbox.add_filter([other](const FilterContext& context, std::vector<Outgoing>& frames) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "defects/hooks.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -46,10 +47,6 @@ void ends_with_event_timers(Parts& parts) {
         }
         return time;
       });
-}
-
-bool is_request(const Parts& parts, const Frame& frame) {
-  return frame.remote && frame.id == 0x700U + parts.device.node_id;
 }
 
 Change life_time(Duration (*wrong)(std::uint64_t guard_time, std::uint64_t factor)) {
@@ -96,7 +93,7 @@ void length_as_asked(Parts& parts) {
   auto asked = std::make_shared<std::uint8_t>(1);
   parts.device.inbox.add_filter([&parts, asked](std::vector<Frame>& frames) {
     for (const Frame& frame : frames) {
-      if (is_request(parts, frame)) *asked = frame.dlc;
+      if (is_guard_request(parts, frame)) *asked = frame.dlc;
     }
   });
   parts.device.outbox.add_filter([asked](const FilterContext& context, std::vector<Outgoing>& frames) {
@@ -154,7 +151,7 @@ void resolved_by_the_second_request(Parts& parts) {
   });
   parts.device.inbox.add_filter([&parts, resolve](std::vector<Frame>& frames) {
     for (const Frame& frame : frames) {
-      if (is_request(parts, frame) && *resolve) std::exchange(*resolve, nullptr)();
+      if (is_guard_request(parts, frame) && *resolve) std::exchange(*resolve, nullptr)();
     }
   });
 }
@@ -162,7 +159,7 @@ void resolved_by_the_second_request(Parts& parts) {
 /// While a life time runs any other frame is an event; the next request resolves it.
 bool event_with_other_frames(Parts& parts, const Frame& frame) {
   const ErrorCause event{0x8130, ErrorSource::guarding, 0};
-  if (is_request(parts, frame)) {
+  if (is_guard_request(parts, frame)) {
     parts.device.errors.clear(event);
   } else if (parts.guarding.next_wakeup()) {
     parts.device.errors.raise(event, 0);
@@ -211,7 +208,7 @@ Change goes_on_beside_heartbeat() {
   return together(
       decides(of_guarding, &GuardingRules::is_used, [](const auto&, std::uint64_t) { return true; }),
       deaf_to([](Parts& parts, const Frame& frame) {
-        return is_request(parts, frame) && parts.device.dictionary.number(0x1017, 0) != 0;
+        return is_guard_request(parts, frame) && parts.device.dictionary.number(0x1017, 0) != 0;
       }));
 }
 
@@ -220,7 +217,7 @@ DefectTable request_rows() {
       {"guard-no-reply",
        "Guard requests are not answered",
        {"EC-NG-01", "EC-NG-02", "EC-NG-12"},
-       deaf_to([](Parts& parts, const Frame& frame) { return is_request(parts, frame); })},
+       deaf_to([](Parts& parts, const Frame& frame) { return is_guard_request(parts, frame); })},
       {"guard-toggle-starts-with-1",
        "The first guard reply after a reset has toggle bit 1",
        {"EC-NG-01", "EC-NG-03"},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "defects/hooks.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -13,20 +14,6 @@ namespace refnode {
 using namespace defect;
 
 namespace {
-
-bool is_request(const Parts& parts, const Frame& frame) {
-  return frame.remote && !frame.extended && frame.id == 0x700U + parts.device.node_id;
-}
-
-/// Where an error has led to this state the service works although it does not in this state.
-Change works_where_led_by_error(Service which, NmtState where) {
-  return [which, where](Parts& parts) {
-    parts.device.works.replace(
-        [=, led = led_by_error(parts)](const auto& former, Service service, NmtState state) {
-          return (*led && service == which && state == where) || former(service, state);
-        });
-  };
-}
 
 /// Guard requests are not answered in Stopped that an error has led to.
 void unguarded_where_an_error_stopped(Parts& parts) {
@@ -65,7 +52,7 @@ Change unnoticed_in_another_state(ErrorSource source, bool (*is_sign)(const Part
 void life_time_goes_on_in_stopped(Parts& parts) {
   const auto begun = std::make_shared<BusTime>();
   deaf_to([begun](Parts& node, const Frame& frame) {
-    if (is_request(node, frame) && node.device.state != NmtState::stopped) *begun = node.device.now;
+    if (is_guard_request(node, frame) && node.device.state != NmtState::stopped) *begun = node.device.now;
     return false;
   })(parts);
   parts.guarding.rules.life_time.replace(
@@ -110,7 +97,7 @@ DefectTable error_control_state_defects() {
       {"life-guarding-unnoticed-behind-nmt-state",
        "That guard requests stay away is not noticed where the NMT state has changed since the last one",
        {"EC-NG-07"},
-       unnoticed_in_another_state(ErrorSource::guarding, is_request)},
+       unnoticed_in_another_state(ErrorSource::guarding, is_guard_request)},
       {"life-time-goes-on-in-stopped",
        "Guard requests in Stopped are answered and do not begin the life time anew",
        {"EC-NG-07"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "defects/hooks.hpp"
 
+#include "defects/receivers.hpp"
+
 namespace refnode::defect {
 
 namespace {
@@ -160,11 +162,19 @@ std::shared_ptr<bool> led_by_error(Parts& parts) {
     former(state);
   };
   deaf_to([led](Parts& node, const Frame& frame) {
-    const bool command = frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
-    if (command && (frame.data[1] == 0 || frame.data[1] == node.device.node_id)) *led = false;
+    if (is_nmt_command(frame) && is_for(node, frame)) *led = false;
     return false;
   })(parts);
   return led;
+}
+
+Change works_where_led_by_error(Service which, NmtState where) {
+  return [which, where](Parts& parts) {
+    parts.device.works.replace(
+        [=, led = led_by_error(parts)](const auto& former, Service service, NmtState state) {
+          return (*led && service == which && state == where) || former(service, state);
+        });
+  };
 }
 
 std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(Parts& parts,

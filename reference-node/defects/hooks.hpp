@@ -63,6 +63,8 @@ using Read = std::function<Upload()>;
 [[nodiscard]] Change ahead_of_state_change(std::function<void(Parts&)> act);
 /// Whether an error behaviour (1029h) has led to the NMT state, and no command since to another.
 [[nodiscard]] std::shared_ptr<bool> led_by_error(Parts& parts);
+/// Where an error has led to this state the service works although it does not in this state.
+[[nodiscard]] Change works_where_led_by_error(Service which, NmtState where);
 /// What has been written of these objects since the boot-up message.
 [[nodiscard]] std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(
     Parts& parts, std::initializer_list<std::uint16_t> indices);

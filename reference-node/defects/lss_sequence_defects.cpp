@@ -30,9 +30,9 @@ constexpr std::uint8_t fastscan = 0x51;
 constexpr std::uint8_t begin_of_scan = 0x80;
 constexpr std::uint8_t last_part_of_scan = 3;
 
-void answer(Parts& parts, std::uint8_t specifier) {
-  parts.device.send(Service::lss,
-                    conform::can::data_frame(conform::CanId(answer_id), {specifier, 0, 0, 0, 0, 0, 0, 0}));
+void answer(Parts& parts, std::uint8_t specifier, std::uint8_t value = 0) {
+  parts.device.send(Service::lss, conform::can::data_frame(conform::CanId(answer_id),
+                                                           {specifier, value, 0, 0, 0, 0, 0, 0}));
 }
 void identify(Parts& parts) { answer(parts, 0x4F); }
 
@@ -166,7 +166,7 @@ void takes_unknown_for_scan(Parts& parts, Frame& frame) {
   if (is_request(frame) && frame.data[0] >= 0x60 && parts.device.node_id > 127) frame.data[0] = fastscan;
 }
 
-/// What the latest configure node-ID said, until the device boots up; nothing: there was none.
+/// What the latest configure node-ID said; nothing: there was none.
 struct Configured {
   std::optional<std::uint8_t> accepted;
   bool refused = false;  ///< behind the accepted one
@@ -179,6 +179,12 @@ std::shared_ptr<Configured> latest_configured(Parts& parts) {
     latest->refused = !allowed;
     return allowed;
   });
+  return latest;
+}
+
+std::shared_ptr<Configured> configured_since_boot_up(Parts& parts) {
+  const auto latest = latest_configured(parts);
+  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
   return latest;
 }
 
@@ -201,8 +207,7 @@ void remembers_over_reset_node(Parts& parts) {
 /// Reset communication brings back the node-ID that the device was delivered with, unless another one waits
 /// for it.
 void forgets_the_stored_one(Parts& parts) {
-  const auto latest = latest_configured(parts);
-  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
+  const auto latest = configured_since_boot_up(parts);
   parts.lss.rules.after_reset_communication.replace(
       [latest, first = parts.device.node_id](const auto& former, std::uint8_t active, std::uint8_t pending) {
         return latest->accepted ? former(active, pending) : first;
@@ -231,9 +236,7 @@ void is_selected_by_identifying(Parts& parts) {
     if (!is_request(frame)) return false;
     if (frame.data[0] == switch_state_global) *open = false;
     if (!*open || frame.data[0] != inquire_node_id) return false;
-    node.device.send(Service::lss,
-                     conform::can::data_frame(conform::CanId(answer_id),
-                                              {inquire_node_id, node.device.node_id, 0, 0, 0, 0, 0, 0}));
+    answer(node, inquire_node_id, node.device.node_id);
     return true;
   })(parts);
 }
@@ -259,8 +262,7 @@ void tells_the_stored_one(Parts& parts) {
 
 /// A node-ID that waits for the reset is stored with the parameters.
 void is_stored_with_the_parameters(Parts& parts) {
-  const auto latest = latest_configured(parts);
-  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
+  const auto latest = configured_since_boot_up(parts);
   after_writing(0x1010, 1, [latest](Parts& node, const std::function<void()>& former) {
     if (former) former();
     if (latest->accepted) static_cast<void>(node.lss.keep(*latest->accepted, {}));
@@ -277,8 +279,7 @@ void never_stores_none(Parts& parts) {
 
 void tells_the_configured_one(Parts& parts) {
   constexpr std::uint8_t inquire_node_id = 0x5E;
-  const auto latest = latest_configured(parts);
-  with_boot_up([latest](Parts&) { *latest = {}; })(parts);
+  const auto latest = configured_since_boot_up(parts);
   parts.device.outbox.add_filter([latest](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.service != Service::lss || !latest->accepted) return;
     for (Outgoing& each : frames) {

@@ -22,9 +22,6 @@ constexpr std::uint8_t start = 0x01;
 constexpr std::uint8_t reset_node = 0x81;
 constexpr std::uint8_t reset_communication = 0x82;
 
-bool is_for(const Parts& parts, const Frame& frame) {
-  return frame.data[1] == 0 || frame.data[1] == parts.device.node_id;
-}
 bool is_reset(const Frame& frame) {
   return frame.data[0] == reset_node || frame.data[0] == reset_communication;
 }
@@ -91,14 +88,6 @@ void heartbeat_goes_on_in_start_up(Parts& parts) {
     const FilterContext context{Service::heartbeat, parts.device.node_id, parts.device.state};
     parts.device.outbox.send(context, std::move(frames), parts.device.now);
   };
-}
-
-/// Stopped that an error has led to leaves the SDO server on.
-void serves_where_an_error_stopped(Parts& parts) {
-  parts.device.works.replace(
-      [led = led_by_error(parts)](const auto& former, Service service, NmtState state) {
-        return (*led && service == Service::sdo && state == NmtState::stopped) || former(service, state);
-      });
 }
 
 /// While an NMT frame is looked at, of whichever node, an SDO request is lost.
@@ -169,7 +158,7 @@ DefectTable nmt_course_defects() {
       {"sdo-served-in-stopped-by-error",
        "In Stopped that an error has led to SDO is served",
        {"NMT-FSA-23"},
-       Change(serves_where_an_error_stopped)},
+       works_where_led_by_error(Service::sdo, NmtState::stopped)},
       {"nmt-lost-behind-another",
        "Of commands on the bus one right behind the other the first one is obeyed",
        {"NMT-FSA-20"},

@@ -82,20 +82,6 @@ void reports_what_came_before(Parts& parts) {
   };
 }
 
-/// The buffer that waits for the SYNC works once the first of them has come.
-void loses_before_the_first_sync(Parts& parts) {
-  const auto heard = std::make_shared<bool>(false);
-  with_boot_up([heard](Parts&) { *heard = false; })(parts);
-  parts.pdos.rpdo.rules.processed.replace(
-      [heard](const auto& former, const PdoParameters& pdo, std::size_t received, std::size_t mapped) {
-        return (*heard || !is_synchronous(pdo.transmission_type())) && former(pdo, received, mapped);
-      });
-  deaf_to([heard](Parts& node, const Frame& frame) {
-    if (frame.id == (node.device.dictionary.number(0x1005, 0) & 0x7FFU)) *heard = true;
-    return false;
-  })(parts);
-}
-
 }  // namespace
 
 DefectTable pdo_receive_traffic_defects() {
@@ -357,10 +343,6 @@ DefectTable pdo_receive_traffic_defects() {
            return !late && former(pdo, received, mapped);
          });
        })},
-      {"rpdo-synchronous-before-the-first-sync-lost",
-       "A synchronous RPDO that comes before the first SYNC behind a reset is lost",
-       {"PDO-RX-03"},
-       loses_before_the_first_sync},
       {"rpdo-synchronous-too-long-discarded",
        "A synchronous RPDO that is too long is discarded",
        {"PDO-RX-07"},

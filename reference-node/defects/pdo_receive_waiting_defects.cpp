@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "defects/pdos.hpp"
+#include "defects/receivers.hpp"
 
 namespace refnode {
 
@@ -21,10 +22,6 @@ constexpr std::uint16_t too_short = 0x8210;
 
 constexpr std::uint16_t communication(std::uint16_t number) {
   return static_cast<std::uint16_t>(0x1400 + number);
-}
-
-bool is_sync(const ObjectDictionary& od, const Frame& frame) {
-  return !frame.remote && !frame.extended && frame.id == (od.number(0x1005, 0, 0x80) & 0x7FFU);
 }
 
 /// The number of the valid RPDO that the frame is one of.
@@ -68,7 +65,7 @@ void takes_over_in_pre_operational(Parts& parts) {
     const auto number = number_of(od, frame);
     if (number && node.device.state == NmtState::operational && waits_for_sync(od, *number))
       memory->waiting = frame;
-    if (!is_sync(od, frame)) return;
+    if (!is_sync(node, frame)) return;
     const auto waiting = std::exchange(memory->waiting, std::nullopt);
     if (!waiting || node.device.state != NmtState::pre_operational) return;
     memory->now = true;
@@ -181,6 +178,20 @@ void short_ends_the_deadline(Parts& parts) {
   ahead_of_state_change([ended](Parts&) { ended->clear(); })(parts);
 }
 
+/// The buffer that waits for the SYNC works once the first of them has come.
+void loses_before_the_first_sync(Parts& parts) {
+  const auto heard = std::make_shared<bool>(false);
+  with_boot_up([heard](Parts&) { *heard = false; })(parts);
+  parts.pdos.rpdo.rules.processed.replace(
+      [heard](const auto& former, const PdoParameters& pdo, std::size_t received, std::size_t mapped) {
+        return (*heard || !is_synchronous(pdo.transmission_type())) && former(pdo, received, mapped);
+      });
+  deaf_to([heard](Parts& node, const Frame& frame) {
+    if (is_sync(node, frame)) *heard = true;
+    return false;
+  })(parts);
+}
+
 }  // namespace
 
 DefectTable pdo_receive_waiting_defects() {
@@ -189,6 +200,10 @@ DefectTable pdo_receive_waiting_defects() {
        "Of several synchronous RPDOs before one SYNC the second one is the last that is taken",
        {"PDO-RX-04"},
        Change(waits_in_two_places)},
+      {"rpdo-synchronous-before-the-first-sync-lost",
+       "A synchronous RPDO that comes before the first SYNC behind a reset is lost",
+       {"PDO-RX-03"},
+       Change(loses_before_the_first_sync)},
       {"rpdo-waiting-applied-in-pre-operational",
        "A synchronous RPDO that waits when Operational is left takes effect with a SYNC in Pre-operational",
        {"PDO-RX-02"},

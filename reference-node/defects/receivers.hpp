@@ -17,6 +17,20 @@ inline bool is_nmt_command(const Frame& frame) {
   return frame.id == 0x000 && !frame.extended && !frame.remote && frame.size() == 2;
 }
 
+/// An NMT command that this node has to obey.
+inline bool is_for(const Parts& parts, const Frame& frame) {
+  return frame.data[1] == 0 || frame.data[1] == parts.device.node_id;
+}
+
+inline bool is_guard_request(const Parts& parts, const Frame& frame) {
+  return frame.remote && !frame.extended && frame.id == 0x700U + parts.device.node_id;
+}
+
+inline bool is_sync(const Parts& parts, const Frame& frame) {
+  return !frame.extended && !frame.remote &&
+         frame.id == (parts.device.dictionary.number(0x1005, 0, 0x80) & 0x7FFU);
+}
+
 /// A part of a 29-bit identifier, or of a CAN-ID, that is looked at in place of the whole.
 using Part = std::uint32_t (*)(const Frame&);
 

@@ -60,43 +60,52 @@ Change stores_by_exchange(Kind kind) {
   });
 }
 
+/// Where it is set while a frame is looked at the transfer outlives the abort that the server answers with.
+std::shared_ptr<bool> spares_the_transfer(Parts& parts) {
+  const auto spared = std::make_shared<bool>(false);
+  misreads([spared](Parts&, Frame&) { *spared = false; })(parts);
+  of_sdo(parts).abort_ends_transfer.replace([spared](const auto& former, SdoSide by, bool block) {
+    return !(by == SdoSide::server && *spared) && former(by, block);
+  });
+  return spared;
+}
+
+/// How many bytes of a segmented download have come.
+std::shared_ptr<std::size_t> bytes_taken(Parts& parts) {
+  const auto taken = std::make_shared<std::size_t>(0);
+  SegmentedRules& rules = of_segments(parts);
+  rules.granted.replace([taken](const auto& former, Multiplexer mux, Size announced) {
+    *taken = 0;
+    return former(mux, announced);
+  });
+  rules.fits.replace([taken](const auto& former, std::size_t received, std::size_t most) {
+    *taken = received;
+    return former(received, most);
+  });
+  return taken;
+}
+
 /// A segment of a download that is refused by this rule can be followed by others.
 Change outlives(Rule<bool(std::size_t, std::size_t)> SegmentedRules::* rule) {
   return [rule](Parts& parts) {
-    const auto spared = std::make_shared<bool>(false);
-    misreads([spared](Parts&, Frame&) { *spared = false; })(parts);
+    const auto spared = spares_the_transfer(parts);
     (of_segments(parts).*rule).replace([spared](const auto& former, std::size_t received, std::size_t limit) {
       *spared = !former(received, limit);
       return !*spared;
-    });
-    of_sdo(parts).abort_ends_transfer.replace([spared](const auto& former, SdoSide by, bool block) {
-      return !(by == SdoSide::server && *spared) && former(by, block);
     });
   };
 }
 /// The same of the toggle bit, once a segment has been taken.
 Change outlives_toggle_abort() {
   return [](Parts& parts) {
-    const auto taken = std::make_shared<bool>(false);
-    const auto spared = std::make_shared<bool>(false);
-    misreads([spared](Parts&, Frame&) { *spared = false; })(parts);
-    SegmentedRules& rules = of_segments(parts);
-    rules.granted.replace([taken](const auto& former, Multiplexer mux, Size announced) {
-      *taken = false;
-      return former(mux, announced);
-    });
-    rules.fits.replace([taken](const auto& former, std::size_t received, std::size_t most) {
-      *taken = true;
-      return former(received, most);
-    });
-    rules.download_toggle_right.replace([taken, spared](const auto& former, bool toggle, bool due) {
-      const bool right = former(toggle, due);
-      *spared = !right && *taken;
-      return right;
-    });
-    of_sdo(parts).abort_ends_transfer.replace([spared](const auto& former, SdoSide by, bool block) {
-      return !(by == SdoSide::server && *spared) && former(by, block);
-    });
+    const auto taken = bytes_taken(parts);
+    const auto spared = spares_the_transfer(parts);
+    of_segments(parts).download_toggle_right.replace(
+        [taken, spared](const auto& former, bool toggle, bool due) {
+          const bool right = former(toggle, due);
+          *spared = !right && *taken > 0;
+          return right;
+        });
   };
 }
 
@@ -117,17 +126,8 @@ void upload_toggle_unchecked_later(Parts& parts) {
   });
 }
 void download_toggle_unchecked_later(Parts& parts) {
-  const auto taken = std::make_shared<std::size_t>(0);
-  SegmentedRules& rules = of_segments(parts);
-  rules.granted.replace([taken](const auto& former, Multiplexer mux, Size announced) {
-    *taken = 0;
-    return former(mux, announced);
-  });
-  rules.fits.replace([taken](const auto& former, std::size_t received, std::size_t most) {
-    *taken = received;
-    return former(received, most);
-  });
-  rules.download_toggle_right.replace([taken](const auto& former, bool toggle, bool due) {
+  const auto taken = bytes_taken(parts);
+  of_segments(parts).download_toggle_right.replace([taken](const auto& former, bool toggle, bool due) {
     return *taken >= two_segments || former(toggle, due);
   });
 }

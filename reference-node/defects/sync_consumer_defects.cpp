@@ -7,6 +7,7 @@
 
 #include "defects/cob_ids.hpp"
 #include "defects/hooks.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -17,11 +18,6 @@ namespace {
 
 SyncConsumerRules& of_consumer(Parts& parts) { return parts.sync.rules; }
 SyncWindowRules& of_window(Parts& parts) { return parts.sync_window.rules; }
-
-bool is_sync(Parts& parts, const Frame& frame) {
-  return !frame.extended && !frame.remote &&
-         frame.id == (parts.device.dictionary.number(0x1005, 0, 0x80) & 0x7FFU);
-}
 
 Change obeys(bool (*which)(std::uint8_t counter, std::uint64_t overflow)) {
   return decides(of_consumer, &SyncConsumerRules::obeyed,
