@@ -95,9 +95,12 @@ How both(How first, How second) {
 How late(Service service, Duration by) {
   return [service, by](Parts& parts) {
     parts.device.outbox.add_filter(
-        [service, by](const FilterContext& context, std::vector<Outgoing>& frames) {
+        [service, by, &device = parts.device](const FilterContext& context, std::vector<Outgoing>& frames) {
           if (context.service != service) return;
-          for (Outgoing& outgoing : frames) outgoing.delay += by;
+          for (Outgoing& outgoing : frames) {
+            outgoing.delay += by;
+            outgoing.still_wanted = [&device, service] { return device.works_now(service); };
+          }
         });
   };
 }

@@ -11,7 +11,7 @@ import time
 import unittest
 
 from live_bus import load_module
-from live_device import INTERFACE, Node, folder_for, program, verdicts
+from live_device import INTERFACE, Node, folder_for, left_open_by_the_host, program, verdicts
 from serial_adapter import SerialAdapter
 
 STALLS = int(os.environ.get("CONFORM_STALLS", "8"))
@@ -92,7 +92,9 @@ class Adapter(unittest.TestCase):
         self.adapter.told("p", 0, 128)
         self.assertIn("the controller is error-passive", self.doctor().stdout)
         found, code = run.end()
-        self.assertEqual((self.bad(found), code), ({}, 0), run.said[-3000:])
+        bad = self.bad(found)
+        self.assertEqual({case: each for case, each in bad.items() if not left_open_by_the_host(*each)}, {}, run.said[-3000:])
+        self.assertEqual(code, 3 if bad else 0, run.said[-3000:])
         self.adapter.told("a")
         self.assertIn("the controller is error-active", self.doctor().stdout)
 

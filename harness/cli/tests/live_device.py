@@ -2,6 +2,7 @@
 """What the tests on a real AF_CAN socket share. Argument 1 and 2: folder of the programs, folder of the suites; the
 interface is $CONFORM_TEST_CAN, and without one the tests are skipped with exit code 77."""
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -68,6 +69,11 @@ def verdicts(junit):
                 text = f"{child.get('message')}\n{child.text}"
         out[name] = (word, text)
     return out
+
+
+def left_open_by_the_host(word, text):
+    """The case is open, and its text blames the machine that ran the suite: a loaded one does that to any case."""
+    return word == "inconclusive" and re.search("the host (was late|lost|sent)|the host's clock", text) is not None
 
 
 def left_open_by_the_machine(done):

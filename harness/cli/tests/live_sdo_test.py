@@ -119,7 +119,8 @@ class LiveSdo(unittest.TestCase):
         judged = os.path.join(self.folder, "judged.xml")
         for defects, code in (((), 0), (("--defect", "abort-mux-zero"), 1)):
             with self.subTest(defects=defects), Node(*defects):
-                live = run(*PROFILE, "--junit", self.junit, "--capture", capture, "cia301/sdo/upload/*", "cia301/nmt/boot-up/*")
+                live = until_judged(lambda: run(*PROFILE, "--junit", self.junit, "--capture", capture, "cia301/sdo/upload/*",
+                                                "cia301/nmt/boot-up/*"))
                 self.assertEqual(live.returncode, code, live.stdout[-3000:] + live.stderr)
                 said = {key: value for key, value in verdicts(self.junit).items() if key[0] == "monitor"}
                 again = subprocess.run(program("judge", capture, *PROFILE, "--node", "5", "--junit", judged),
