@@ -94,14 +94,22 @@ How both(How first, How second) {
 
 How late(Service service, Duration by) {
   return [service, by](Parts& parts) {
-    parts.device.outbox.add_filter(
-        [service, by, &device = parts.device](const FilterContext& context, std::vector<Outgoing>& frames) {
-          if (context.service != service) return;
-          for (Outgoing& outgoing : frames) {
-            outgoing.delay += by;
-            outgoing.still_wanted = [&device, service] { return device.works_now(service); };
-          }
-        });
+    // An error may be what ends the state: its EMCY is still told.
+    const auto changed = std::make_shared<BusTime>();
+    parts.nmt.on_change = [&parts, changed, former = parts.nmt.on_change](NmtState from) {
+      *changed = parts.device.now;
+      former(from);
+    };
+    parts.device.outbox.add_filter([service, by, changed, &device = parts.device](
+                                       const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (context.service != service) return;
+      for (Outgoing& outgoing : frames) {
+        outgoing.delay += by;
+        outgoing.still_wanted = [service, changed, &device, sent = context.now] {
+          return device.works_now(service) || *changed == sent;
+        };
+      }
+    });
   };
 }
 

@@ -28,7 +28,7 @@ using How = std::function<void(Parts&)>;
 [[nodiscard]] How preset_with_node_id(std::uint16_t index, std::uint8_t sub, std::uint64_t value);
 [[nodiscard]] How text(std::uint16_t index, std::string_view value);
 [[nodiscard]] How both(How first, How second);
-/// What the service sends leaves so much later, and not at all where the service does not work by then.
+/// What the service sends leaves so much later, and not at all where a command has ended the state for it.
 [[nodiscard]] How late(Service service, Duration by);
 /// The parameters of RPDOs and of TPDOs.
 [[nodiscard]] How choose_of_pdos(void (*change)(PdoChoices&));
