@@ -264,7 +264,7 @@ DefectTable emergency_defects() {
        Reading(answers_remote_frames)},
       {"emcy-lost-while-inhibited",
        "Errors that come during the inhibit time of 1015h are never reported",
-       {"EMCY-INH-01"},
+       {"EMCY-INH-01", "EMCY-SEQ-04"},
        lost_while_inhibited()},
       {"emcy-without-error",
        "EMCY 1000h follows the boot-up message although there is no error",

@@ -197,7 +197,7 @@ DefectTable emergency_history_defects() {
        remembers_more_than_it_shows()},
       {"1003-forgets-an-error-with-its-end",
        "The end of an error takes it out of the history",
-       {"OD-1003-15"},
+       {"OD-1003-15", "OD-1003-10"},
        forgets_what_has_ended},
       {"1003-records-error-reset",
        "The end of all errors is entered into 1003h as error 0000h",

@@ -261,7 +261,7 @@ DefectTable guarding_rows() {
   return {
       {"guard-toggle-begins-anew-in-stopped",
        "The toggle bit begins with 0 when the node goes from Operational to Stopped",
-       {"EC-NG-03"},
+       {"EC-NG-03", "EC-NG-02"},
        Change(toggle_begins_anew_in_stopped)},
       {"life-time-begins-with-requests-for-others",
        "A guard request for any node begins the life time anew",

@@ -370,7 +370,7 @@ DefectTable life_rows() {
        dumb_after_the_event},
       {"life-guarding-noticed-once",
        "A second life guarding event is not reported",
-       {"EC-NG-10"},
+       {"EC-NG-10", "EC-NG-07"},
        noticed_once},
       {"life-guarding-event-with-other-frames",
        "While a life time runs any other frame on the bus makes a life guarding event",

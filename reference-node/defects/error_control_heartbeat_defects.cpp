@@ -375,7 +375,7 @@ DefectTable error_control_heartbeat_defects() {
        Reading(tells_boot_up_twice)},
       {"hbc-node-id-not-checked",
        "Heartbeats of any node feed the monitoring",
-       {"EC-HBC-09"},
+       {"EC-HBC-09", "EC-HBC-03"},
        Reading(feeds_all)},
       {"error-behavior-default-wrong",
        "A heartbeat loss does not end Operational",

@@ -210,7 +210,7 @@ DefectTable error_control_monitoring_defects() {
        deaf_to_state(0x04)},
       {"hbc-deaf-to-operational",
        "The heartbeat of an operational node does not count",
-       {"EC-HBC-04"},
+       {"EC-HBC-04", "EC-HBC-03"},
        deaf_to_state(0x05)},
       {"hbc-deaf-to-pre-operational",
        "The heartbeat of a node in Pre-operational does not count",

@@ -451,7 +451,7 @@ DefectTable lss_sequence_defects() {
            [](const Frame& frame) { return static_cast<std::uint8_t>(frame.id - 0x700U); })},
       {"lss-nmt-keeps-node-id",
        "With another node-ID NMT commands to the former one are obeyed",
-       {"LSS-CN-04"},
+       {"LSS-CN-04", "LSS-ST-02"},
        keeps_listening_to_its_first_node_id(
            is_nmt_command, [](Frame& frame, std::uint8_t node_id) { frame.data[1] = node_id; },
            [](const Frame& frame) { return frame.data[1]; })},

@@ -350,7 +350,7 @@ DefectTable nmt_defects() {
        stays_off_behind_stopped()},
       {"heartbeat-initialising-behind-a-reset",
        "Behind a reset the heartbeat shows 00h until the next NMT command",
-       {"NMT-BOOT-06", "NMT-BOOT-10", "EC-HBP-06"},
+       {"NMT-BOOT-06", "NMT-BOOT-10", "EC-HBP-06", "EC-HBP-05"},
        initialises_until_commanded()},
       {"nmt-short-frame-accepted",
        "Commands without node-ID are obeyed",

@@ -158,7 +158,7 @@ DefectTable pdo_receive_traffic_defects() {
        })},
       {"rpdo-back-to-back-lost",
        "Of two RPDOs in frames without a pause the second one is lost",
-       {"PDO-RX-16"},
+       {"PDO-RX-16", "PDO-RX-01"},
        Change([](Parts& parts) {
          parts.pdos.rpdo.rules.processed.replace(
              [&parts, last = std::make_shared<std::optional<BusTime>>()](

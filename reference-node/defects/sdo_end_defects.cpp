@@ -224,7 +224,7 @@ DefectTable sdo_end_defects() {
        unasked_on_default_channel(SdoStep::time_out)},
       {"additional-sdo-acknowledges-pause-on-default-channel",
        "A sub-block of an additional channel that does not go on is acknowledged on the CAN-ID of the default one",
-       {"SDO-MUL-01"},
+       {"SDO-MUL-01", "SDO-GEN-04"},
        unasked_on_default_channel(SdoStep::block_download_ack)},
       {"save-ends-all-transfers",
        "The command to store ends the transfers of all channels",

@@ -302,7 +302,7 @@ DefectTable left_rows() {
        toggle_left(download_toggle, Way::stopped)},
       {"download-toggle-left-by-time-out",
        "A download begins with toggle bit 1 where the one before was given up behind an odd number of segments",
-       {"SDO-SDN-03"},
+       {"SDO-SDN-03", "SDO-SDN-01"},
        toggle_left(download_toggle, Way::timed_out)},
       {"download-data-left-by-abort",
        "What an aborted download had brought stands before the data of the next one",

@@ -161,7 +161,7 @@ DefectTable segment_rows() {
        })},
       {"full-last-segment-taken-for-none",
        "A last download segment of seven bytes is taken for an empty one",
-       {"SDO-SDN-11", "OD-ACC-04"},
+       {"SDO-SDN-11", "OD-ACC-04", "SDO-SDN-03"},
        misread_request([](Request& request) {
          if ((request[0] & 0xEFU) == 0x01U) set_segment_length(request, 0);
        })},

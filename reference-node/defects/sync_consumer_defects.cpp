@@ -269,7 +269,7 @@ DefectTable sync_consumer_defects() {
        obeys([](std::uint8_t counter, std::uint64_t) { return counter != 1; })},
       {"sync-ignored-above-127",
        "A SYNC whose counter is above 127 is ignored",
-       {"SYNC-CON-04"},
+       {"SYNC-CON-04", "SYNC-CON-06"},
        obeys([](std::uint8_t counter, std::uint64_t) { return counter < 128; })},
       {"sync-repeated-count-ignored",
        "A SYNC with the counter of the one before is ignored",
