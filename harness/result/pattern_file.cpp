@@ -28,6 +28,7 @@ Pattern pattern_of(const Json& json) {
     for (const auto& requirement : requirements)
       out.footprint.signs.emplace(requirement.get<std::string>(), deviation);
   }
+  if (json.contains("in")) json.at("in").get_to(out.footprint.cases);
   return out;
 }
 
@@ -36,10 +37,11 @@ Pattern pattern_of(const Json& json) {
 std::string pattern_file(std::span<const Pattern> patterns) {
   std::string lines;
   for (const auto& each : patterns) {
-    const Json line{{"name", each.name},
-                    {"summary", each.summary},
-                    {"lead", each.footprint.lead},
-                    {"shows", signs_json(each.footprint)}};
+    Json line{{"name", each.name},
+              {"summary", each.summary},
+              {"lead", each.footprint.lead},
+              {"shows", signs_json(each.footprint)}};
+    if (!each.footprint.cases.empty()) line["in"] = each.footprint.cases;
     lines += (lines.empty() ? "" : ",\n") + line.dump();
   }
   return "{\"" + std::string(version_key) + "\":" + std::to_string(version) + ",\n\"patterns\":[\n" + lines +

@@ -22,10 +22,15 @@ struct Footprint {
   /// Requirement and deviation of each finding (Finding::deviation, without values and objects), so that
   /// another device with the same mistake leaves the same ones.
   std::set<std::pair<std::string, std::string>> signs;
+  /// Cases that show it, without their instances; empty where there are more than `few_cases`, as then they
+  /// tell of nothing but the order of the run.
+  std::set<std::string> cases;
 
   friend bool operator==(const Footprint&, const Footprint&) = default;
 };
 [[nodiscard]] Footprint footprint_of(const Cause& cause);
+
+inline constexpr std::size_t few_cases = 12;
 
 /// A known mistake.
 struct Pattern {
@@ -42,19 +47,25 @@ inline constexpr double least_alike = 0.6;
 /// So many names say something; where more are equally alike, none does.
 inline constexpr std::size_t most_alike = 3;
 
+/// What a run could have shown.
+struct Judged {
+  std::set<std::string> requirements;
+  std::set<std::string> cases;  ///< without their instances
+};
+
 /// How alike they are, 0 to 1, as far as both could be seen: rules that are not among `judged` are left out
 /// of the pattern. 0 where they do not lead with the same requirement or are less alike than `least_alike`.
-[[nodiscard]] double likeness(const Footprint& seen, const Footprint& pattern,
-                              const std::set<std::string>& judged);
+[[nodiscard]] double likeness(const Footprint& seen, const Footprint& pattern, const Judged& judged);
 
 struct Alike {
   const Pattern* pattern = nullptr;
   double share = 0;  ///< as likeness() says
+  double cases = 0;  ///< share of the cases that show both, which puts those in order that are equally alike
 };
 /// The patterns that are most like it, the best first: at most `most_alike` of them, and none where more than
 /// these are equally alike. Points into `patterns`.
 [[nodiscard]] std::vector<Alike> alike_to(const Footprint& seen, std::span<const Pattern> patterns,
-                                          const std::set<std::string>& judged);
+                                          const Judged& judged);
 
 /// The same for each cause of the run, in their order.
 [[nodiscard]] std::vector<Likeness> likenesses_of(const RunResult& run, std::span<const Pattern> patterns);

@@ -138,8 +138,10 @@ TEST_CASE("the patterns in the tree are those of these defects and these suites"
 TEST_CASE("a defect is among the names at its cause, and a right device gets none") {
   // Faults that look the same are not told apart, and the finer they become the more of them do.
   constexpr double least_named = 0.88;
-  std::set<std::string> judged;
-  for (const auto& requirement : suites().catalogue.all()) judged.insert(requirement.id);
+  result::Judged judged;
+  for (const auto& requirement : suites().catalogue.all()) judged.requirements.insert(requirement.id);
+  for (const auto& pattern : patterns())
+    judged.cases.insert(pattern.footprint.cases.begin(), pattern.footprint.cases.end());
   std::size_t named = 0;
   std::string others;
   for (const auto& pattern : patterns()) {

@@ -29,7 +29,7 @@ RunResult broken(std::initializer_list<std::pair<const char*, const char*>> sign
 }
 
 Pattern pattern(const std::string& name, std::initializer_list<std::pair<std::string, std::string>> signs) {
-  return {name, "what " + name + " does wrong", {signs.begin()->first, {signs.begin(), signs.end()}}};
+  return {name, "what " + name + " does wrong", {signs.begin()->first, {signs.begin(), signs.end()}, {}}};
 }
 
 std::vector<std::string> names(const RunResult& run, const std::vector<Pattern>& patterns) {
@@ -80,6 +80,35 @@ TEST_CASE("three names say something, and four that are equally alike say nothin
   CHECK(names(run, patterns).empty());
 }
 
+TEST_CASE("of many that break the same rules alike those are named that the same cases show") {
+  auto run = broken({{"EC-HBP-02", "confirmed"}});
+  std::vector<Pattern> patterns;
+  for (const auto* name : {"a", "b", "c", "d"}) {
+    patterns.push_back(pattern(name, {{"EC-HBP-02", "confirmed"}}));
+    patterns.back().footprint.cases = {"other"};
+  }
+  patterns[2].footprint.cases = {"case", "not played"};  // what this run could not judge does not count
+  CHECK(names(run, patterns) == std::vector<std::string>{"c", "a", "b"});
+  run.cases.emplace_back().id = "not played";
+  run.cases.back().judgements.push_back({"EC-HBP-02", Verdict::pass, {}});
+  patterns[3].footprint.cases = {"case"};
+  CHECK(names(run, patterns) == std::vector<std::string>{"d", "c", "a"});
+}
+
+TEST_CASE("what shows in many cases is not told by their names") {
+  Cause cause;
+  CaseResult cases[few_cases + 1];
+  Finding finding;
+  cause.primary = {&cases[0], &finding};
+  for (std::size_t i = 0; i < few_cases; ++i) {
+    cases[i].id = "case " + std::to_string(i);
+    cause.findings.push_back({&cases[i], &finding});
+  }
+  CHECK(footprint_of(cause).cases.size() == few_cases);
+  cause.findings.push_back({&cases[few_cases], &finding});
+  CHECK(footprint_of(cause).cases.empty());
+}
+
 TEST_CASE("a run without a cause looks like no defect, and one without a pattern like none") {
   RunResult passed;
   passed.cases.emplace_back();
@@ -89,8 +118,9 @@ TEST_CASE("a run without a cause looks like no defect, and one without a pattern
 }
 
 TEST_CASE("a file of patterns is read as it was written, a line for each") {
-  const std::vector patterns{pattern("a", {{"R-1", "no answer"}, {"R-2", "no answer"}, {"R-1", "confirmed"}}),
-                             pattern("b \"quoted\"", {{"R-3", ""}})};
+  std::vector patterns{pattern("a", {{"R-1", "no answer"}, {"R-2", "no answer"}, {"R-1", "confirmed"}}),
+                       pattern("b \"quoted\"", {{"R-3", ""}})};
+  patterns[1].footprint.cases = {"suite/case"};
   const auto text = pattern_file(patterns);
   const auto back = read_patterns(text, "file");
   REQUIRE(back);
