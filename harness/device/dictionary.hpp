@@ -62,6 +62,7 @@ struct Entry {
   bool untouchable = false;       ///< the profile, or ObjFlags of the EDS, forbids every write to it
   bool not_to_be_read = false;    ///< ObjFlags of the EDS keep scans off it (CiA 306): it is left alone
   std::optional<Multiplexer> wired_input = {};  ///< an output: the entry that shows what is written to it
+  bool clock = false;      ///< shows the time that TIME sets: the profile says so, or it may well be
   bool described = false;  ///< what is claimed is the EDS's: Profile::described_places says where
 
   [[nodiscard]] Presence presence() const {

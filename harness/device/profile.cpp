@@ -12,7 +12,7 @@
 namespace conform::device {
 namespace {
 
-constexpr std::array<Feature, 38> feature_table{{
+constexpr std::array<Feature, 39> feature_table{{
     {"emcy", "sends emergency messages (1014h)"},
     {"emcy consumer", "consumes emergency messages of other nodes (1028h)"},
     {"error behaviour", "offers the error behaviour object 1029h"},
@@ -25,6 +25,7 @@ constexpr std::array<Feature, 38> feature_table{{
     {"sync counter", "knows SYNC messages with a counter (1019h)"},
     {"time producer", "can send TIME (1012h)"},
     {"time consumer", "acts on TIME (1012h)"},
+    {"clock", "shows the time that TIME sets in the entry that `clock` names"},
     {"rpdo", "receives PDOs"},
     {"tpdo", "transmits PDOs"},
     {"variable mapping", "the PDO mapping can be changed"},
@@ -52,6 +53,17 @@ constexpr std::array<Feature, 38> feature_table{{
     {"tpdo on change", "an event-driven TPDO is sent when an object in it changes"},
     {"only node on the bus", "no other node is there: commands to all nodes may be sent"},
 }};
+
+/// Without a word of the profile it may be any time that the device keeps itself: of an error, of a service.
+void note_clocks(Dictionary& dictionary, const std::optional<Multiplexer>& named) {
+  std::vector<Multiplexer> clocks;
+  for (const Entry& entry : dictionary.entries()) {
+    const bool may_be =
+        entry.type == canopen::DataType::time_of_day && entry.access == Access::ro && entry.may_change;
+    if (named ? entry.mux == *named : may_be) clocks.push_back(entry.mux);
+  }
+  for (const Multiplexer mux : clocks) dictionary.find(mux)->clock = true;
+}
 
 }  // namespace
 
@@ -150,6 +162,7 @@ Dictionary dictionary_of(const Profile& profile) {
   for (const Wire& wire : profile.wired) {
     if (Entry* output = dictionary.find(wire.output)) output->wired_input = wire.input;
   }
+  note_clocks(dictionary, profile.clock);
   for (const Multiplexer mux : profile.untouchable) {
     if (Entry* entry = dictionary.find(mux)) {
       entry->untouchable = true;

@@ -112,6 +112,7 @@ struct Profile {
   std::vector<ErrorTrigger> errors;
   std::optional<StoreFault> store_fault;
   std::vector<Wire> wired;
+  std::optional<Multiplexer> clock;       ///< the entry that shows the time that TIME sets
   std::map<Index, bool> placeholders;     ///< data types the description allows or forbids in an RPDO
   std::vector<Multiplexer> safe_objects;  ///< entries that tests may write
   std::vector<Multiplexer> untouchable;   ///< entries no test may write

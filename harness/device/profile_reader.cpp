@@ -139,6 +139,7 @@ class Reader {
     read_errors();
     read_store_fault();
     read_wires();
+    read_clock();
     read_placeholders();
     profile_.safe_objects = read_entries("safe_objects");
     profile_.untouchable = read_entries("untouchable");
@@ -361,6 +362,21 @@ class Reader {
     }
     if (!profile_.wired.empty() && !profile_.not_claimed.contains(on_change))
       profile_.claims.insert(std::string(on_change));
+  }
+
+  void read_clock() {
+    const Field given = fields_.optional("clock");
+    if (!given.present()) return;
+    const auto clock = given.multiplexer();
+    if (!clock) return;
+    const Entry* own = listed(*clock);
+    if (own != nullptr && own->size() && own->size() != canopen::size_bytes(canopen::DataType::time_of_day)) {
+      given.error(fmt::format("{} has not the six bytes of a TIME_OF_DAY", to_string(*clock)),
+                  "name the entry that shows the time that TIME sets");
+      return;
+    }
+    profile_.clock = clock;
+    profile_.claims.insert("clock");
   }
 
   /// What is not listed is forbidden.

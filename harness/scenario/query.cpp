@@ -102,6 +102,7 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
       {"fixed size", [](const Entry& e) { return e.size().has_value(); }},
       {"changing", [](const Entry& e) { return e.may_change; }},
       {"wired", [](const Entry& e) { return e.wired_input.has_value(); }},
+      {"clock", [](const Entry& e) { return e.clock; }},
       {"open access", [](const Entry& e) { return e.access_open; }},
   };
   const auto found = std::ranges::find(table, std::string_view(all), &Word::word);

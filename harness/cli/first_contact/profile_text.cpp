@@ -67,6 +67,7 @@ class Text {
     objects();
     application();
     wires();
+    clock();
     errors();
     power();
     return std::move(out_);
@@ -245,6 +246,26 @@ class Text {
     const auto& value = *entry.value;
     if (value.size() > most) return fmt::format("{} bytes", value.size());
     return value.empty() ? std::string("empty") : hex_bytes(value);
+  }
+
+  /// Where TIME is known, entries of its length may show it.
+  void clock() {
+    constexpr std::size_t time_of_day_size = 6;
+    const auto is_time = [](const auto& object) { return object.index == Index(0x1012); };
+    if (std::ranges::none_of(device_.objects, is_time)) return;
+    std::string shown = "2F10h:00";
+    for (const auto& object : device_.objects) {
+      if (!is_of_application(object)) continue;
+      const auto found = std::ranges::find_if(object.entries, [](const ScannedEntry& entry) {
+        return entry.value && entry.value->size() == time_of_day_size;
+      });
+      if (found == object.entries.end()) continue;
+      shown = to_string(found->mux);
+      break;
+    }
+    line("");
+    line("# The entry of type TIME_OF_DAY that shows the time that TIME sets (1012h).");
+    line("#clock: {}", shown);
   }
 
   /// Outputs with inputs of the same length, in their order: what a bench might have connected.

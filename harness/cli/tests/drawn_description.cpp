@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -23,6 +24,7 @@ struct Entry {
   std::string access;
   std::string value;
   bool mappable = false;
+  std::string lower{}, upper{};  ///< limits; empty: none
 };
 struct Object {
   std::string name;
@@ -38,8 +40,12 @@ class Draw {
  public:
   explicit Draw(std::uint64_t seed) : number_(seed), state_(seed) {}
 
-  std::string description() {
+  std::string description(bool rich) {
     communication();
+    if (rich) {
+      rare_communication();
+      application();
+    }
     std::vector<Signal> inputs, outputs;
     signals("Read input", 0x6000, u8, 8, "ro", 16, inputs);
     signals("Write output", 0x6200, u8, 8, chance(50) ? "rw" : "rww", 16, outputs);
@@ -106,6 +112,113 @@ class Draw {
     const bool fixed = chance(25);
     single(0x1017, "Producer heartbeat time", u16, fixed ? "const" : "rw",
            fixed ? "1000" : word({"0", "0", "500", "1000"}));
+  }
+
+  /// What many devices leave out.
+  void rare_communication() {
+    if (has_sync_ && chance(30)) single(0x1007, "Synchronous window length", u32, "rw", "0");
+    if (chance(40)) single(0x1002, "Manufacturer status register", u32, "ro", "0");
+    if (chance(40)) single(0x1009, "Manufacturer hardware version", text, word({"const", "ro"}), "A");
+    if (chance(40))
+      single(0x100A, "Manufacturer software version", text, word({"const", "ro"}), "1.02.003-x");
+    if (chance(40)) {
+      single(0x100C, "Guard time", u16, "rw", "0");
+      single(0x100D, "Life time factor", u8, "rw", "0");
+    }
+    const std::vector<Entry> commands(static_cast<std::size_t>(1 + below(4)), {"Group", u32, "rw", "1"});
+    if (chance(50)) list(0x1010, "Store parameters", array, word({"ro", "const"}), commands);
+    if (chance(50)) list(0x1011, "Restore default parameters", array, word({"ro", "const"}), commands);
+    if (chance(30)) single(0x1012, "COB-ID TIME", u32, word({"rw", "const"}), "0x80000100");
+    if (chance(20)) single(0x1013, "High resolution time stamp", u32, word({"rw", "ro"}), "0");
+    if (chance(20)) list(0x1020, "Verify configuration", array, "const", {2, {"Part of it", u32, "rw", "0"}});
+    if (chance(30)) {
+      const std::vector<Entry> producers(static_cast<std::size_t>(1 + below(5)),
+                                         {"COB-ID of a producer", u32, "rw", "0x80000000"});
+      list(0x1028, "Emergency consumer", array, "const", producers);
+    }
+    if (chance(40)) {
+      const std::vector<Entry> reactions(
+          static_cast<std::size_t>(1 + below(3)),
+          {"Reaction", u8, word({"rw", "rw", "const"}), word({"0", "1"}), false, "0", "2"});
+      list(0x1029, "Error behaviour", array, word({"ro", "const"}), reactions);
+    }
+    if (chance(50)) {
+      const auto access = word({"ro", "const"});
+      list(0x1200, "SDO server parameter", record, access,
+           {{"Client to server", u32, access, "$NODEID+0x600"},
+            {"Server to client", u32, access, "$NODEID+0x580"}});
+    }
+    for (int index = 0x1201; index < 0x1203 && chance(40); ++index) {
+      const auto access = word({"rw", "rw", "ro"});
+      list(index, "SDO server parameter", record, "const",
+           {{"Client to server", u32, access, "0x80000000"},
+            {"Server to client", u32, access, "0x80000000"},
+            {"Node-ID of the client", u8, "rw", "1"}});
+    }
+    if (chance(30))
+      list(0x1280, "SDO client parameter", record, "const",
+           {{"Client to server", u32, "rw", "0x80000000"},
+            {"Server to client", u32, "rw", "0x80000000"},
+            {"Node-ID of the server", u8, "rw", "1"}});
+  }
+
+  /// One entry of any type, with or without limits.
+  Entry any_entry() {
+    struct Type {
+      int number;
+      const char *value, *lower, *upper;
+    };
+    constexpr auto types = std::to_array<Type>({{1, "1", "", ""},
+                                                {2, "-5", "-100", "100"},
+                                                {3, "-300", "-1000", "1000"},
+                                                {4, "70000", "-100000", "100000"},
+                                                {5, "7", "1", "200"},
+                                                {6, "0x1234", "0x10", "0xF000"},
+                                                {7, "0x12345678", "0x100", "0xF0000000"},
+                                                {8, "0x3F800000", "", ""},
+                                                {9, "words", "", ""},
+                                                {10, "1A 2B 3C", "", ""},
+                                                {12, "", "", ""},
+                                                {15, "", "", ""},
+                                                {16, "-70000", "", ""},
+                                                {17, "0x3FF0000000000000", "", ""},
+                                                {21, "-5", "", ""},
+                                                {22, "0x123456", "", ""},
+                                                {24, "0x1234567890", "", ""},
+                                                {25, "0x123456789012", "", ""},
+                                                {26, "0x12345678901234", "", ""},
+                                                {27, "0x1234567890123456", "1", "0x7000000000000000"}});
+    const auto& type = types[static_cast<std::size_t>(below(static_cast<int>(types.size())))];
+    Entry out{"Any", type.number, word({"rw", "rw", "ro", "const", "wo"}), type.value};
+    if (out.access == "const" && out.value.empty()) out.access = "ro";
+    if (chance(40)) {
+      out.lower = type.lower;
+      out.upper = type.upper;
+    }
+    return out;
+  }
+
+  void application() {
+    for (int i = below(12); i > 0; --i) {
+      auto entry = any_entry();
+      objects_[0x2000 + below(0x1000)] = {entry.name, variable, {{0, entry}}};
+    }
+    for (int i = below(4); i > 0; --i) {
+      const std::vector<Entry> elements(static_cast<std::size_t>(1 + below(chance(20) ? 254 : 6)),
+                                        any_entry());
+      list(0x3000 + below(0x1000), "Alike", array, word({"ro", "const"}), elements);
+    }
+    for (int i = below(5); i > 0; --i) {
+      const int index = 0x4000 + below(0x1000);
+      std::vector<Entry> members;
+      for (int count = 1 + below(8); count > 0; --count) members.push_back(any_entry());
+      list(index, "Of several kinds", record, word({"ro", "const"}), members);
+      auto& subs = objects_[index].subs;
+      // Some sub-indices are left out, never the last one.
+      for (int sub = 1; sub < static_cast<int>(members.size()); ++sub) {
+        if (chance(20)) subs.erase(sub);
+      }
+    }
   }
 
   void signals(std::string name, int index, int type, int bits, const char* access, int most,
@@ -176,8 +289,11 @@ class Draw {
     out += "\n";
   }
   static void add_entry(std::string& out, const Entry& entry) {
-    out += fmt::format("ObjectType=0x7\nDataType=0x{:04X}\nAccessType={}\nDefaultValue={}\nPDOMapping={}\n\n",
+    out += fmt::format("ObjectType=0x7\nDataType=0x{:04X}\nAccessType={}\nDefaultValue={}\nPDOMapping={}\n",
                        entry.type, entry.access, entry.value, entry.mappable ? 1 : 0);
+    if (!entry.lower.empty()) out += "LowLimit=" + entry.lower + "\n";
+    if (!entry.upper.empty()) out += "HighLimit=" + entry.upper + "\n";
+    out += "\n";
   }
 
   std::string written(int rpdos, int tpdos) {
@@ -193,12 +309,15 @@ class Draw {
                        any_of({8, 8, 16}), rpdos, tpdos);
     for (int type = 2; type <= 7; ++type) out += fmt::format("Dummy{:04}={}\n", type, below(2));
     out += "\n";
-    std::vector<int> mandatory, optional;
-    for (const auto& [index, object] : objects_)
-      (index == 0x1000 || index == 0x1001 || index == 0x1018 ? mandatory : optional).push_back(index);
+    std::vector<int> mandatory, optional, of_the_manufacturer;
+    for (const auto& [index, object] : objects_) {
+      const bool is_mandatory = index == 0x1000 || index == 0x1001 || index == 0x1018;
+      const bool is_own = index >= 0x2000 && index < 0x6000;
+      (is_mandatory ? mandatory : is_own ? of_the_manufacturer : optional).push_back(index);
+    }
     add_list(out, "MandatoryObjects", mandatory);
     add_list(out, "OptionalObjects", optional);
-    add_list(out, "ManufacturerObjects", {});
+    add_list(out, "ManufacturerObjects", of_the_manufacturer);
     for (const auto& [index, object] : objects_) {
       out += fmt::format("[{:04X}]\nParameterName={}\n", index, object.name);
       if (object.code == variable) {
@@ -222,6 +341,7 @@ class Draw {
 
 }  // namespace
 
-std::string draw_description(std::uint64_t seed) { return Draw(seed).description(); }
+std::string draw_description(std::uint64_t seed) { return Draw(seed).description(false); }
+std::string draw_rich_description(std::uint64_t seed) { return Draw(seed).description(true); }
 
 }  // namespace conform::cli

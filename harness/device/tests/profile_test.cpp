@@ -192,6 +192,30 @@ wired: [{output: 6200h:00, input: 6000h:00}]
                  "6200h:00 is wired twice"));
 }
 
+TEST_CASE("The clock is the entry that is named, or else any time that the device keeps itself") {
+  const std::string times = R"(objects:
+  - {object: 2000h:00, name: Time, type: TIME_OF_DAY, access: ro, may_change: true}
+  - {object: 2001h:00, name: Last service, type: TIME_OF_DAY, access: ro, may_change: true}
+  - {object: 2002h:00, name: Produced, type: TIME_OF_DAY, access: const}
+  - {object: 2003h:00, name: Number, type: UNSIGNED16, access: ro, may_change: true}
+)";
+  const auto clocks = [](const Profile& profile) {
+    std::vector<Multiplexer> out;
+    const Dictionary dictionary = dictionary_of(profile);
+    for (const Entry& entry : dictionary.entries()) {
+      if (entry.clock) out.push_back(entry.mux);
+    }
+    return out;
+  };
+  const Profile unknown = good(head + times);
+  CHECK_FALSE(unknown.claimed("clock"));
+  CHECK(clocks(unknown) == std::vector{mux(0x2000), mux(0x2001)});
+  const Profile named = good(head + times + "clock: 2001h:00\n");
+  CHECK(named.claimed("clock"));
+  CHECK(clocks(named) == std::vector{mux(0x2001)});
+  CHECK(contains(load(head + times + "clock: 2003h:00\n").messages, "2003h:00 has not the six bytes"));
+}
+
 TEST_CASE("Of the data types up to UNSIGNED32 those that are not listed as placeholders are forbidden") {
   const Profile profile = good(head + "placeholders: [0005h, 0007h]\n");
   CHECK(profile.placeholders.at(Index(0x0005)));
@@ -316,7 +340,7 @@ TEST_CASE("The schema for editors knows every feature and key") {
         "process_time",     "server_timeout", "block_timeout", "lss_timeout",  "claims",
         "not_claimed",      "objects",        "errors",        "safe_objects", "untouchable",
         "factory_defaults", "wired",          "placeholders",  "identity",     "known_deviations",
-        "store_fault",      "device_info"}) {
+        "store_fault",      "device_info",    "clock"}) {
     INFO(key);
     CHECK(contains(schema, "\"" + std::string(key) + "\""));
   }
