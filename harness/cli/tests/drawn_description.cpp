@@ -15,7 +15,7 @@
 namespace conform::cli {
 namespace {
 
-constexpr int u8 = 5, i16 = 3, u16 = 6, u32 = 7, text = 9;
+constexpr int boolean = 1, u8 = 5, i16 = 3, u16 = 6, u32 = 7, text = 9;
 constexpr int variable = 7, array = 8, record = 9;
 
 struct Entry {
@@ -54,6 +54,14 @@ class Draw {
     if (chance(60)) signals("Analogue output", 0x6411, i16, 16, "rww", 12, outputs);
     if (chance(40)) signals("Counter", 0x6402, u32, 32, "ro", 4, inputs);
     if (chance(40)) signals("Set point", 0x6412, u32, 32, "rww", 4, outputs);
+    if (rich && chance(50)) {
+      signals("Contact", 0x6030, boolean, 1, "ro", 20, inputs);
+      signals("Relay", 0x6230, boolean, 1, "rw", 20, outputs);
+      granularity_ = 1;
+    }
+    // In an RPDO some bits may be nobody's.
+    if (rich && chance(40)) outputs.push_back({u8, 0, 8});
+    rich_ = rich;
     constexpr int all = 512;
     const int rpdos = pdos(false, outputs, any_of({0, 1, 2, 3, 4, 6, 8, 12}));
     const int tpdos = pdos(true, inputs, number_ % 20 == 19 ? all : any_of({0, 1, 2, 3, 4, 6, 8, 12}));
@@ -114,8 +122,20 @@ class Draw {
            fixed ? "1000" : word({"0", "0", "500", "1000"}));
   }
 
-  /// What many devices leave out.
+  /// What many devices leave out, or have from the start.
   void rare_communication() {
+    if (has_sync_ && chance(15)) {
+      single(0x1005, "COB-ID SYNC", u32, word({"rw", "const"}), "0x40000080");
+      single(0x1006, "Communication cycle period", u32, "rw", word({"50000", "200000"}));
+    }
+    if (chance(10)) single(0x1014, "COB-ID EMCY", u32, word({"rw", "const"}), "$NODEID+0x80000080");
+    if (chance(20))
+      single(0x1017, "Producer heartbeat time", u16, word({"rw", "const"}), word({"20", "100", "5000"}));
+    if (chance(20)) {
+      const auto monitored = fmt::format("{:#x}", (100 + below(20)) << 16 | (200 + below(2000)));
+      list(0x1016, "Consumer heartbeat time", array, "const",
+           {{"Consumer heartbeat time", u32, "rw", monitored}, {"Consumer heartbeat time", u32, "rw", "0"}});
+    }
     if (has_sync_ && chance(30)) single(0x1007, "Synchronous window length", u32, "rw", "0");
     if (chance(40)) single(0x1002, "Manufacturer status register", u32, "ro", "0");
     if (chance(40)) single(0x1009, "Manufacturer hardware version", text, word({"const", "ro"}), "A");
@@ -259,6 +279,11 @@ class Draw {
       std::vector<Entry> parameters{{"COB-ID", u32, access_of_cob_id, cob_id(tpdo, number)},
                                     {"Transmission type", u8, access_of_type, std::to_string(type)}};
       list((tpdo ? 0x1800 : 0x1400) + number - 1, "PDO communication parameter", record, "const", parameters);
+      if (!tpdo && rich_ && chance(50)) {
+        auto& subs = objects_[0x1400 + number - 1].subs;
+        subs[5] = {"Event timer", u16, word({"rw", "const"}), "0"};
+        subs[0].value = "5";
+      }
       if (tpdo && chance(80)) {
         auto& subs = objects_[0x1800 + number - 1].subs;
         subs[3] = {"Inhibit time", u16, "rw", word({"0", "0", "100", "50"})};
@@ -306,8 +331,9 @@ class Draw {
         "SimpleBootUpMaster=0\nSimpleBootUpSlave=1\nDynamicChannelsSupported=0\nGroupMessaging=0\n"
         "LSS_Supported=0\n";
     out += fmt::format("Granularity={}\nNrOfRXPDO={}\nNrOfTXPDO={}\n\n[DummyUsage]\nDummy0001=0\n",
-                       any_of({8, 8, 16}), rpdos, tpdos);
-    for (int type = 2; type <= 7; ++type) out += fmt::format("Dummy{:04}={}\n", type, below(2));
+                       granularity_ == 1 ? 1 : any_of({8, 8, 16}), rpdos, tpdos);
+    for (int type = 2; type <= 7; ++type)
+      out += fmt::format("Dummy{:04}={}\n", type, rich_ && type == u8 ? 1 : below(2));
     out += "\n";
     std::vector<int> mandatory, optional, of_the_manufacturer;
     for (const auto& [index, object] : objects_) {
@@ -335,7 +361,8 @@ class Draw {
 
   std::uint64_t number_, state_;
   std::map<int, Object> objects_;
-  bool has_sync_ = false;
+  bool has_sync_ = false, rich_ = false;
+  int granularity_ = 8;
   int taken_ = 0;  ///< CAN-IDs of node-IDs that nobody has
 };
 
