@@ -353,7 +353,7 @@ VariantTable objects_variants() {
        // What was written in Operational would be stored, and nothing puts it back.
        .excludes = {"1010-autonomous-at-once", "1010-autonomous", "1010-autonomous-01-only",
                     "1010-autonomous-03-only"},
-       .warns = {"OD-GEN-17", "EDS-VSD-04"}},
+       .warns = {"OD-GEN-17", "EDS-VSD-04", "SDO-DNL-21"}},
       {"1027-no-modules", "a modular device without modules", "OD-1027-01: 00h", no_modules, "1027"},
   };
 }
