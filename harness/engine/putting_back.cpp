@@ -157,6 +157,7 @@ void PuttingBack::finish() {
   {
     const StopHeld held(run_.recorder);
     leave_in_pre_operational();
+    look_for_unknown_tpdos();
     // What is left shows in the comparison that follows.
     if (run_.may(scenario::Risk::config)) (void)what_returned();
   }
@@ -175,6 +176,20 @@ void PuttingBack::finish() {
       run_.note(to_string(object) + " was " + hex_bytes(before) + " before the run and is " +
                 hex_bytes(found->data));
     }
+  }
+}
+
+/// Frames of 29 bits may be TPDOs that no description tells of, and that no case has looked at: their COB-IDs
+/// explain them.
+void PuttingBack::look_for_unknown_tpdos() {
+  constexpr std::uint16_t first = 0x1800, last = 0x19FF;
+  const auto& follower = run_.live.watch().follower();
+  Deaf deaf;
+  for (std::uint16_t index = first; index <= last; ++index) {
+    run_.live.follow(run_.recorder.capture().frames());
+    if (!follower.has_unknown_extended()) return;
+    const auto found = run_.session.peek({Index(index), SubIndex(1)});
+    if (!found || deaf.after(*found)) return;
   }
 }
 

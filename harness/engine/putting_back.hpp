@@ -43,6 +43,7 @@ class PuttingBack {
   [[nodiscard]] std::vector<std::string> what_returned(const std::set<SubIndex>& restored = {});
   void note_left(const std::vector<std::string>& left);
   void leave_in_pre_operational();
+  void look_for_unknown_tpdos();
 
   RunContext& run_;
   std::map<Multiplexer, Bytes> snapshot_;

@@ -111,7 +111,11 @@ bool Follower::of_more_channels(Key key, bool from_device) {
 /// A node that is not the device shows itself by what only another one sends: also by asking the device.
 void Follower::look_at_sender() {
   const auto& frame = now_.frame();
-  if (frame.extended) return;
+  if (frame.extended) {
+    constexpr std::size_t most = 64;
+    if (!frame.remote && strangers_.size() < most) strangers_.insert(now_.key());
+    return;
+  }
   if (frame.remote) {
     others_ = others_ || (frame.id > 0x180 && may_be_own(frame.id));
     return;
@@ -147,6 +151,10 @@ bool Follower::may_be_own(Entries::Key can_id) const {
     case 0x700: return true;
     default: return false;
   }
+}
+
+bool Follower::has_unknown_extended() const {
+  return std::ranges::any_of(strangers_, [this](Entries::Key key) { return !may_be_own(key); });
 }
 
 bool Follower::others_heard() const {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "can/capture.hpp"
@@ -85,6 +86,8 @@ class Follower {
   [[nodiscard]] const Facts& facts() const { return facts_; }
   /// So far. Where the trace does not tell the senders, everybody may be there.
   [[nodiscard]] bool others_heard() const;
+  /// Data frames of 29 bits came on a CAN-ID that no COB-ID known so far holds.
+  [[nodiscard]] bool has_unknown_extended() const;
   /// The device may send with this CAN-ID: by the pre-defined connection set, for whatever node-ID it was
   /// given, or by a COB-ID that it ever held.
   [[nodiscard]] bool may_be_own(Entries::Key can_id) const;
@@ -117,9 +120,10 @@ class Follower {
   Observation now_;
   NmtState nmt_;
   Entries entries_;
-  std::bitset<0x800> heard_ids_;  ///< received on CAN-IDs with which some node sends
-  std::bitset<0x80> names_;       ///< node-IDs of the device: its own, and those that LSS gave it
-  bool others_ = false;           ///< a frame that cannot be the device's
+  std::set<Entries::Key> strangers_;  ///< CAN-IDs of 29 bits on which data frames were received
+  std::bitset<0x800> heard_ids_;      ///< received on CAN-IDs with which some node sends
+  std::bitset<0x80> names_;           ///< node-IDs of the device: its own, and those that LSS gave it
+  bool others_ = false;               ///< a frame that cannot be the device's
   Server default_;
   std::vector<Server> more_;  ///< configured by downloads seen on the wire, by number from 1201h on
   std::optional<BusTime> guard_request_, heard_;

@@ -265,11 +265,11 @@ Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool 
       }
       if (needs_data && value->kind != Actual::Kind::confirmed) return value;
     }
-    // A BOOLEAN is a byte for SDO and a bit in a PDO.
     if (own && length > *own) ++out.longer;
+    // A BOOLEAN is a byte for SDO and a bit in a PDO, and so may be what no description tells the type of.
     const auto* known = session.dictionary().find(object);
-    const bool boolean = known != nullptr && known->type == canopen::DataType::boolean;
-    if (own && length < *own && !boolean) ++out.shorter;
+    const bool in_bits = known == nullptr || known->type == canopen::DataType::boolean;
+    if (own && (in_bits ? length + 7 < *own : length < *own)) ++out.shorter;
     for (std::uint64_t bit = 0; bit < length; ++bit, ++out.bits) {
       if (out.bits % 8 == 0) out.data.push_back(0);
       const auto byte = static_cast<std::size_t>(bit / 8);
