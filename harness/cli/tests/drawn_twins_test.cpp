@@ -142,4 +142,6 @@ TEST_CASE("twins of descriptions that were failed once pass") {
     INFO("description " << seed);
     CHECK(complaints(cli::draw_description(seed), seed) == "");
   }
+  // 512 TPDOs of which nobody knew were held against the first one.
+  CHECK(complaints(cli::draw_rich_description(259), 259, Twin::unknown) == "");
 }
