@@ -184,8 +184,10 @@ void PuttingBack::finish() {
 void PuttingBack::look_for_unknown_tpdos() {
   constexpr std::uint16_t first = 0x1800, last = 0x19FF;
   const auto& follower = run_.live.watch().follower();
+  // They may as well be another node's.
+  const auto until = run_.recorder.now() + std::chrono::seconds(10);
   Deaf deaf;
-  for (std::uint16_t index = first; index <= last; ++index) {
+  for (std::uint16_t index = first; index <= last && run_.recorder.now() < until; ++index) {
     run_.live.follow(run_.recorder.capture().frames());
     if (!follower.has_unknown_extended()) return;
     const auto found = run_.session.peek({Index(index), SubIndex(1)});
