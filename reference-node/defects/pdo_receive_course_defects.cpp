@@ -20,22 +20,10 @@ namespace {
 
 constexpr std::uint16_t too_late = 0x8250;
 
-constexpr std::uint16_t communication(std::uint16_t number) {
-  return static_cast<std::uint16_t>(0x1400 + number);
-}
-
-/// The number of the valid RPDO that has this CAN-ID.
-std::optional<std::uint16_t> number_of(const ObjectDictionary& od, std::uint32_t can_id) {
-  for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    if ((od.number(communication(number), 1, 0x8000'0000U) & 0x8000'07FFU) == can_id) return number;
-  }
-  return std::nullopt;
-}
-
 /// A remote frame is taken for a data frame that has no data.
 void takes_remote_frames(Parts& parts) {
   misreads([](Parts& node, Frame& frame) {
-    if (!frame.remote || frame.extended || !number_of(node.device.dictionary, frame.id)) return;
+    if (!frame.remote || frame.extended || !rpdo_with(node.device.dictionary, frame.id)) return;
     frame.remote = false;
     frame.dlc = 0;
   })(parts);
@@ -65,9 +53,10 @@ void drops_the_next(Parts& parts) {
 Change zero_leaves_the_deadline() {
   return [](Parts& parts) {
     for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-      after_writing(communication(number), 5, [number](Parts& node, const std::function<void()>& former) {
-        if (node.device.dictionary.number(communication(number), 5) != 0) former();
-      })(parts);
+      after_writing(rpdo_communication(number), 5,
+                    [number](Parts& node, const std::function<void()>& former) {
+                      if (node.device.dictionary.number(rpdo_communication(number), 5) != 0) former();
+                    })(parts);
     }
   };
 }
@@ -76,11 +65,11 @@ Change zero_leaves_the_deadline() {
 void held_off_by_another(Parts& parts) {
   const auto last = std::make_shared<BusTime>();
   misreads([last](Parts& node, Frame& frame) {
-    if (!frame.remote && number_of(node.device.dictionary, frame.id)) *last = node.device.now;
+    if (!frame.remote && rpdo_with(node.device.dictionary, frame.id)) *last = node.device.now;
   })(parts);
   parts.device.errors.raise.replace(
       [&parts, last](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
-        const auto index = communication(static_cast<std::uint16_t>(cause.instance - 1));
+        const auto index = rpdo_communication(static_cast<std::uint16_t>(cause.instance - 1));
         const auto limit = std::chrono::milliseconds(parts.device.dictionary.number(index, 5));
         // One that came at the same time does not hold it off.
         constexpr auto at_once = std::chrono::milliseconds(10);
@@ -94,7 +83,7 @@ void held_off_by_another(Parts& parts) {
 void swaps_the_second_long(Parts& parts) {
   misreads([](Parts& node, Frame& frame) {
     const ObjectDictionary& od = node.device.dictionary;
-    const auto number = frame.remote ? std::nullopt : number_of(od, frame.id);
+    const auto number = frame.remote ? std::nullopt : rpdo_with(od, frame.id);
     if (!number || frame.size() != 8) return;
     const auto mapping = static_cast<std::uint16_t>(0x1600 + *number);
     const auto count = static_cast<std::uint8_t>(od.number(mapping, 0));
@@ -109,8 +98,8 @@ void compares_all_but_two_bits(Parts& parts) {
   misreads([](Parts& node, Frame& frame) {
     constexpr std::uint32_t left_out = 3;
     const ObjectDictionary& od = node.device.dictionary;
-    if (frame.extended || frame.remote || number_of(od, frame.id)) return;
-    const auto cob_id = static_cast<std::uint32_t>(od.number(communication(third_pdo), 1, 0x8000'0000U));
+    if (frame.extended || frame.remote || rpdo_with(od, frame.id)) return;
+    const auto cob_id = static_cast<std::uint32_t>(od.number(rpdo_communication(third_pdo), 1, 0x8000'0000U));
     if ((cob_id & 0x8000'0000U) == 0 && ((cob_id ^ frame.id) & 0x7FFU & ~left_out) == 0)
       frame.id = cob_id & 0x7FFU;
   })(parts);
@@ -135,7 +124,7 @@ void waits_through_stopped(Parts& parts) {
   });
   misreads([memory](Parts& node, Frame& frame) {
     constexpr std::uint32_t sync_can_id = 0x080;
-    if (number_of(node.device.dictionary, frame.id)) memory->last = frame;
+    if (rpdo_with(node.device.dictionary, frame.id)) memory->last = frame;
     if (frame.id != sync_can_id || node.device.state != NmtState::operational || !memory->stopped) return;
     memory->stopped = false;
     if (const auto waiting = std::exchange(memory->waiting, std::nullopt)) node.pdos.on_frame(*waiting);

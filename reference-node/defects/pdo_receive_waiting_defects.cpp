@@ -20,21 +20,14 @@ namespace {
 
 constexpr std::uint16_t too_short = 0x8210;
 
-constexpr std::uint16_t communication(std::uint16_t number) {
-  return static_cast<std::uint16_t>(0x1400 + number);
-}
-
 /// The number of the valid RPDO that the frame is one of.
 std::optional<std::uint16_t> number_of(const ObjectDictionary& od, const Frame& frame) {
   if (frame.remote || frame.extended) return std::nullopt;
-  for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    if ((od.number(communication(number), 1, 0x8000'0000U) & 0x8000'07FFU) == frame.id) return number;
-  }
-  return std::nullopt;
+  return rpdo_with(od, frame.id);
 }
 
 bool waits_for_sync(const ObjectDictionary& od, std::uint16_t number) {
-  return is_synchronous(od.number(communication(number), 2));
+  return is_synchronous(od.number(rpdo_communication(number), 2));
 }
 
 /// Of more than one frame before a SYNC the first two have a place to wait in.
@@ -134,7 +127,7 @@ Change unnoticed_short_of(bool (*type)(std::uint64_t)) {
         [&parts, type](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
           const auto number = static_cast<std::uint16_t>(cause.instance - 1);
           const bool lost = cause.source == ErrorSource::rpdo && cause.code == too_short &&
-                            type(parts.device.dictionary.number(communication(number), 2));
+                            type(parts.device.dictionary.number(rpdo_communication(number), 2));
           if (!lost) former(cause, detail);
         });
   };
@@ -146,7 +139,7 @@ void validated_with_the_next_start(Parts& parts) {
   ahead_of_state_change([valid](Parts& node) {
     valid->clear();
     for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-      if ((node.device.dictionary.number(communication(number), 1, 0x8000'0000U) & 0x8000'0000U) == 0)
+      if ((node.device.dictionary.number(rpdo_communication(number), 1, 0x8000'0000U) & 0x8000'0000U) == 0)
         valid->insert(number);
     }
   })(parts);

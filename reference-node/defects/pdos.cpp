@@ -73,6 +73,13 @@ void change_values(const ObjectDictionary& od, std::uint16_t communication, Fram
 
 }  // namespace
 
+std::optional<std::uint16_t> rpdo_with(const ObjectDictionary& od, std::uint32_t can_id) {
+  for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+    if ((od.number(rpdo_communication(number), 1, 0x8000'0000U) & 0x8000'07FFU) == can_id) return number;
+  }
+  return std::nullopt;
+}
+
 std::size_t bits_held(const ObjectDictionary& od, std::uint16_t mapping, std::uint64_t count) {
   std::size_t bits = 0;
   for (std::uint8_t sub = 1; sub <= count && sub <= most_mapped; ++sub)

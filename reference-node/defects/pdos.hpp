@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "defects/hooks.hpp"
 
@@ -16,6 +17,13 @@ using PdoRulesPart = PdoRules& (*)(Parts&);
 inline constexpr std::uint16_t second_pdo = 1;
 inline constexpr std::uint16_t third_pdo = 2;
 inline constexpr std::uint16_t last_pdo = 3;
+
+/// Index of the communication parameters of an RPDO.
+constexpr std::uint16_t rpdo_communication(std::uint16_t number) {
+  return static_cast<std::uint16_t>(0x1400 + number);
+}
+/// The number of the valid RPDO that has this CAN-ID of 11 bits.
+[[nodiscard]] std::optional<std::uint16_t> rpdo_with(const ObjectDictionary& od, std::uint32_t can_id);
 
 /// Sub-index 00h of a mapping may hold more (FEh, FFh), which is no number of objects.
 inline constexpr std::uint8_t most_mapped = 0x40;

@@ -77,16 +77,21 @@ std::string Combination::text() const {
   return out;
 }
 
-namespace {
-
-/// A run against such a server takes hours on the bus: each alone is in the tests, and in combinations it is
-/// rare and without the millions of frames that others would send meanwhile.
-bool takes_hours(const refnode::Variant& row) {
-  return row.id == "sdo-turnaround-250ms" || row.id == "sdo-turnaround-400ms" ||
-         row.id == "sdo-turnaround-1200ms";
+bool takes_hours(std::string_view variant) {
+  return variant == "sdo-turnaround-250ms" || variant == "sdo-turnaround-400ms" ||
+         variant == "sdo-turnaround-1200ms";
 }
 
-}  // namespace
+std::set<std::string> may_warn_with(const std::vector<std::string>& variants,
+                                    const scenario::Catalogue& catalogue) {
+  std::set<std::string> out;
+  for (const std::string& id : variants) {
+    for (const auto requirement : refnode::find_variant(id)->warns) {
+      if (const auto canonical = catalogue.canonical(requirement)) out.insert(std::string(*canonical));
+    }
+  }
+  return out;
+}
 
 Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
   std::mt19937_64 random(seed * 0x9E3779B97F4A7C15ULL + number);
@@ -108,7 +113,7 @@ Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
   for (std::size_t i = rows.size(); i > 1; --i) std::swap(rows[i - 1], rows[below(random, i)]);
   std::vector<const refnode::Variant*> chosen;
   for (const auto* row : rows) {
-    if (below(random, 100) >= percent || (takes_hours(*row) && below(random, 8) != 0)) continue;
+    if (below(random, 100) >= percent || (takes_hours(row->id) && below(random, 8) != 0)) continue;
     if (std::ranges::all_of(chosen, [row](const auto* other) { return refnode::compatible(*row, *other); }))
       chosen.push_back(row);
   }
@@ -116,7 +121,7 @@ Combination draw_combination(std::uint64_t seed, std::uint64_t number) {
   std::ranges::sort(chosen, [](const auto* one, const auto* other) { return one < other; });
   for (const auto* row : chosen) {
     out.variants.emplace_back(row->id);
-    if (takes_hours(*row)) out.neighbours = false;
+    if (takes_hours(row->id)) out.neighbours = false;
   }
   out.shuffled = below(random, 4) == 0;
   out.switched = below(random, 2) == 0;
@@ -155,14 +160,7 @@ Result<std::vector<Complaint>> judge_combination(const Combination& combination,
   const auto run = engine::run(bus.transport(), profile, suites.suite, suites.catalogue, options, capture);
   if (frames != nullptr) *frames = capture;
 
-  std::set<std::string> may_warn;
-  for (const std::string& id : combination.variants) {
-    for (const auto requirement : refnode::find_variant(id)->warns) {
-      if (const auto canonical = suites.catalogue.canonical(requirement))
-        may_warn.insert(std::string(*canonical));
-    }
-  }
-  return complaints_of(run, may_warn);
+  return complaints_of(run, may_warn_with(combination.variants, suites.catalogue));
 }
 
 Result<std::vector<VariantVerdict>> variants_alone(const LoadedSuites& suites,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -31,6 +32,14 @@ struct Combination {
   /// As options of the program legal_variants.
   [[nodiscard]] std::string text() const;
 };
+
+/// A run against such a server takes hours on the bus: each alone is in the tests, and in combinations it is
+/// rare and without the millions of frames that others would send meanwhile.
+[[nodiscard]] bool takes_hours(std::string_view variant);
+
+/// Requirements that may warn with these variants: the catalogue says so.
+[[nodiscard]] std::set<std::string> may_warn_with(const std::vector<std::string>& variants,
+                                                  const scenario::Catalogue& catalogue);
 
 /// The combination number `number` of the series that `seed` begins.
 [[nodiscard]] Combination draw_combination(std::uint64_t seed, std::uint64_t number);

@@ -10,8 +10,7 @@ namespace conform::cli {
 
 /// The text of an EDS, the same for the same seed. Every twentieth (19, 39, ...) has 512 TPDOs.
 [[nodiscard]] std::string draw_description(std::uint64_t seed);
-/// With communication objects that many devices leave out, COB-IDs of 29 bits, and entries of the
-/// manufacturer of any type.
+/// With communication objects that many devices leave out, and entries of the manufacturer of any type.
 [[nodiscard]] std::string draw_rich_description(std::uint64_t seed);
 
 }  // namespace conform::cli

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -52,10 +51,8 @@ std::vector<std::string> variants_of_behaviour(std::uint64_t seed, const refnode
   std::vector<std::string> out;
   for (const auto& id : cli::draw_combination(seed, seed).variants) {
     const auto* row = refnode::find_variant(id);
-    // A history of another depth has other entries than the description; what takes more than 100 ms for each
-    // answer takes hours.
-    if (!row->lacks.empty() || !row->gains.empty() || id.starts_with("1003-depth") ||
-        id == "sdo-turnaround-250ms" || id == "sdo-turnaround-400ms" || id == "sdo-turnaround-1200ms")
+    // A history of another depth has other entries than the description.
+    if (!row->lacks.empty() || !row->gains.empty() || id.starts_with("1003-depth") || cli::takes_hours(id))
       continue;
     auto changed = twin;
     changed.variants = {id};
@@ -85,14 +82,8 @@ std::string complaints(const std::string& text, std::uint64_t seed, Twin twin = 
     profile.writes_described = true;
   }
   cli::NodeSwitches switches{.description = held};
-  std::set<std::string> may_warn;
-  if (twin == Twin::varied) {
+  if (twin == Twin::varied)
     switches.variants = variants_of_behaviour(seed, {.node_id = profile.node.value(), .description = held});
-    for (const auto& id : switches.variants) {
-      for (const auto requirement : refnode::find_variant(id)->warns)
-        may_warn.insert(std::string(*shipped::suites().catalogue.canonical(requirement)));
-    }
-  }
   const auto done =
       cli::simulate(switches, profile, shipped::suites().suite, shipped::suites().catalogue, {}, seed);
   if (!done) return done.error().text();
@@ -100,6 +91,7 @@ std::string complaints(const std::string& text, std::uint64_t seed, Twin twin = 
   // Not for want of anything to judge.
   if (const auto passed = done->result.counts().pass; passed < (twin == Twin::unknown ? 200 : 300))
     out += fmt::format("only {} passed\n", passed);
+  const auto may_warn = cli::may_warn_with(switches.variants, shipped::suites().catalogue);
   for (const auto& each : cli::complaints_of(done->result, may_warn)) out += each.what + "\n" + each.details;
   if (!out.empty() && !switches.variants.empty()) out += "variants " + join(switches.variants, ",") + "\n";
   return out;

@@ -95,13 +95,9 @@ std::string complaints(const std::vector<std::string>& variants, steps::Tier all
   can::Capture capture;
   const auto run = engine::run(bus.transport(), loaded.profile, shipped::suites().suite,
                                shipped::suites().catalogue, {}, capture);
-  std::set<std::string> may_warn;
-  for (const auto& id : variants) {
-    for (const auto requirement : refnode::find_variant(id)->warns)
-      may_warn.insert(std::string(*shipped::suites().catalogue.canonical(requirement)));
-  }
   std::string out;
-  for (const auto& each : complaints_of(run, may_warn)) out += each.what + "\n" + each.details + "\n";
+  for (const auto& each : complaints_of(run, may_warn_with(variants, shipped::suites().catalogue)))
+    out += each.what + "\n" + each.details + "\n";
   return out;
 }
 
