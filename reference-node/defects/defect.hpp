@@ -69,6 +69,7 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable sdo_defects();
 [[nodiscard]] DefectTable sdo_expedited_defects();
 [[nodiscard]] DefectTable sdo_segment_defects();
+[[nodiscard]] DefectTable sdo_segment_download_defects();
 [[nodiscard]] DefectTable sdo_request_defects();
 [[nodiscard]] DefectTable sdo_block_upload_defects();
 [[nodiscard]] DefectTable sdo_block_download_defects();

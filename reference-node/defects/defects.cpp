@@ -20,6 +20,7 @@ std::span<const Defect> defects() {
   static const DefectTable all = join({sdo_defects,
                                        sdo_expedited_defects,
                                        sdo_segment_defects,
+                                       sdo_segment_download_defects,
                                        sdo_request_defects,
                                        sdo_block_upload_defects,
                                        sdo_block_download_defects,

@@ -7,6 +7,7 @@
 
 #include "defects/heartbeats.hpp"
 #include "defects/sdo_exchanges.hpp"
+#include "defects/sdo_transfers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {

@@ -68,12 +68,4 @@ inline void store_code(Data& data, AbortCode code) {
   conform::store_le(std::span(data).subspan(4), code.value());
 }
 
-/// Which segmented transfer of the conformant server is running, seen from the exchanges.
-struct Transfer {
-  enum class Direction : std::uint8_t { none, upload, download };
-  Direction running = Direction::none;
-
-  void see(const SdoExchange& exchange, const std::vector<Outgoing>& frames);
-};
-
 }  // namespace refnode::defect
