@@ -35,16 +35,20 @@ bool NodeGuarding::in_use() const {
          rules.is_used(od.number(0x1017, 0));
 }
 
+Duration NodeGuarding::life_time() const {
+  const ObjectDictionary& od = device_->dictionary;
+  return rules.life_time(od.number(0x100C, 0), od.number(0x100D, 0));
+}
+
 void NodeGuarding::watch(bool requested) {
   due_.reset();
-  const ObjectDictionary& od = device_->dictionary;
-  const Duration life_time = rules.life_time(od.number(0x100C, 0), od.number(0x100D, 0));
-  if (life_time > Duration::zero() && rules.begins_the_watch(requested)) due_ = device_->now + life_time;
+  const Duration time = life_time();
+  if (time > Duration::zero() && rules.begins_the_watch(requested)) due_ = device_->now + time;
 }
 
 bool NodeGuarding::on_remote(const Frame& frame) {
   if (frame.id != 0x700U + device_->node_id) return false;
-  if (!rules.is_answered_in(device_->state) || !in_use()) return true;
+  if (!rules.is_answered_in(device_->state) || !in_use() || !rules.is_answered_with(life_time())) return true;
   const auto state = static_cast<std::uint8_t>(device_->state);
   const auto data = static_cast<std::uint8_t>(toggle_ ? state | toggle_bit : state);
   device_->send(Service::guarding,

@@ -20,6 +20,9 @@ struct GuardingRules {
   };
   /// Nobody is answered before the boot-up message.
   Rule<bool(NmtState)> is_answered_in = [](NmtState state) { return state != NmtState::initialising; };
+  /// Where there is no life guarding, a request is answered all the same (7.5.2.11: only life guarding is
+  /// off).
+  Rule<bool(Duration life_time)> is_answered_with = [](Duration) { return true; };
   /// The life time: guard time (100Ch, ms) times factor (100Dh); zero, where either is: no life guarding.
   Rule<Duration(std::uint64_t, std::uint64_t)> life_time = [](std::uint64_t guard_time,
                                                               std::uint64_t factor) {
@@ -50,6 +53,7 @@ class NodeGuarding {
 
  private:
   [[nodiscard]] bool in_use() const;
+  [[nodiscard]] Duration life_time() const;
   void watch(bool requested);
 
   Device* device_;

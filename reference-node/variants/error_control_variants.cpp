@@ -114,6 +114,17 @@ VariantTable error_control_variants() {
        .how = both(preset(0x100C, 0, 10000), preset(0x100D, 0, 2)),
        .group = "guarding",
        .warns = {"OD-100C-04"}},
+      {.id = "guarding-only-with-life-time",
+       .summary = "guard requests are answered while 100Ch and 100Dh are both above 0 only",
+       .legal = "EC-NG-09, tolerated: with 0 in either there is no guarding at all",
+       .how =
+           [](Parts& node) {
+             node.guarding.rules.is_answered_with = [](Duration life_time) {
+               return life_time > Duration::zero();
+             };
+           },
+       .group = "guarding",
+       .warns = {"EC-NG-09"}},
       {.id = "1029-absent",
        .summary = "the error behaviour cannot be chosen",
        .legal = "7.5.2.32: optional",
