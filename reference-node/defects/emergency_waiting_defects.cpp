@@ -4,6 +4,7 @@
 // beginning.
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -92,6 +93,32 @@ Change empties_history_in(NmtState state) {
   return ahead_of_state_change([state](Parts& parts) {
     if (parts.device.state == state) parts.emergency.history.clear();
   });
+}
+
+void begins_history_anew_behind_stopped(Parts& parts) {
+  const auto stopped = std::make_shared<bool>(false);
+  ahead_of_state_change([stopped](Parts& node) {
+    if (node.device.state == NmtState::stopped) *stopped = true;
+  })(parts);
+  parts.device.errors.raise.replace(
+      [&parts, stopped](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        if (std::exchange(*stopped, false)) parts.emergency.history.clear();
+        former(cause, detail);
+      });
+}
+
+void counts_errors_in_8_bits(Parts& parts) {
+  const auto count = std::make_shared<std::uint8_t>(std::uint8_t{0});
+  parts.device.errors.raise.replace(
+      [count](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+        ++*count;
+        former(cause, detail);
+      });
+  reading(0x1003, 0, [count](Parts&, const Read& former) {
+    Upload shown = former();
+    if (shown && !shown->empty()) shown->front() = std::min(shown->front(), *count);
+    return shown;
+  })(parts);
 }
 
 /// Behind a TPDO an EMCY waits for the inhibit time of 1015h.
@@ -194,6 +221,14 @@ DefectTable emergency_waiting_defects() {
        "Entering Stopped empties the history of errors",
        {"OD-1003-10"},
        empties_history_in(NmtState::stopped)},
+      {"1003-begun-anew-behind-stopped",
+       "The first error behind Stopped takes the place of all that the history holds",
+       {"OD-1003-10"},
+       begins_history_anew_behind_stopped},
+      {"1003-count-of-256-errors",
+       "1003h:00 counts errors in eight bits: behind 256 of them the history looks empty",
+       {"OD-1003-10"},
+       counts_errors_in_8_bits},
       {"1028-lock-missing-in-one-entry",
        "The CAN-ID of 1028h:03 can be changed while it is valid",
        {"OD-1028-06"},

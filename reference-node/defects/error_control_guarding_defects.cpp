@@ -333,6 +333,13 @@ DefectTable life_rows() {
        life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
          return std::chrono::milliseconds(static_cast<std::int64_t>((guard_time * factor) & 0xFFFFU));
        })},
+      {"life-time-of-32-bits-of-microseconds",
+       "The life time is computed in 32 bits of microseconds",
+       {"EC-NG-07"},
+       life_time([](std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+         return std::chrono::microseconds(
+             static_cast<std::int64_t>((guard_time * factor * 1000) & 0xFFFF'FFFFU));
+       })},
       {"life-guarding-twice-as-long",
        "The life guarding event comes after twice the life time",
        {"EC-NG-07"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finer defects of the heartbeat consumer (1016h) and producer (1017h): one state, one entry, the upper half
 // of a value, the second time.
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -139,6 +141,13 @@ Change pauses_in_a_transfer() {
         frames.clear();
     });
   };
+}
+
+Change begins_anew_with(std::uint16_t index) {
+  return after_writing(index, 0, [](Parts& parts, const std::function<void()>& former) {
+    if (former) former();
+    parts.producer.on_boot_up();
+  });
 }
 
 Change begins_anew_with_every_download() {
@@ -298,6 +307,10 @@ DefectTable error_control_monitoring_defects() {
        "Every SDO download starts the period of the heartbeat anew",
        {"EC-HBP-09"},
        begins_anew_with_every_download()},
+      {"heartbeat-begins-anew-with-guard-time",
+       "Another value of 100Ch or 100Dh starts the period of the heartbeat anew",
+       {"EC-HBP-09"},
+       together(begins_anew_with(0x100C), begins_anew_with(0x100D))},
       {"heartbeat-at-half-rate-in-operational",
        "In Operational the heartbeat comes at half the rate",
        {"EC-HBP-01"},

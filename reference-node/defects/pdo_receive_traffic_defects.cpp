@@ -351,6 +351,12 @@ DefectTable pdo_receive_traffic_defects() {
                  const bool discarded = is_synchronous(pdo.transmission_type()) && received > mapped;
                  return !discarded && former(pdo, received, mapped);
                })},
+      {"rpdo-deaf-on-can-ids-of-emcy",
+       "CAN-IDs from 081h to 0FFh are confirmed for an RPDO, which is not received with them",
+       {"OD-1400-11"},
+       deaf_to([](Parts&, const Frame& frame) {
+         return frame.id > 0x80 && frame.id < 0x100 && !frame.extended && !frame.remote;
+       })},
       {"rpdo-without-data-unnoticed",
        "An RPDO without data is taken for no RPDO",
        {"PDO-RX-06"},
