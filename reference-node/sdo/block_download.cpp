@@ -35,6 +35,7 @@ SdoReply BlockDownload::segment(const SdoData& frame, BusTime now) {
     if (const Accepted granted = rules_->may_begin(terms_.mux, terms_.announced); !granted)
       return refuse(granted.error());
   }
+  if (choices_->unsized_refused_late && !terms_.announced) return refuse(abort_code::length_too_high);
   if (!spoiled_ && rules_->follows(number, taken_)) {
     data_.insert(data_.end(), frame.begin() + 1, frame.end());
     taken_ = number;

@@ -27,6 +27,8 @@ struct SdoChoices {
   bool reserved_bits_refused = false;  ///< 0504 0001h for a command byte with one of its reserved bits set
   /// A download begins whatever its entry is; its first segment is refused.
   bool entry_looked_at_late = false;
+  /// A segmented or block download that does not tell its size begins and is refused with its first segment.
+  bool unsized_refused_late = false;
 
   /// Answer to a new initiate request while a transfer is open, which it ends; nullopt: the new one is
   /// served.

@@ -49,6 +49,7 @@ SdoReply SegmentedDownload::segment(const SdoData& request, const ObjectDictiona
     if (const Accepted granted = rules_->granted(mux_, announced_); !granted) return refuse(granted.error());
   }
 
+  if (choices_->unsized_refused_late && !announced_) return refuse(abort_code::length_too_high);
   data_.insert(data_.end(), request.begin() + 1, request.begin() + 1 + static_cast<std::ptrdiff_t>(count));
   if (!rules_->fits(data_.size(), most)) return refuse(abort_code::length_too_high);
   if (last) {

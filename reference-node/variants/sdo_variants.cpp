@@ -356,6 +356,11 @@ VariantTable sdo_variants() {
        // server's back would go on there.
        .excludes = {"sdo-block-download-of-domains", "sdo-reserved-bits-refused"},
        .warns = {"SDO-SDN-22", "SDO-BDN-23"}},
+      {.id = "sdo-unsized-refused-late",
+       .summary = "a download that does not tell its size is begun, and refused with its first segment",
+       .legal = "7.2.4.3.17: an abort may come at any time; SDO-SDN-02, SDO-BDN-16 warn",
+       .how = choose([](SdoChoices& c) { c.unsized_refused_late = true; }),
+       .warns = {"SDO-SDN-02", "SDO-BDN-16"}},
       {.id = "sdo-first-segment-awaited",
        .summary =
            "where segment 1 of a sub-block is lost, the others are no segments, and 700 ms later none is acknowledged",
