@@ -44,7 +44,13 @@ void Pdos::bind() {
 
 void Pdos::on_application_change() {
   if (std::ranges::any_of(receive_, &ReceivePdo::applying)) return;
-  for (TransmitPdo& pdo : transmit_) pdo.on_application_change();
+  bool told = false;
+  for (TransmitPdo& pdo : transmit_) {
+    if (told && tpdo.choices.first_alone_is_sent)
+      pdo.take_as_told();
+    else
+      told |= pdo.on_application_change();
+  }
 }
 
 void Pdos::on_frame(const Frame& frame) {

@@ -90,12 +90,13 @@ void TransmitPdo::start_event_timer() {
   if (timed() && enabled()) timer_ = device_->now + parameters_.event_timer();
 }
 
-void TransmitPdo::on_application_change() {
-  if (!terms_->choices.change_is_event || !enabled()) return;
+bool TransmitPdo::on_application_change() {
+  if (!terms_->choices.change_is_event || !enabled()) return false;
   const Bytes now = content();
-  if (!terms_->choices.write_is_event && !terms_->rules.is_event(parameters_, reported_, now)) return;
+  if (!terms_->choices.write_is_event && !terms_->rules.is_event(parameters_, reported_, now)) return false;
   event_ = true;
   if (event_driven() && !held_back(TransmitCause::change)) transmit(now);
+  return true;
 }
 
 bool TransmitPdo::held_back(TransmitCause cause) const {

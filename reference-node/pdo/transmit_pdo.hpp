@@ -16,8 +16,9 @@ struct TransmitPdoChoices {
   bool sends_at_start_value =
       true;                     ///< and with a SYNC start value at that one, else it only begins to count
   bool change_is_event = true;  ///< of what is mapped; types 00h, FEh and FFh
-  bool sent_empty = false;      ///< without mapped objects it is sent, with no data
-  bool sent_when_set = false;   ///< a write of its parameters in Operational is an event
+  bool first_alone_is_sent = false;  ///< of several that carry what has changed, not every one
+  bool sent_empty = false;           ///< without mapped objects it is sent, with no data
+  bool sent_when_set = false;        ///< a write of its parameters in Operational is an event
   bool sends_in_the_middle = false;  ///< type n sends at SYNC n / 2 + 1 first
   bool timer_goes_on = false;        ///< a new event time counts from the last TPDO
   bool write_is_event = false;       ///< of what is mapped, also where the value is the same
@@ -71,8 +72,10 @@ class TransmitPdo {
   /// `number` 0 is that of 1800h. `terms` outlive the PDO.
   TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uint16_t number);
 
-  /// Something mapped may have changed.
-  void on_application_change();
+  /// Something mapped may have changed. Whether it has.
+  bool on_application_change();
+  /// Another one has told what has changed.
+  void take_as_told() { reported_ = content(); }
   /// `counter`: of a SYNC that has one.
   void on_sync(std::optional<std::uint8_t> counter);
   /// True when the remote frame asks for this PDO.

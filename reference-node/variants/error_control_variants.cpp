@@ -125,6 +125,21 @@ VariantTable error_control_variants() {
            },
        .group = "guarding",
        .warns = {"EC-NG-09"}},
+      {.id = "guard-toggle-begins-anew-with-guarding",
+       .summary = "guard replies begin with toggle bit 0 when the heartbeat has been switched off",
+       .legal = "EC-NG-03, tolerated: the first response after guarding becomes active (7.2.8.3.2.1)",
+       .how =
+           [](Parts& node) {
+             node.guarding.choices.toggle_begins_anew = true;
+             Entry* entry = node.device.dictionary.entry(0x1017, 0);
+             if (entry == nullptr) return;
+             entry->written = [&node, former = entry->written] {
+               if (former) former();
+               node.guarding.on_heartbeat_written();
+             };
+           },
+       .excludes = {"1017"},
+       .warns = {"EC-NG-03"}},
       {.id = "1029-absent",
        .summary = "the error behaviour cannot be chosen",
        .legal = "7.5.2.32: optional",

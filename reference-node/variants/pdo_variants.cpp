@@ -365,6 +365,12 @@ VariantTable pdo_variants() {
       {"tpdo-on-write", "a write of what is mapped is an event, also of the value that there is",
        "7.5.2.37: what an event is, the device and its profile say",
        [](Parts& node) { node.pdos.tpdo.choices.write_is_event = true; }},
+      {.id = "tpdo-first-alone-is-sent",
+       .summary = "of several TPDOs that carry what has changed the first one is sent",
+       .legal = "7.5.2.37: what an event is, the device and its profile say; PDO-TX-08 warns",
+       .how = [](Parts& node) { node.pdos.tpdo.choices.first_alone_is_sent = true; },
+       .excludes = {"tpdo-on-write"},
+       .warns = {"PDO-TX-08"}},
       {"tpdo-inhibit-in-10-ms", "inhibit times are rounded up to 10 ms", "7.5.2.37: the shortest interval",
        [](Parts& node) {
          node.pdos.tpdo.parameters.rules.inhibit_time.replace(
