@@ -158,6 +158,17 @@ Result<std::size_t> SdoChannel::give_up(CanId request, Multiplexer object) {
   return recorder_.send(can::data_frame(request, canopen::encode_abort(object, AbortCode(0x0800'0000))));
 }
 
+/// Whether the answer in frame `i` is one of the frames that were sent since `begin`, byte for byte.
+static bool sends_back(std::span<const can::CapturedFrame> frames, std::size_t i, BusTime begin) {
+  const auto answer = frames[i].frame.bytes();
+  for (auto j = i; j > 0 && frames[j - 1].time >= begin; --j) {
+    const auto& former = frames[j - 1];
+    if (former.direction == can::Direction::transmitted && std::ranges::equal(former.frame.bytes(), answer))
+      return true;
+  }
+  return false;
+}
+
 Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) {
   if (line.state == State::idle) return {};
   const bool late = std::exchange(line.state, State::idle) == State::late_answers;
@@ -188,8 +199,10 @@ Result<void> SdoChannel::make_idle(const steps::SdoChannelIds& ids, Line& line) 
   const auto is_answer = is_response(ids.response);
   for (auto i = from; i < frames.size(); ++i) {
     if (!is_answer(frames[i]) || frames[i].frame.size() < 4) continue;
+    // A server that sends our abort back has not answered the request, however long ago that was.
+    if (sends_back(frames, i, begin)) continue;
     if (canopen::sdo_multiplexer(frames[i].frame.bytes()) == *line.stale)
-      note_latency(frames[i].time - begin);
+      note_latency(std::min(frames[i].time - begin, longest_answer));
   }
   return waited;
 }

@@ -327,6 +327,22 @@ DefectTable error_control_monitoring_defects() {
        "An entry of 1016h that names another node goes on with the deadline of the former one",
        {"EC-HBC-02"},
        keeps_deadline([](std::uint8_t before, std::uint8_t now) { return before != now; })},
+      {"1016-time-0-leaves-the-watch",
+       "Time 0 in 1016h leaves the deadline that is running",
+       {"OD-1016-09"},
+       decides(of_consumer, &HeartbeatConsumerRules::ends_with_write,
+               [](const auto&, std::uint64_t entry) { return monitored_time(entry) != 0; })},
+      {"1016-node-ids-above-127-monitored",
+       "An entry of 1016h with a node-ID from 80h on is monitored with CAN-IDs from 780h on",
+       {"OD-1016-09"},
+       together(decides(of_consumer, &HeartbeatConsumerRules::used,
+                        [](const auto& former, std::uint64_t entry) {
+                          return former(entry) || (monitored_time(entry) != 0 && monitored_node(entry) > 127);
+                        }),
+                misreads([](Parts& node, Frame& frame) {
+                  if (frame.id >= 0x780 && frame.size() == 1 && !frame.extended && !frame.remote)
+                    node.consumer.on_heartbeat(producer_of(frame), frame.data[0]);
+                }))},
       {"1016-stored-entry-not-monitored",
        "An entry of 1016h that was stored monitors nobody until it is written",
        {"EC-HBC-03", "OD-RST-04"},

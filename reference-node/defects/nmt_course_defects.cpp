@@ -159,6 +159,14 @@ DefectTable nmt_course_defects() {
        "In Stopped that an error has led to SDO is served",
        {"NMT-FSA-23"},
        works_where_led_by_error(Service::sdo, NmtState::stopped)},
+      {"nmt-taken-from-can-ids-below-080h",
+       "CAN-IDs from 000h to 07Fh are taken for commands, of 11 bits or 29",
+       {"NMT-FSA-27", "NMT-FSA-19"},
+       misreads([](Parts&, Frame& frame) {
+         if (frame.id >= 0x80 || frame.remote) return;
+         frame.id = 0;
+         frame.extended = false;
+       })},
       {"nmt-lost-behind-another",
        "Of commands on the bus one right behind the other the first one is obeyed",
        {"NMT-FSA-20"},

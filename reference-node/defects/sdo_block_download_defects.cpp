@@ -465,6 +465,16 @@ DefectTable end_rows() {
          if (receiving && is_client_abort(*context.sdo)) frames.push_back(response(context, {0xA2, 0, 127}));
          watch.see(*context.sdo, frames);
        })},
+      {"block-download-ended-by-any-command",
+       "Whatever has bit 0 set ends a block download as its end does",
+       {"SDO-BDN-21"},
+       misreads([](Parts& parts, Frame& frame) {
+         const auto* transfer = transfer_of<BlockDownload>(parts, frame);
+         if (transfer == nullptr || transfer->in_sub_block() || (frame.data[0] & 1U) == 0) return;
+         if ((frame.data[0] & 0xE3U) == 0xC1) return;
+         constexpr unsigned unused = 5;  // of a segment with two bytes
+         if (frame.data[0] != 0x80) frame.data[0] = static_cast<std::uint8_t>(0xC1U | (unused << 2U));
+       })},
       {"block-download-serves-upload-segments",
        "An upload segment request in place of the end of a block download gets a segment",
        {"SDO-BDN-21"},

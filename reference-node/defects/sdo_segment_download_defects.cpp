@@ -211,6 +211,18 @@ DefectTable sdo_segment_download_defects() {
          frames.insert(frames.begin(), frames.front());
          frames.front().frame.data = {static_cast<std::uint8_t>(0x20U | (context.sdo->request[0] & 0x10U))};
        })},
+      {"unwritable-segment-confirmed-as-well",
+       "A segmented download to what cannot be written is begun, and its last segment confirmed and aborted",
+       {"SDO-SDN-24", "SDO-GEN-04"},
+       together([](Parts& parts) { parts.sdo.choices.entry_looked_at_late = true; },
+                Filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+                  if (context.sdo == nullptr || frames.empty() || !aborted(*context.sdo)) return;
+                  if (context.sdo->step != SdoStep::download_segment) return;
+                  const auto code = context.sdo->aborted;
+                  if (code != abort_code::read_only && code != abort_code::no_object) return;
+                  frames.insert(frames.begin(), frames.front());
+                  frames.front().frame.data = {0x20};
+                }))},
       {"confirmed-segment-aborted-as-well",
        "A last segment is confirmed and then aborted",
        {"SDO-SDN-24", "SDO-GEN-04"},

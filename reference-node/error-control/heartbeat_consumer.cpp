@@ -49,7 +49,9 @@ void HeartbeatConsumer::on_written(std::uint8_t sub) {
     end_together();
   } else {
     if (watch.lost) device_->errors.clear(lost(sub));
+    const auto due = watch.due;
     watch = {};
+    if (!rules.ends_with_write(value_of(sub))) watch.due = due;
   }
   if (choices.reserved_bits_cleared) device_->dictionary.set_number(0x1016, sub, value_of(sub) & 0x00FFFFFFU);
 }

@@ -41,6 +41,8 @@ struct HeartbeatConsumerRules {
       [](std::int64_t value) -> Duration { return std::chrono::milliseconds(value); }};
   /// Behind a reset the monitoring waits for a heartbeat again.
   Rule<bool()> ends_with_reset{[] { return true; }};
+  /// Whatever is written to an entry, what ran by its former value is over.
+  Rule<bool(std::uint64_t entry)> ends_with_write{[](std::uint64_t) { return true; }};
 };
 
 class HeartbeatConsumer {

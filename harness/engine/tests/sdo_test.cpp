@@ -336,6 +336,22 @@ TEST_CASE("an answer that is late is never taken for the answer to another reque
   CHECK(answered->data == Bytes{0x91, 0x01, 0, 0});
 }
 
+TEST_CASE("a server that sends the client's aborts back is not taken for a slow one") {
+  ScriptedDevice device;
+  device.before = [](ScriptedDevice& on, const can::Frame& frame, BusTime) {
+    if (frame.data[0] == 0x80) on.send(can::data_frame(CanId(0x581), frame.bytes()));
+    return frame.data[0] == 0x80 || (frame.data[0] == 0x40 && frame.data[1] == 0x01);
+  };
+  Bench bench;
+  bench.attach(device);
+  const auto begin = bench.session->now();
+  for (int round = 0; round < 5; ++round) {
+    REQUIRE(bench.session->upload({Index(0x1001), SubIndex(0)}, std::nullopt));
+    REQUIRE(bench.session->upload({Index(0x1000), SubIndex(0)}, std::nullopt));
+  }
+  CHECK(bench.session->now() - begin < 30s);
+}
+
 TEST_CASE("transfers on two channels run side by side and end on their own") {
   BlockDevice device;
   SecondServer second;
