@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -121,6 +122,37 @@ void counts_errors_in_8_bits(Parts& parts) {
   })(parts);
 }
 
+/// What has been raised is over when the next error comes behind what `begin` tells of, and nobody is told.
+struct Forgetting {
+  std::vector<ErrorCause> present;
+  bool due = false;
+  bool silent = false;
+};
+
+Change forgets_errors(std::function<void(Parts&, std::shared_ptr<Forgetting>)> begin) {
+  return [begin = std::move(begin)](Parts& parts) {
+    const auto memory = std::make_shared<Forgetting>();
+    begin(parts, memory);
+    Errors& errors = parts.device.errors;
+    errors.clear.replace([memory](const auto& former, const ErrorCause& cause) {
+      std::erase(memory->present, cause);
+      former(cause);
+    });
+    errors.raise.replace([&errors, memory](const auto& former, const ErrorCause& cause, std::uint8_t detail) {
+      if (std::exchange(memory->due, false)) {
+        memory->silent = true;
+        for (const ErrorCause& gone : std::exchange(memory->present, {})) errors.clear(gone);
+        memory->silent = false;
+      }
+      memory->present.push_back(cause);
+      former(cause, detail);
+    });
+    parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
+      if (memory->silent && context.service == Service::emergency) frames.clear();
+    });
+  };
+}
+
 /// Behind a TPDO an EMCY waits for the inhibit time of 1015h.
 void waits_behind_tpdos(Parts& parts) {
   const auto last = std::make_shared<std::optional<BusTime>>();
@@ -225,6 +257,23 @@ DefectTable emergency_waiting_defects() {
        "The first error behind Stopped takes the place of all that the history holds",
        {"OD-1003-10"},
        begins_history_anew_behind_stopped},
+      {"errors-of-before-stopped-forgotten",
+       "The first error behind Stopped takes the place of those that are there still",
+       {"OD-1001-05"},
+       forgets_errors([](Parts& parts, const std::shared_ptr<Forgetting>& memory) {
+         ahead_of_state_change([memory](Parts& node) {
+           if (node.device.state == NmtState::stopped) memory->due = true;
+         })(parts);
+       })},
+      {"errors-forgotten-with-cleared-history",
+       "The first error behind a cleared history takes the place of those that are there still",
+       {"OD-1001-05"},
+       forgets_errors([](Parts& parts, const std::shared_ptr<Forgetting>& memory) {
+         after_writing(0x1003, 0, [memory](Parts&, const std::function<void()>& former) {
+           if (former) former();
+           memory->due = true;
+         })(parts);
+       })},
       {"1003-count-of-256-errors",
        "1003h:00 counts errors in eight bits: behind 256 of them the history looks empty",
        {"OD-1003-10"},
