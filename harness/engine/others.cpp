@@ -2,6 +2,7 @@
 #include "engine/others.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
@@ -36,8 +37,16 @@ Others::Others(NodeId node) : node_(node) {
   for (const auto id : set.tpdo) own_.insert(id.value());
 }
 
+/// Of SYNC or TIME with a CAN-ID that is nobody's by default: who was given it may send although it was told
+/// not to.
+static bool was_given(Multiplexer object, std::uint32_t cob_id) {
+  const auto can_id = cob_id & 0x7FFU;
+  return (object.index.value() == 0x1005 && can_id != canopen::sync_can_id.value()) ||
+         (object.index.value() == 0x1012 && can_id != canopen::time_can_id.value());
+}
+
 void Others::take(Multiplexer object, std::uint32_t cob_id) {
-  if (!sends_by(object, cob_id)) return;
+  if (!sends_by(object, cob_id) && !was_given(object, cob_id)) return;
   own_.insert(cob_id & ((cob_id & extended) != 0 ? 0x1FFF'FFFFU : 0x7FFU));
 }
 
@@ -91,7 +100,7 @@ std::optional<std::string> Others::heard(const can::Capture& capture) {
   std::erase_if(strange_, [this](const auto& each) { return own_.contains(each.first); });
   if (strange_.empty()) return std::nullopt;
   const auto first = std::ranges::min_element(strange_, {}, [](const auto& each) { return each.second; });
-  const auto after = first->second - frames.front().time;
+  const auto after = std::chrono::round<std::chrono::milliseconds>(first->second - frames.front().time);
   std::string out = to_string(CanId(first->first)) + ", first " + to_string(after) + " after the beginning";
   if (strange_.size() > 1) out += ", and " + std::to_string(strange_.size() - 1) + " more CAN-IDs";
   return out;

@@ -117,7 +117,9 @@ void Follower::look_at_sender() {
     return;
   }
   if (frame.remote) {
-    others_ = others_ || (frame.id > 0x180 && may_be_own(frame.id));
+    // A guard request for another node says nothing, whatever COB-ID held its CAN-ID once.
+    const bool guards_another = frame.id > 0x700 && frame.id < 0x780 && !names_.test(frame.id & 0x7FU);
+    others_ = others_ || (frame.id > 0x180 && !guards_another && may_be_own(frame.id));
     return;
   }
   const auto id = frame.id;

@@ -282,6 +282,21 @@ TEST_CASE("a device with a node-ID that LSS gave it is nobody else, and who was 
   }
 }
 
+TEST_CASE("a SYNC that goes on with the CAN-ID that 1005h was given is nobody else's") {
+  const auto sent = can::Direction::transmitted, received = can::Direction::received;
+  const auto at = [](int ms) { return BusTime{} + Duration(ms * 1'000'000); };
+  for (const std::uint8_t low : {std::uint8_t{0x9E}, std::uint8_t{0x80}}) {
+    // 69Eh, and 080h, with which anybody may send SYNC.
+    const auto high = static_cast<std::uint8_t>(low == 0x80 ? 0 : 6);
+    Others others(NodeId(1));
+    can::Capture capture;
+    capture.add(seen(at(0), sent, CanId(0x601), {0x23, 0x05, 0x10, 0x00, low, high, 0, 0}));
+    capture.add(seen(at(1), received, CanId(0x581), {0x60, 0x05, 0x10, 0x00, 0, 0, 0, 0}));
+    capture.add(seen(at(2), received, CanId(std::uint32_t{high} << 8U | low), {}));
+    CHECK(others.heard(capture).has_value() == (low == 0x80));
+  }
+}
+
 TEST_CASE(
     "EMCYs that come late behind a long inhibit time come before the next case, also where some errors have none") {
   ScriptedDevice device;

@@ -35,6 +35,10 @@ TEST_CASE("A slave commands nobody") {
   CHECK(Story().line(heartbeat).line("< 7E5: 04 00 00 00 00 00 00 00").told() == Told{"fail NMT-SVC-05"});
   CHECK(Story().line(heartbeat).line("< 77E: remote").told() == Told{"fail NMT-SVC-05"});
   CHECK(Story().line(heartbeat).line("< 701: remote").told().empty());
+  // Nor does a COB-ID that held the CAN-ID once make a frame of NMT or a guard request another one.
+  CHECK(Story().read(0x1800, 1, 0).line(heartbeat).line("< 000: 01 00").told() == Told{"fail NMT-SVC-05"});
+  CHECK(Story().read(0x1400, 1, 0x77E).line(heartbeat).line("< 77E: remote").told() ==
+        Told{"fail NMT-SVC-05"});
 }
 
 TEST_CASE("29-bit frames and remote frames need an entry that says so") {
