@@ -108,7 +108,7 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     if (((difference.came.data[2] & ~difference.due.data[2]) & 0x40U) != 0) return violates("OD-1001-03");
     // Which bits of the error register a device has is its choice, but for the first.
     if (difference.came.data[2] != difference.due.data[2])
-      return difference.came.data[2] != 0 && (difference.came.data[2] & 1U) == 0 ? violates("EMCY-FMT-04")
+      return difference.came.data[2] != 0 && (difference.came.data[2] & 1U) == 0 ? strains("EMCY-FMT-04")
              : ((difference.came.data[2] ^ difference.due.data[2]) & 1U) != 0    ? violates("EMCY-FMT-03")
                                                                                  : strains("EMCY-FMT-03");
     return std::nullopt;

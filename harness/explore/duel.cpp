@@ -197,7 +197,7 @@ class Duel {
       }
       const auto device = *partner;
       of_device_.erase(partner);
-      if (!same_data(device.frame, each.frame)) return differs(device, each);
+      if (!agree(device.frame, each.frame)) return differs(device, each);
       if (is_apart(device, each)) return off_time(device, each);
     }
     return overdue();
@@ -213,8 +213,12 @@ class Duel {
     }
     const auto other = *partner;
     waiting.erase(partner);
-    if (same_data(each.frame, other.frame) && !is_apart(each, other)) return std::nullopt;
+    if (agree(each.frame, other.frame) && !is_apart(each, other)) return std::nullopt;
     return other;
+  }
+
+  [[nodiscard]] bool agree(const can::Frame& device, const can::Frame& model) const {
+    return same_data(device, model) || affairs_.excuse(device, model);
   }
 
   [[nodiscard]] bool is_apart(const Unasked& one, const Unasked& other) const {
@@ -222,7 +226,7 @@ class Duel {
   }
 
   [[nodiscard]] std::optional<Difference> differs(const Unasked& device, const Unasked& model) const {
-    if (same_data(device.frame, model.frame)) return off_time(device, model);
+    if (agree(device.frame, model.frame)) return off_time(device, model);
     Difference out;
     out.what = What::other_data;
     out.came = device.frame;

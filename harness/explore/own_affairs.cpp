@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explore/own_affairs.hpp"
 
+#include <algorithm>
+
 #include "base/bytes.hpp"
 #include "canopen/cob_id.hpp"
 
@@ -29,6 +31,7 @@ OwnAffairs::OwnAffairs(const std::function<bool(Multiplexer)>& entries, NodeId n
   const auto own = canopen::connection_set(node);
   for (const auto id : own.tpdo) may_use(id.value());
   may_use(canopen::time_can_id.value());
+  emcy_can_ids_.insert(own.emcy.value());
   for (const auto cob_id : cob_ids) may_use(cob_id);
 }
 
@@ -41,7 +44,10 @@ void OwnAffairs::note(const Action& action) {
   const auto given = [&](std::uint16_t index, std::uint8_t sub, ByteView value) {
     const bool tpdo = index >= 0x1800 && index <= 0x19FF && sub == 1;
     const bool time = index == 0x1012 && sub == 0;
-    if ((tpdo || time) && value.size() == 4) may_use(static_cast<std::uint32_t>(load_le(value)));
+    if (value.size() != 4) return;
+    const auto cob_id = static_cast<std::uint32_t>(load_le(value));
+    if (tpdo || time) may_use(cob_id);
+    if (index == 0x1014 && sub == 0) emcy_can_ids_.insert(cob_id & 0x3FFF'FFFFU);
   };
   if (action.kind == Action::Kind::download)
     given(action.object.index.value(), action.object.sub.value(), action.data);
@@ -61,6 +67,12 @@ bool OwnAffairs::excuse(const Action& action, const Answer& device, const Answer
   // What values an entry takes, and when, nobody has said.
   return action.kind == Action::Kind::download && device.kind == Answer::Kind::aborted &&
          refuses_value(device.code);
+}
+
+bool OwnAffairs::excuse(const can::Frame& device, const can::Frame& model) const {
+  constexpr std::size_t told = 3;  // error code and error register
+  return entries_ && emcy_can_ids_.contains(key_of(device.id, device.extended)) && device.size() == 8 &&
+         model.size() == 8 && std::ranges::equal(device.bytes().first(told), model.bytes().first(told));
 }
 
 bool OwnAffairs::hold(const can::Frame& frame) const {

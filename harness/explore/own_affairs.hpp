@@ -25,6 +25,8 @@ class OwnAffairs {
   void note(const Action& action);
   /// Whether the two answers differ by nothing else.
   [[nodiscard]] bool excuse(const Action& action, const Answer& device, const Answer& model) const;
+  /// Two EMCYs that differ by nothing but what is the manufacturer's (bytes 3 to 7; 7.2.7.3.1).
+  [[nodiscard]] bool excuse(const can::Frame& device, const can::Frame& model) const;
   /// A TPDO or TIME: what it holds, and when an event sends it.
   [[nodiscard]] bool hold(const can::Frame& frame) const;
 
@@ -32,7 +34,8 @@ class OwnAffairs {
   void may_use(std::uint32_t cob_id);
 
   const std::function<bool(Multiplexer)>& entries_;
-  std::set<std::uint32_t> can_ids_;  ///< with the format in bit 29
+  std::set<std::uint32_t> can_ids_;       ///< with the format in bit 29
+  std::set<std::uint32_t> emcy_can_ids_;  ///< alike
 };
 
 }  // namespace conform::explore

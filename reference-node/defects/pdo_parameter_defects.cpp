@@ -25,6 +25,22 @@ Change locked_by_bits(std::uint16_t index, std::uint8_t sub, std::uint64_t bits)
   });
 }
 
+/// The default CAN-ID without the node-ID is shown with it, and used as it was written.
+Change shows_default_with_node_id(std::uint16_t first, std::uint32_t of_connection_set) {
+  return [first, of_connection_set](Parts& parts) {
+    for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+      const std::uint32_t base = of_connection_set + (0x100U * number);
+      reading(static_cast<std::uint16_t>(first + number), 1, [base](Parts& node, const Read& former) {
+        Upload shown = former();
+        if (!shown) return shown;
+        const auto value = static_cast<std::uint32_t>(conform::load_le(*shown));
+        if ((value & 0x7FFU) == base) *shown = conform::to_le(value + node.device.node_id, 4);
+        return shown;
+      })(parts);
+    }
+  };
+}
+
 }  // namespace
 
 DefectTable pdo_parameter_defects() {
@@ -103,6 +119,14 @@ DefectTable pdo_parameter_defects() {
        {"OD-1800-21"},
        confirms(0x1800, 6, [](std::uint64_t value) { return value > 240; })},
       {"1800-sync-start-is-u16", "1800h:06 has two bytes", {"OD-1800-21", "OD-LEN-04"}, type(0x1800, 6, u16)},
+      {"1400-default-shown-with-node-id",
+       "The default CAN-ID of an RPDO without the node-ID is used, and shown with it",
+       {"OD-1400-11"},
+       shows_default_with_node_id(0x1400, 0x200)},
+      {"1800-default-shown-with-node-id",
+       "The default CAN-ID of a TPDO without the node-ID is used, and shown with it",
+       {"OD-1800-11"},
+       shows_default_with_node_id(0x1800, 0x180)},
       {"1803-event-timer-not-stored",
        "1803h:05 is confirmed and not stored",
        {"OD-1800-20"},
