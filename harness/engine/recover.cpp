@@ -25,6 +25,21 @@ Result<void> store(RunSession& session, Multiplexer object, Recovery& out) {
   return {};
 }
 
+/// What cannot be read now tells nothing.
+Result<void> check_identity(RunSession& session, const Remains& remains, const std::string& interface) {
+  using Kind = steps::SdoAnswer::Kind;
+  for (const auto& [object, known] : remains.identity) {
+    const auto answer = session.upload(object, std::nullopt);
+    if (!answer) return std::unexpected(answer.error());
+    if (answer->kind != Kind::confirmed || answer->data.size() != 4 || load_le(answer->data) == known)
+      continue;
+    return fail("this is another device: " + to_string(object) + " is " + hex_bytes(answer->data) +
+                    ", and was " + hex_bytes(to_le(known, 4)) + " in the run that is to be recovered",
+                interface, "nothing was written; recover where the device of that run is");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Recovery> recover(can::Transport& transport, const device::Profile& profile, Remains remains,
@@ -46,6 +61,8 @@ Result<Recovery> recover(can::Transport& transport, const device::Profile& profi
     return std::unexpected(sent.error());
   if (auto waited = session.wait_until(session.now() + profile.nmt_time); !waited)
     return std::unexpected(waited.error());
+  if (auto same = check_identity(session, remains, transport.info().name); !same)
+    return std::unexpected(same.error());
   Recovery out;
   auto restored = restore(session, std::move(remains.changes));
   if (!restored) return std::unexpected(restored.error());

@@ -100,7 +100,10 @@ void tell_what_was_left(const RunJournal& journal, Facts& facts) {
     text += "\n  " + what;
     facts.notes.push_back("left changed by an earlier run: " + what);
   }
-  report_error({text, {}, "canopen-conform recover " + journal.path() + " puts them back"}, 0);
+  // The place of a journal goes by interface and node-ID, and another device may have them by now.
+  if (!journal.left_in().empty()) text += "\n  in the device with " + journal.left_in();
+  report_error(
+      {text, {}, "canopen-conform recover " + journal.path() + " puts them back, in that device only"}, 0);
 }
 
 void print_plan(const std::vector<engine::PlannedCase>& plan, const engine::Monitors& monitors,

@@ -33,6 +33,8 @@ class RunJournal {
   [[nodiscard]] const std::string& path() const { return path_; }  ///< empty: in memory
   /// What the run before changed and did not put back. It stays so until somebody does.
   [[nodiscard]] const std::vector<journal::OldValue>& left() const { return left_; }
+  /// The device of that run as it was read, as far as it was: "vendor-ID 00005AFEh, product code 00000301h".
+  [[nodiscard]] const std::string& left_in() const { return left_in_; }
   [[nodiscard]] const std::string& why_not_usual() const { return why_not_usual_; }
   [[nodiscard]] bool earlier_was_killed() const { return earlier_was_killed_; }
 
@@ -44,6 +46,7 @@ class RunJournal {
   can::Descriptor file_, lock_;
   std::string path_;
   std::vector<journal::OldValue> left_;
+  std::string left_in_;
   bool earlier_was_killed_ = false;
   std::string why_not_usual_;
 };

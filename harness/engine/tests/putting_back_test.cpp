@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bench.hpp"
+#include "engine/recover.hpp"
 
 using namespace conform;
 using namespace conform::engine;
@@ -124,4 +125,20 @@ TEST_CASE("what a restore does to values that nobody wrote is looked at once for
   CHECK(looks[0] == 1);
   CHECK(looks[1] == 0);
   CHECK(looks[2] > 0);  // and once more at the end of the run
+}
+
+TEST_CASE("what a run left in one device is not written into another") {
+  for (const std::uint64_t vendor : {std::uint64_t{1}, std::uint64_t{2}}) {
+    ScriptedDevice device;
+    can::SimulatedBus bus;
+    bus.attach(device, "device");
+    Observer nobody;
+    Remains remains;
+    remains.changes.push_back({{Index(0x1017), SubIndex(0)}, Bytes{0xE8, 0x03}});
+    remains.identity = {{{Index(0x1018), SubIndex(1)}, vendor}};
+    const auto done = recover(bus.transport(), device::default_profile(NodeId(1)), remains, nobody);
+    CHECK(done.has_value() == (vendor == 1));
+    CHECK(device.writes.empty() == (vendor == 2));
+    if (!done) CHECK(done.error().text().find("this is another device: 1018h:01") != std::string::npos);
+  }
 }
