@@ -2,6 +2,7 @@
 #include "pdo/transmit_pdo.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "pdo/bits.hpp"
 
@@ -94,9 +95,9 @@ bool TransmitPdo::on_application_change() {
   if (!terms_->choices.change_is_event || !enabled()) return false;
   const Bytes now = content();
   if (!terms_->choices.write_is_event && !terms_->rules.is_event(parameters_, reported_, now)) return false;
-  event_ = true;
+  const bool waits = std::exchange(event_, true);
   if (event_driven() && !held_back(TransmitCause::change)) transmit(now);
-  return true;
+  return !waits;
 }
 
 bool TransmitPdo::held_back(TransmitCause cause) const {

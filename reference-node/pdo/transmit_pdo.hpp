@@ -72,7 +72,7 @@ class TransmitPdo {
   /// `number` 0 is that of 1800h. `terms` outlive the PDO.
   TransmitPdo(Device& device, const TransmitPdoTerms& terms, std::uint16_t number);
 
-  /// Something mapped may have changed. Whether it has.
+  /// Something mapped may have changed. Whether it has, and no event waits to be sent.
   bool on_application_change();
   /// Another one has told what has changed.
   void take_as_told() { reported_ = content(); }

@@ -369,7 +369,8 @@ VariantTable pdo_variants() {
        .summary = "of several TPDOs that carry what has changed the first one is sent",
        .legal = "7.5.2.37: what an event is, the device and its profile say; PDO-TX-08 warns",
        .how = [](Parts& node) { node.pdos.tpdo.choices.first_alone_is_sent = true; },
-       .excludes = {"tpdo-on-write"},
+       // What cannot be switched off takes the place of the TPDO that is tried.
+       .excludes = {"tpdo-on-write", "1800-const", "1803-const", "like-canopen-stack"},
        .warns = {"PDO-TX-08"}},
       {"tpdo-inhibit-in-10-ms", "inhibit times are rounded up to 10 ms", "7.5.2.37: the shortest interval",
        [](Parts& node) {
