@@ -44,12 +44,13 @@ void Pdos::bind() {
 
 void Pdos::on_application_change() {
   if (std::ranges::any_of(receive_, &ReceivePdo::applying)) return;
-  bool told = false;
+  const TransmitPdo* told = nullptr;
   for (TransmitPdo& pdo : transmit_) {
-    if (told && tpdo.choices.first_alone_is_sent)
+    if (told != nullptr && tpdo.choices.first_alone_is_sent && pdo.shares_an_object_with(*told)) {
       pdo.take_as_told();
-    else
-      told |= pdo.on_application_change();
+    } else if (pdo.on_application_change() && told == nullptr) {
+      told = &pdo;
+    }
   }
 }
 

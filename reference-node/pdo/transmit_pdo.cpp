@@ -100,6 +100,14 @@ bool TransmitPdo::on_application_change() {
   return !waits;
 }
 
+bool TransmitPdo::shares_an_object_with(const TransmitPdo& other) const {
+  const auto objects = parameters_.mapping();
+  return std::ranges::any_of(other.parameters_.mapping(), [&](const Mapped& mapped) {
+    return std::ranges::any_of(
+        objects, [&](const Mapped& each) { return each.index == mapped.index && each.sub == mapped.sub; });
+  });
+}
+
 bool TransmitPdo::held_back(TransmitCause cause) const {
   return inhibited_until_ && device_->now < *inhibited_until_ && terms_->rules.held_back(parameters_, cause);
 }

@@ -74,6 +74,8 @@ class TransmitPdo {
 
   /// Something mapped may have changed. Whether it has, and no event waits to be sent.
   bool on_application_change();
+  /// Whether both carry an object.
+  [[nodiscard]] bool shares_an_object_with(const TransmitPdo& other) const;
   /// Another one has told what has changed.
   void take_as_told() { reported_ = content(); }
   /// `counter`: of a SYNC that has one.
