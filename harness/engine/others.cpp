@@ -15,11 +15,15 @@ namespace {
 constexpr auto configure_node_id = static_cast<std::uint8_t>(canopen::LssCommand::configure_node_id);
 constexpr std::uint32_t not_valid = 1U << 31U, generates = 1U << 30U, extended = 1U << 29U;
 
-/// Whether the device sends on what the entry holds.
+/// Whether the device may send on what the entry holds. With a CAN-ID of SYNC or TIME that is nobody's by
+/// default it may although it was told not to.
 bool sends_by(Multiplexer object, std::uint32_t cob_id) {
   const auto index = object.index.value();
   const auto sub = object.sub.value();
-  if (index == 0x1005 || index == 0x1012) return (cob_id & generates) != 0;
+  if (index == 0x1005 || index == 0x1012) {
+    const auto usual = index == 0x1005 ? canopen::sync_can_id : canopen::time_can_id;
+    return (cob_id & generates) != 0 || (cob_id & 0x7FFU) != usual.value();
+  }
   if ((cob_id & not_valid) != 0) return false;
   if (index == 0x1014) return sub == 0;
   if (index >= 0x1200 && index <= 0x127F) return sub == 2;
@@ -37,16 +41,8 @@ Others::Others(NodeId node) : node_(node) {
   for (const auto id : set.tpdo) own_.insert(id.value());
 }
 
-/// Of SYNC or TIME with a CAN-ID that is nobody's by default: who was given it may send although it was told
-/// not to.
-static bool was_given(Multiplexer object, std::uint32_t cob_id) {
-  const auto can_id = cob_id & 0x7FFU;
-  return (object.index.value() == 0x1005 && can_id != canopen::sync_can_id.value()) ||
-         (object.index.value() == 0x1012 && can_id != canopen::time_can_id.value());
-}
-
 void Others::take(Multiplexer object, std::uint32_t cob_id) {
-  if (!sends_by(object, cob_id) && !was_given(object, cob_id)) return;
+  if (!sends_by(object, cob_id)) return;
   own_.insert(cob_id & ((cob_id & extended) != 0 ? 0x1FFF'FFFFU : 0x7FFU));
 }
 

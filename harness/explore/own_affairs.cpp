@@ -15,6 +15,10 @@ std::uint32_t key_of(std::uint32_t id, bool extended) {
   return extended ? id | canopen::cob_id::extended_frame : id & 0x7FFU;
 }
 
+std::uint32_t key_of(std::uint32_t cob_id) {
+  return key_of(cob_id & 0x1FFF'FFFFU, (cob_id & canopen::cob_id::extended_frame) != 0);
+}
+
 /// Of abort codes: not this value, or not now.
 bool refuses_value(AbortCode code) {
   const auto value = code.value();
@@ -35,9 +39,7 @@ OwnAffairs::OwnAffairs(const std::function<bool(Multiplexer)>& entries, NodeId n
   for (const auto cob_id : cob_ids) may_use(cob_id);
 }
 
-void OwnAffairs::may_use(std::uint32_t cob_id) {
-  can_ids_.insert(key_of(cob_id & 0x1FFF'FFFFU, (cob_id & canopen::cob_id::extended_frame) != 0));
-}
+void OwnAffairs::may_use(std::uint32_t cob_id) { can_ids_.insert(key_of(cob_id)); }
 
 void OwnAffairs::note(const Action& action) {
   if (!entries_) return;
@@ -47,7 +49,7 @@ void OwnAffairs::note(const Action& action) {
     if (value.size() != 4) return;
     const auto cob_id = static_cast<std::uint32_t>(load_le(value));
     if (tpdo || time) may_use(cob_id);
-    if (index == 0x1014 && sub == 0) emcy_can_ids_.insert(cob_id & 0x3FFF'FFFFU);
+    if (index == 0x1014 && sub == 0) emcy_can_ids_.insert(key_of(cob_id));
   };
   if (action.kind == Action::Kind::download)
     given(action.object.index.value(), action.object.sub.value(), action.data);

@@ -45,7 +45,7 @@ class CanIds final : public Monitor {
         break;
       default: return;
     }
-    if (seen.subject == Subject::data && may_hold(seen.key(), follower)) {
+    if (seen.subject == Subject::data && follower.may_be_own(seen.key())) {
       if ((seen.key() & 0x7FU) == follower.facts().node.value() && !seen.frame().extended) good(own);
       return;
     }
@@ -58,7 +58,7 @@ class CanIds final : public Monitor {
  protected:
   void on_end(const Follower& follower) override {
     for (const auto& [key, strange] : strange_) {
-      const bool explained = key.second ? may_ask(key.first, follower) : may_hold(key.first, follower);
+      const bool explained = key.second ? may_ask(key.first, follower) : follower.may_be_own(key.first);
       if (!explained) judge(key.first, strange, follower);
     }
   }
@@ -69,16 +69,14 @@ class CanIds final : public Monitor {
     can::Frame frame;
   };
 
-  /// Whatever CAN-ID a COB-ID was given: 000h is that of NMT, and a frame with it is a command or none at
-  /// all.
-  static bool may_hold(Entries::Key key, const Follower& follower) {
-    return key != canopen::nmt_can_id.value() && follower.may_be_own(key);
-  }
+  /// As a remote frame it asks a node for its state.
+  static bool is_guarding(Entries::Key key) { return key > 0x700 && key < 0x780; }
+
   /// For an RPDO of the device. Who asks the device itself is somebody else. What is a guard request can be
   /// for no RPDO, whatever CAN-ID one was given: a restricted one.
   static bool may_ask(Entries::Key key, const Follower& follower) {
-    bool out = key == 0x700U + follower.facts().node.value();
-    if (key > 0x700 && key < 0x780) return out;
+    if (is_guarding(key)) return key == 0x700U + follower.facts().node.value();
+    bool out = false;
     follower.entries().for_holders(key, [&](std::uint16_t index) {
       out = out || (index >= 0x1400 && index <= 0x15FF) || is_tpdo(index);
     });
@@ -90,7 +88,7 @@ class CanIds final : public Monitor {
     const auto id = CanId(frame.id);
     // A node that may be the NMT master commands, guards and looks for others.
     const bool master = (follower.entries().most(0x1F80, 0) & 1U) != 0;
-    const bool guards = frame.remote && !frame.extended && frame.id > 0x700 && frame.id < 0x780;
+    const bool guards = frame.remote && is_guarding(key);
     if (key == canopen::nmt_can_id.value() || key == lss_request || guards) {
       if (master) return;
       return put(commands, strange,

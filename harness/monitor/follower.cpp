@@ -141,6 +141,8 @@ bool Follower::boots_elsewhere() const {
 }
 
 bool Follower::may_be_own(Entries::Key can_id) const {
+  // Whatever a COB-ID was given: a frame with that of NMT is a command or none at all.
+  if (can_id == canopen::nmt_can_id.value()) return false;
   if (entries_.ever_held(can_id)) return true;
   if (can_id > 0x7FF || !names_.test(can_id & 0x7FU)) return false;
   switch (can_id & ~0x7FU) {

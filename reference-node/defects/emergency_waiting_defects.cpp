@@ -270,7 +270,7 @@ DefectTable emergency_waiting_defects() {
        {"OD-1001-05"},
        forgets_errors([](Parts& parts, const std::shared_ptr<Forgetting>& memory) {
          after_writing(0x1003, 0, [memory](Parts&, const std::function<void()>& former) {
-           if (former) former();
+           former();
            memory->due = true;
          })(parts);
        })},

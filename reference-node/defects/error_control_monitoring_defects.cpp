@@ -145,7 +145,7 @@ Change pauses_in_a_transfer() {
 
 Change begins_anew_with(std::uint16_t index) {
   return after_writing(index, 0, [](Parts& parts, const std::function<void()>& former) {
-    if (former) former();
+    former();
     parts.producer.on_boot_up();
   });
 }

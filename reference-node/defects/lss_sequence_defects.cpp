@@ -264,7 +264,7 @@ void tells_the_stored_one(Parts& parts) {
 void is_stored_with_the_parameters(Parts& parts) {
   const auto latest = configured_since_boot_up(parts);
   after_writing(0x1010, 1, [latest](Parts& node, const std::function<void()>& former) {
-    if (former) former();
+    former();
     if (latest->accepted) static_cast<void>(node.lss.keep(*latest->accepted, {}));
   })(parts);
 }

@@ -473,7 +473,7 @@ DefectTable end_rows() {
          if (transfer == nullptr || transfer->in_sub_block() || (frame.data[0] & 1U) == 0) return;
          if ((frame.data[0] & 0xE3U) == 0xC1) return;
          constexpr unsigned unused = 5;  // of a segment with two bytes
-         if (frame.data[0] != 0x80) frame.data[0] = static_cast<std::uint8_t>(0xC1U | (unused << 2U));
+         frame.data[0] = static_cast<std::uint8_t>(0xC1U | (unused << 2U));
        })},
       {"block-download-serves-upload-segments",
        "An upload segment request in place of the end of a block download gets a segment",

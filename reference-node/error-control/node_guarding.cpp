@@ -29,10 +29,6 @@ void NodeGuarding::bind() {
   }
 }
 
-void NodeGuarding::on_heartbeat_written() {
-  if (choices.toggle_begins_anew) toggle_ = false;
-}
-
 bool NodeGuarding::in_use() const {
   const ObjectDictionary& od = device_->dictionary;
   return od.entry(0x100C, 0) != nullptr && od.entry(0x100D, 0) != nullptr &&

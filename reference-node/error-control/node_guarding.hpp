@@ -12,10 +12,6 @@
 
 namespace refnode {
 
-struct GuardingChoices {
-  bool toggle_begins_anew = false;  ///< with 0 whenever 1017h was written, not with a reset alone
-};
-
 /// What CiA 301, 7.2.8.2.2 and 7.2.8.3.2 say of guarding.
 struct GuardingRules {
   /// While the heartbeat is on there is neither node guarding nor life guarding.
@@ -46,15 +42,14 @@ class NodeGuarding {
   void add_objects();
   void bind();
 
-  GuardingChoices choices;
   GuardingRules rules;
   std::function<void()> on_loss;  ///< the master does not guard any more
 
   /// True when the frame was a guard request.
   bool on_remote(const Frame& frame);
   void on_reset();
-  /// 1017h was written.
-  void on_heartbeat_written();
+  /// With 0, as behind a reset.
+  void begin_toggle_anew() { toggle_ = false; }
   void on_time();
   [[nodiscard]] std::optional<BusTime> next_wakeup() const { return due_; }
 

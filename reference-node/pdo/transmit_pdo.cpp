@@ -101,11 +101,11 @@ bool TransmitPdo::on_application_change() {
 }
 
 bool TransmitPdo::shares_an_object_with(const TransmitPdo& other) const {
-  const auto objects = parameters_.mapping();
-  return std::ranges::any_of(other.parameters_.mapping(), [&](const Mapped& mapped) {
-    return std::ranges::any_of(
-        objects, [&](const Mapped& each) { return each.index == mapped.index && each.sub == mapped.sub; });
-  });
+  const auto mine = parameters_.mapping(), others = other.parameters_.mapping();
+  const auto same = [](const Mapped& one, const Mapped& two) {
+    return one.index == two.index && one.sub == two.sub;
+  };
+  return std::ranges::find_first_of(mine, others, same) != mine.end();
 }
 
 bool TransmitPdo::held_back(TransmitCause cause) const {

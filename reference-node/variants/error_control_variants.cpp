@@ -130,12 +130,11 @@ VariantTable error_control_variants() {
        .legal = "EC-NG-03, tolerated: the first response after guarding becomes active (7.2.8.3.2.1)",
        .how =
            [](Parts& node) {
-             node.guarding.choices.toggle_begins_anew = true;
              Entry* entry = node.device.dictionary.entry(0x1017, 0);
              if (entry == nullptr) return;
              entry->written = [&node, former = entry->written] {
                if (former) former();
-               node.guarding.on_heartbeat_written();
+               node.guarding.begin_toggle_anew();
              };
            },
        .excludes = {"1017"},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "result/properties.hpp"
 
 namespace conform::cli {
 
@@ -17,18 +18,37 @@ std::optional<Multiplexer> stored_by(Multiplexer command) {
   return Multiplexer{Index(0x1010), command.sub};
 }
 
-/// A new firmware may have another revision.
-static std::vector<std::pair<Multiplexer, std::uint64_t>> identity_of(const result::RunResult& run) {
-  constexpr auto told = std::to_array<std::pair<std::string_view, std::uint8_t>>(
-      {{"dut.vendor_id", 1}, {"dut.product_code", 2}, {"dut.serial", 4}});
+namespace {
+
+struct Number {
+  std::string_view property, words;
+  std::uint8_t sub;  ///< of 1018h
+};
+
+/// By these a device is known. A new firmware may have another revision.
+constexpr auto known_by = std::to_array<Number>({{"dut.vendor_id", "vendor-ID", 1},
+                                                 {"dut.product_code", "product code", 2},
+                                                 {"dut.serial", "serial number", 4}});
+
+std::vector<std::pair<Multiplexer, std::uint64_t>> identity_of(const result::RunResult& run) {
   std::vector<std::pair<Multiplexer, std::uint64_t>> out;
-  for (const auto& [name, sub] : told) {
-    const auto found = std::ranges::find(run.properties, name, &result::Property::name);
-    if (found == run.properties.end()) continue;
-    if (const auto number = parse_number(found->value))
-      out.emplace_back(Multiplexer{Index(0x1018), SubIndex(sub)}, *number);
+  for (const auto& each : known_by) {
+    const auto* value = result::value_of(run, each.property);
+    const auto number = value == nullptr ? std::nullopt : parse_number(*value);
+    if (number) out.emplace_back(Multiplexer{Index(0x1018), SubIndex(each.sub)}, *number);
   }
   return out;
+}
+
+}  // namespace
+
+std::string device_of(const result::RunResult& run) {
+  std::vector<std::string> out;
+  for (const auto& each : known_by) {
+    if (const auto* value = result::value_of(run, each.property))
+      out.push_back(std::string(each.words) + " " + *value);
+  }
+  return join(out, ", ");
 }
 
 engine::Remains remains_of(const journal::Journal& journal, bool all, bool store) {

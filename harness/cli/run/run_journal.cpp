@@ -6,16 +6,13 @@
 #include <sys/file.h>
 #include <sys/mman.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "base/files.hpp"
+#include "cli/run/remains.hpp"
 #include "cli/run/run_reports.hpp"
 
 namespace conform::cli {
@@ -128,21 +125,6 @@ Result<void> RunJournal::take_place(const std::string& wish, const std::string& 
       return cannot("write", usual);
   }
   return {};
-}
-
-static std::string device_of(const result::RunResult& run) {
-  constexpr auto told =
-      std::to_array<std::pair<std::string_view, std::string_view>>({{"dut.vendor_id", "vendor-ID"},
-                                                                    {"dut.product_code", "product code"},
-                                                                    {"dut.serial", "serial number"}});
-  std::string out;
-  for (const auto& [name, words] : told) {
-    const auto found = std::ranges::find(run.properties, name, &result::Property::name);
-    if (found == run.properties.end()) continue;
-    if (!out.empty()) out += ", ";
-    out.append(words).append(" ").append(found->value);
-  }
-  return out;
 }
 
 void RunJournal::look_at_earlier(const std::string& home) {
