@@ -78,6 +78,16 @@ bool Adapter::refute(const Heard& heard) {
   return false;
 }
 
+bool Adapter::explains_without(const Conversation& conversation, const Played& told) const {
+  const Heard heard{conversation, told.recording};
+  return std::ranges::any_of(chosen_, [&](std::size_t choice) {
+    auto candidate = chosen_;
+    candidate.erase(choice);
+    const auto played = play_again(bench_with(candidate), heard);
+    return played && !played->difference;
+  });
+}
+
 /// Where it agrees with all that was played before.
 bool Adapter::take(const Choices& candidate, const Heard& heard) {
   auto bench = bench_with(candidate);

@@ -47,6 +47,11 @@ class Adapter {
   /// None of them: the device is as the model without a choice that it was wrongly thought to have made.
   [[nodiscard]] std::optional<Choices> learn(const Conversation& conversation, const Played& played);
 
+  /// Whether the model would agree in this conversation if it had not made one of its choices: then the
+  /// device is not blamed for what the choice asks of it. It may have chosen so in one case and not in
+  /// another.
+  [[nodiscard]] bool explains_without(const Conversation& conversation, const Played& played) const;
+
   /// In this conversation the device agreed with its model. It must do so with every later model, too: a
   /// wrong choice explains one conversation by chance, but not all.
   void agreed(const Conversation& conversation, const Played& played);

@@ -252,7 +252,7 @@ std::optional<Assigned> assign_plainly(const Evidence& evidence) {
 std::optional<Assigned> assign(const Evidence& evidence) {
   auto out = assign_plainly(evidence);
   // Where the device fills the bus, everything else on it is late.
-  if (out && evidence.floods()) out->grade = Grade::tolerated;
+  if (out && evidence.floods() && out->grade == Grade::violated) out->grade = Grade::tolerated;
   return out;
 }
 

@@ -60,6 +60,7 @@ struct Evidence {
 enum class Grade : std::uint8_t {
   violated,   ///< no reading of the rule accepts it
   tolerated,  ///< the rule is about this, but lets it pass with a warning, or may do so
+  allowed,    ///< the rule lets it pass without a word: no finding
 };
 
 struct Assigned {
@@ -120,6 +121,9 @@ struct Assigned {
 }
 [[nodiscard]] inline std::optional<Assigned> strains(std::string requirement) {
   return Assigned{std::move(requirement), Grade::tolerated};
+}
+[[nodiscard]] inline std::optional<Assigned> passes(std::string requirement) {
+  return Assigned{std::move(requirement), Grade::allowed};
 }
 
 }  // namespace conform::explore

@@ -195,17 +195,45 @@ bool is_written_again(const Evidence& evidence) {
   });
 }
 
-/// A COB-ID that may be refused, but not for what shows here.
-std::string refused_cob_id(const Action& last) {
+/// What the entry holds, by what was confirmed last, or its default; 0 where nobody knows.
+std::uint32_t held_before(const Evidence& evidence, Multiplexer object) {
+  for (auto i = std::min(evidence.difference().action, evidence.played.answers.size()); i-- > 0;) {
+    const auto& each = evidence.conversation[i];
+    if (each.is_transfer() && each.object == object && evidence.played.answers[i].kind == Kind::confirmed)
+      return static_cast<std::uint32_t>(
+          load_le(each.kind == Action::Kind::upload ? evidence.played.answers[i].data : each.data));
+  }
+  const auto* entry = evidence.words.find(object);
+  return entry != nullptr && entry->default_value ? static_cast<std::uint32_t>(load_le(*entry->default_value))
+                                                  : 0;
+}
+
+/// A COB-ID that may be refused, and for what: bit 30 where the device cannot do what it says, bit 31 where
+/// it has no meaning, a CAN-ID. nullopt: for no reason of these.
+std::optional<Assigned> refused_cob_id(const Evidence& evidence) {
+  const auto& last = evidence.last();
   const auto kind = canopen::cob_id_kind(last.object);
-  if (!kind || last.data.size() != 4) return "";
+  if (!kind || last.data.size() != 4) return std::nullopt;
   const auto value = static_cast<std::uint32_t>(load_le(last.data));
-  if (*kind == CobIdKind::sync && (value & canopen::cob_id::bit31) != 0) return "OD-1005-11";
-  if (*kind == CobIdKind::rpdo && (value & canopen::cob_id::bit30) != 0) return "OD-1400-14";
+  const auto changed = value ^ held_before(evidence, last.object);
+  if ((changed & canopen::cob_id::bit30) != 0) {
+    const bool plainly = is_one_of(evidence.difference().device.code, {abort::invalid_value, abort::general});
+    const auto of_the_bit = [&](std::string rule) {
+      return plainly ? passes(std::move(rule)) : strains(std::move(rule));
+    };
+    const bool sets = (value & canopen::cob_id::bit30) != 0;
+    // Without a producer of it, or without remote frames.
+    if (*kind == CobIdKind::sync && sets) return of_the_bit("OD-1005-03");
+    if (*kind == CobIdKind::time && sets) return of_the_bit("OD-1012-03");
+    if (*kind == CobIdKind::tpdo) return sets ? strains("OD-1800-14") : of_the_bit("OD-1800-14");
+    if (*kind == CobIdKind::rpdo) return strains("OD-1400-14");
+  }
+  if (*kind == CobIdKind::sync && (changed & canopen::cob_id::bit31) != 0) return strains("OD-1005-11");
   const auto id = value & canopen::cob_id::base_id_mask;
   const bool beside =
       canopen::is_restricted(CanId(id + 1)) || (id > 0 && canopen::is_restricted(CanId(id - 1)));
-  return beside && !canopen::is_restricted(CanId(id)) ? "CAN-RID-07" : "";
+  const bool is_new = (changed & canopen::cob_id::base_id_mask) != 0;
+  return is_new && beside && !canopen::is_restricted(CanId(id)) ? strains("CAN-RID-07") : std::nullopt;
 }
 
 std::optional<Assigned> assign_download(const Evidence& evidence) {
@@ -231,7 +259,7 @@ std::optional<Assigned> assign_download(const Evidence& evidence) {
   if (is_written_again(evidence)) return violates("OD-1016-08");
   if (last.object.index == Index(0x1016) && last.object.sub != SubIndex(0) && last.data.size() == 4)
     return strains((load_le(last.data) & 0xFFFFU) == 0 ? "OD-1016-07" : "OD-1016-05");
-  if (auto cob_id = refused_cob_id(last); !cob_id.empty()) return strains(std::move(cob_id));
+  if (auto cob_id = refused_cob_id(evidence)) return cob_id;
   // It is described as one that can be written.
   if (device.code == abort::read_only && entry->writable() && !entry->access_open)
     return violates(rule.empty() ? "OD-ACC-04" : rule);

@@ -24,6 +24,14 @@ bool is_repeated(const Evidence& evidence) {
   return out;
 }
 
+/// Somebody has sent an RPDO, on whatever CAN-ID of those that PDOs have by default.
+bool receives_pdo(const Evidence& evidence) {
+  return evidence.some([](const Action& each) {
+    return each.kind == Action::Kind::frame && !each.frame.remote && each.frame.id >= 0x180 &&
+           each.frame.id < 0x580;
+  });
+}
+
 bool guarding_runs(const Evidence& evidence) {
   return evidence.wrote(0x100C, 0).has_value() || evidence.wrote(0x100D, 0).has_value();
 }
@@ -142,7 +150,8 @@ std::optional<Assigned> assign_emcy(const Evidence& evidence) {
     return violates(requested ? "EC-NG-07" : "EC-NG-08");
   }
   if (code == 0x8210) return missing ? violates("PDO-RX-06") : strains("PDO-RX-06");
-  if (code == 0x8220) return strains("PDO-RX-07");
+  // Behind an RPDO that is too long it may be sent or not.
+  if (code == 0x8220) return receives_pdo(evidence) ? passes("PDO-RX-07") : strains("PDO-RX-07");
   if (code == 0x8240 && missing && evidence.wrote(0x1005, 0)) return violates("OD-1005-07");
   if (code == 0x8240) return violates(missing ? "SYNC-CON-05" : "SYNC-CON-03");
   if (code == 0x8250) return violates(missing || has_deadline(evidence) ? "PDO-RX-14" : "PDO-RX-15");

@@ -86,7 +86,7 @@ class Duel {
       out.emplace();
       out->what = What::answer;
     } else if (!out && !both_silent && answer_of_device.kind == answer_of_model.kind &&
-               is_late(answer_of_device.taken - answer_of_model.taken)) {
+               is_late(answer_of_device.answered - answer_of_model.answered)) {
       out.emplace();
       out->what = What::late;
     }

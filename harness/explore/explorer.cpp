@@ -35,6 +35,20 @@ std::vector<Conversation> introductions(NodeId node) {
           {to(0x82), wait(300ms), alive, to(0x81), wait(300ms), alive, to(2), wait(200ms), to(1), alive}};
 }
 
+/// What the communication entries hold from power-on, some at a time: no choice that changes one of those
+/// values is the device's.
+std::vector<Conversation> inventory(const Vocabulary& words) {
+  constexpr std::size_t at_a_time = 24;
+  std::vector<Conversation> out;
+  for (const auto& entry : words.entries) {
+    const auto index = entry.mux.index.value();
+    if (index < 0x1000 || index > 0x1FFF || !entry.readable()) continue;
+    if (out.empty() || out.back().size() >= at_a_time) out.emplace_back();
+    out.back().push_back(upload(entry.mux));
+  }
+  return out;
+}
+
 /// With time behind each NMT command for the device to obey it, and before the action at which the difference
 /// shows, for whatever it does by itself.
 Conversation with_pauses(const Conversation& conversation, NodeId node) {
@@ -110,6 +124,27 @@ class Search {
       }
       if (!played->difference && !played->distrusted) adapter_.agrees_always(each, *played);
     }
+    return take_inventory();
+  }
+
+  Result<void> take_inventory() {
+    auto left = inventory(words_);
+    while (!left.empty()) {
+      const auto each = std::move(left.back());
+      left.pop_back();
+      if (!may(each) || (is_real() && options_.is_over && options_.is_over())) continue;
+      auto played = play(bench_, each, true);
+      if (!played) return std::unexpected(played.error());
+      if (played->distrusted) continue;
+      if (!played->difference) {
+        adapter_.agrees_always(each, *played);
+        continue;
+      }
+      // What the model holds otherwise is left out, and the search will meet it.
+      const auto agreed = static_cast<std::ptrdiff_t>(played->difference->action);
+      if (agreed > 0) left.emplace_back(each.begin(), each.begin() + agreed);
+      if (each.begin() + agreed + 1 < each.end()) left.emplace_back(each.begin() + agreed + 1, each.end());
+    }
     return {};
   }
 
@@ -144,6 +179,9 @@ class Search {
     return guide_.like_kept(chances_, std::move(drawn), 2 * options_.episode_length);
   }
 
+  [[nodiscard]] static bool blames(const Finding& finding) {
+    return finding.assigned && finding.assigned->grade == Grade::violated;
+  }
   [[nodiscard]] bool is_real() const { return static_cast<bool>(bench_.place); }
   [[nodiscard]] bool may(const Conversation& conversation) const {
     return !options_.may || std::ranges::all_of(conversation, options_.may);
@@ -232,13 +270,14 @@ class Search {
     } else {
       finding.assigned = assign({words_, finding.conversation, finding.played});
       // Choices of which none explains the next difference may have been the wrong ones.
-      if (may_be_chosen && finding.assigned && adapter_.chosen().size() > most_trusted)
-        finding.assigned->grade = Grade::tolerated;
-      if (is_real() && finding.assigned && !in_good_time && may_be_chosen)
-        finding.assigned->grade = Grade::tolerated;
+      const bool doubtful =
+          adapter_.chosen().size() > most_trusted || (is_real() && !in_good_time) ||
+          (blames(finding) && adapter_.explains_without(finding.conversation, finding.played));
+      if (may_be_chosen && blames(finding) && doubtful) finding.assigned->grade = Grade::tolerated;
     }
     step_round(finding);
-    if (finding.assigned && is_known(*finding.assigned)) {
+    const bool is_allowed = finding.assigned && finding.assigned->grade == Grade::allowed;
+    if (is_allowed || (finding.assigned && is_known(*finding.assigned))) {
       ++out_.known;
       return false;
     }

@@ -246,8 +246,9 @@ std::string came_text(const Finding& finding, const Vocabulary& words) {
   switch (difference.what) {
     case What::answer: return difference.device.text();
     case What::late:
-      return fmt::format("{} after {}", difference.device.text(),
-                         to_string(std::chrono::floor<std::chrono::microseconds>(difference.device.taken)));
+      return fmt::format(
+          "{} after {}", difference.device.text(),
+          to_string(std::chrono::floor<std::chrono::microseconds>(difference.device.answered)));
     case What::missing: return "nothing";
     case What::surplus:
     case What::other_data: return describe(difference.came, words.node);

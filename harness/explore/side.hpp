@@ -29,6 +29,9 @@ struct Answer {
   bool size_told = true;  ///< of an upload; else the last of the four bytes may be no data
   std::string detail{};   ///< of a violation
   Duration taken{};       ///< from the action's begin to its end
+  /// From the begin to the last frame that the device answered with: what is waited for in vain behind that
+  /// is not its time.
+  Duration answered{};
 
   /// "confirmed, 91 01", "abort 0602 0000h (object does not exist)", "no answer"
   [[nodiscard]] std::string text() const;

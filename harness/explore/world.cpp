@@ -178,6 +178,7 @@ Answer World::perform(const Action& action, Duration patience) {
     case Action::Kind::wait: run_until(now() + action.time); break;
   }
   out.taken = now() - begin;
+  out.answered = replied_ < begin ? out.taken : replied_ - begin;
   return out;
 }
 
@@ -191,6 +192,7 @@ Answer World::ask(const Action& action, Duration patience) {
       continue;
     }
     out.kind = Answer::Kind::replied;
+    replied_ = event->time;
     const auto bytes = event->frame.bytes();
     out.data.assign(bytes.begin(), bytes.end());
     if (const auto abort = canopen::decode_abort(bytes)) {
@@ -222,6 +224,7 @@ Answer World::transfer(const Action& action, Duration patience) {
       ++unsent;
     }
     const auto event = next(since + (client->fell_silent() ? after_fault : patience));
+    if (event && is_reply(*event)) replied_ = event->time;
     if (!event) {
       if (client->ended()) break;
       client->on_silence();

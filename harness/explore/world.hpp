@@ -62,6 +62,7 @@ class World final : public Side {
   bool watched_;
   std::vector<can::CapturedFrame> trace_;
   std::vector<Unasked> unasked_;
+  BusTime replied_{};  ///< when the last frame came that answers a transfer or a request
   std::uint8_t last_command_ = 0x80;
   std::string broken_;
   std::optional<Error> fault_;

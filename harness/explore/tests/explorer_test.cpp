@@ -208,3 +208,37 @@ TEST_CASE("four bytes of a server that tells no length may be fewer") {
   long_one.size_told = true;
   CHECK_FALSE(told.same_as(long_one));
 }
+
+TEST_CASE("what is waited for behind the abort of a former transfer is not the time of the device") {
+  // It names the transfer that it ends, so that the answer to the new request is waited for in vain.
+  auto bench = bench_of({});
+  bench.device = reference_node({}, {"sdo-busy-names-transfer"});
+  bench.model = bench.device;
+  auto talk = upload({Index(0x1008), SubIndex(0)}, Transfer::block);
+  talk.fault = "new initiate after segment 1";
+  const Conversation conversation{talk};
+  const auto played = play(bench, conversation);
+  REQUIRE(played);
+  REQUIRE(played->answers.size() == 1);
+  const auto& answer = played->answers.front();
+  CHECK(answer.kind == Answer::Kind::aborted);
+  CHECK(answer.taken > std::chrono::seconds(1));
+  CHECK(answer.answered < std::chrono::milliseconds(20));
+}
+
+TEST_CASE("no choice is learnt that changes what the device was seen to hold") {
+  // Silence where a TPDO is due would be explained by a device that has none by default; this one has.
+  auto bench = bench_of({"nmt-start-ignored"});
+  SearchOptions options;
+  options.most_actions = 5000;
+  options.most_findings = 6;
+  options.offer = offer_of({"tpdos-not-valid"});
+  auto words = words_of_the_standard();
+  device::Entry cob_id;
+  cob_id.mux = {Index(0x1800), SubIndex(1)};
+  cob_id.claimed = true;
+  words.entries.push_back(cob_id);
+  const auto result = search(bench, words, options);
+  REQUIRE(result);
+  CHECK(result->chosen.empty());
+}

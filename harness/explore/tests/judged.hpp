@@ -63,7 +63,8 @@ inline std::optional<Assigned> judged_frames(const Conversation& talk, Differenc
 
 inline std::string text_of(const std::optional<Assigned>& assigned) {
   if (!assigned) return "";
-  return assigned->requirement + (assigned->grade == Grade::violated ? " violated" : " tolerated");
+  constexpr const char* words[] = {" violated", " tolerated", " allowed"};
+  return assigned->requirement + words[static_cast<std::size_t>(assigned->grade)];
 }
 
 }  // namespace conform::explore

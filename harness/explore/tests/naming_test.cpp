@@ -398,3 +398,27 @@ TEST_CASE("a guard request of the device is a command, another remote frame asks
   CHECK(text_of(judged_frames(talk, What::surplus, can::remote_frame(CanId(0x181), 8), nothing)) ==
         "CAN-TRF-04 tolerated");
 }
+
+TEST_CASE("a bit of a COB-ID that the device cannot serve may be refused") {
+  const auto refused = aborted(abort::invalid_value);
+  const auto named = [&](std::uint16_t index, std::uint8_t sub, std::uint32_t value, const Answer& answer) {
+    Bytes data(4);
+    store_le(data, value);
+    return text_of(judged({download(at(index, sub), data)}, answer, confirmed()));
+  };
+  // To produce, and remote frames: no word about the CAN-ID, which stays as it is.
+  CHECK(named(0x1005, 0, 0x4000'0080, refused) == "OD-1005-03 allowed");
+  CHECK(named(0x1005, 0, 0x4000'0080, aborted(abort::unsupported_access)) == "OD-1005-03 tolerated");
+  CHECK(named(0x1012, 0, 0x4000'0100, refused) == "OD-1012-03 allowed");
+  CHECK(named(0x1400, 1, 0x4000'0205, refused) == "OD-1400-14 tolerated");
+  // Another CAN-ID.
+  CHECK(named(0x1005, 0, 0x0000'0081, refused) == "OD-1005-06 tolerated");
+}
+
+TEST_CASE("EMCY 8220h behind an RPDO that is too long is nothing to speak of") {
+  const auto rpdo = frame(can::data_frame(CanId(0x205), {1, 2, 3, 4, 5, 6, 7, 8}));
+  CHECK(text_of(judged_frames({nmt(NodeId(5), 1), rpdo}, What::surplus, emcy(0x8220), {})) ==
+        "PDO-RX-07 allowed");
+  CHECK(text_of(judged_frames({nmt(NodeId(5), 1)}, What::surplus, emcy(0x8220), {})) ==
+        "PDO-RX-07 tolerated");
+}

@@ -111,7 +111,7 @@ TEST_CASE("an answer that is only late is asked for in time") {
   finding.assigned = Assigned{"SDO-GEN-18", Grade::tolerated};
   auto& difference = finding.played.difference.emplace();
   difference.what = Difference::What::late;
-  difference.device = {.kind = Answer::Kind::confirmed, .taken = 300ms};
+  difference.device = {.kind = Answer::Kind::confirmed, .answered = 300ms};
   difference.model = {.kind = Answer::Kind::confirmed};
   CHECK(becomes_scenario(finding, words_of_the_standard()));
   CHECK(scenario_file({&finding, 1}, words_of_the_standard(), "x")
