@@ -11,7 +11,7 @@ namespace {
 /// 0 when there is no placeholder of this index.
 unsigned placeholder_bits(const PdoTerms& terms, std::uint16_t index) {
   if (terms.direction != PdoDirection::receive) return 0;
-  if (index == 0 || index >= terms.placeholders.size() || !terms.placeholders[index]) return 0;
+  if (index == 0 || index >= terms.placeholders.size() || !terms.placeholders.at(index)) return 0;
   const auto type = static_cast<DataType>(index);
   return type == DataType::boolean ? 1 : static_cast<unsigned>(fixed_size(type) * 8);
 }

@@ -304,7 +304,7 @@ void SdoServer::on_time() {
   auto* receiving = std::get_if<BlockDownload>(&transfer_);
   if (receiving != nullptr) {
     const auto due = receiving->acknowledge_at();
-    if (due && *due <= device_->now) {
+    if (due && due.value() <= device_->now) {
       exchange.step = SdoStep::block_download_ack;
       exchange.mux = receiving->mux();
       exchange.sequence = receiving->sequence();
