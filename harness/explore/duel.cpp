@@ -71,7 +71,9 @@ class Duel {
 
   std::optional<Difference> perform(const Action& action, std::size_t number) {
     affairs_.note(action);
-    const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : model_patience);
+    // A model that only takes longer than we wait for it is no explanation of a device that says nothing.
+    const auto patience = std::max(model_patience, device_.will_be_silent());
+    const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : patience);
     const bool silent = answer_of_model.kind == Answer::Kind::silence;
     const auto answer_of_device = device_.perform(action, !silent                ? device_patience
                                                           : action.fault.empty() ? silent_patience_

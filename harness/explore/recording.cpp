@@ -21,6 +21,12 @@ Answer Recorded::perform(const Action&, Duration) {
   return recording_.answers[next_answer_++];
 }
 
+Duration Recorded::will_be_silent() const {
+  if (next_answer_ == recording_.answers.size()) return {};
+  const auto& answer = recording_.answers[next_answer_];
+  return answer.kind == Answer::Kind::silence ? answer.taken : Duration{};
+}
+
 /// Behind its end nobody listened: it says nothing, and nothing of it is late.
 void Recorded::run_until(BusTime time) { hear(std::min(time, recording_.end)); }
 

@@ -23,6 +23,7 @@ class Recorded final : public Side {
  public:
   explicit Recorded(const Recording& recording);
   Answer perform(const Action& action, Duration patience) override;
+  [[nodiscard]] Duration will_be_silent() const override;
   void run_until(BusTime time) override;
   [[nodiscard]] BusTime now() const override { return now_; }
   [[nodiscard]] std::vector<Unasked>& unasked() override { return came_; }

@@ -54,6 +54,8 @@ class Side {
 
   /// Does it and waits for the answer, for at most `patience` of each frame.
   virtual Answer perform(const Action& action, Duration patience) = 0;
+  /// How long the next action is known to be answered by nothing; zero where nobody knows.
+  [[nodiscard]] virtual Duration will_be_silent() const { return {}; }
   /// Lets time pass; at once when that is over already.
   virtual void run_until(BusTime time) = 0;
   [[nodiscard]] virtual BusTime now() const = 0;

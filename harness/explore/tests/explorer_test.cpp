@@ -242,3 +242,23 @@ TEST_CASE("no choice is learnt that changes what the device was seen to hold") {
   REQUIRE(result);
   CHECK(result->chosen.empty());
 }
+
+TEST_CASE("a device that says nothing is not explained by one that only takes long") {
+  using namespace std::chrono_literals;
+  const Conversation talk{download({Index(0x1017), SubIndex(0)}, {100, 0}, Transfer::block)};
+  const auto offer = offer_of({"sdo-block-download-erases"});
+  auto bench = bench_of({});
+  Adapter adapter(bench, offer);
+  auto played = play(bench, talk, true);
+  REQUIRE(played);
+  auto silence = *played->recording;
+  silence.answers = {{.kind = Answer::Kind::silence, .taken = 3s}};
+  silence.ends = {silence.booted + 3s};
+  silence.end = silence.booted + 3300ms;
+  played->recording = std::make_shared<const Recording>(silence);
+  const auto held = play(bench, talk, silence);
+  REQUIRE(held);
+  REQUIRE(held->difference);
+  played->difference = held->difference;
+  CHECK_FALSE(adapter.learn(talk, *played).has_value());
+}
