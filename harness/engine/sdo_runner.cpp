@@ -27,6 +27,12 @@ constexpr Duration per_answer = std::chrono::milliseconds(280);
 /// ... or as quick as they are, up to this.
 constexpr Duration longest_patience = std::chrono::minutes(3);
 
+/// A server that has ended a transfer may answer each segment that was on its way, one behind the other, and
+/// what is asked next would meet these answers. They are heard out until nothing comes for so long, ...
+constexpr Duration settled = std::chrono::milliseconds(10);
+/// ... but no longer than this.
+constexpr Duration longest_backlog = std::chrono::seconds(2);
+
 class Runner {
  public:
   Runner(Recorder& recorder, std::span<SdoRun> runs) : recorder_(recorder), runs_(runs) {}
@@ -109,13 +115,24 @@ class Runner {
 
   void close(SdoRun& run) {
     const auto& result = run.client->result();
-    if (!run.listens_after || result.abandoned || result.kind == Kind::silence) {
-      run.over = true;
-    } else if (!run.quiet_until) {
-      run.quiet_until = std::max(run.since, run.last_request) + run.wait;
+    const auto last = std::max(run.since, run.last_request);
+    const bool is_refused = result.kind == Kind::aborted || result.kind == Kind::violation;
+    if (run.listens_after && !result.abandoned && result.kind != Kind::silence) {
+      if (!run.quiet_until) run.quiet_until = last + run.wait;
+    } else if (is_refused && run.unanswered > 0) {
+      if (!run.quiet_until) run.quiet_until = last + settle_time(run);
+    } else {
+      finish(run);
     }
-    if (run.over) run.result = run.client->take();
+    if (run.quiet_until && !run.gives_up_at) run.gives_up_at = *run.quiet_until + longest_backlog;
   }
+
+  static void finish(SdoRun& run) {
+    run.over = true;
+    run.result = run.client->take();
+  }
+
+  static Duration settle_time(const SdoRun& run) { return std::max(settled, 2 * run.slowest); }
 
   void look_at(std::size_t index) {
     const auto& captured = recorder_.capture().frames()[index];
@@ -127,7 +144,10 @@ class Runner {
         --in_flight_;
         if (!run.first_request) run.first_request = index;
         run.last_request = run.since = run.not_sent_since = captured.time;
-        if (captured.frame.size() > 0 && captured.frame.data[0] != 0x80) run.asked_at = captured.time;
+        if (captured.frame.size() > 0 && captured.frame.data[0] != 0x80) {
+          run.asked_at = captured.time;
+          ++run.unanswered;
+        }
         run.looked_again = false;
         if (!run.client->ended()) run.decisive = index;
         const auto overtook = std::exchange(run.overtook, std::nullopt);
@@ -145,9 +165,15 @@ class Runner {
     const auto bytes = captured.frame.bytes();
     if (run.client->ended()) {
       // It is over when our last frame is on the bus; what came until then says nothing.
+      run.unanswered -= run.unanswered > 0 ? 1 : 0;
       if (run.in_flight > 0) return;
-      ++run.surplus;
-      if (bytes.size() == 8 && bytes[0] == 0x80) ++run.answers;
+      if (run.listens_after) {
+        ++run.surplus;
+        if (bytes.size() == 8 && bytes[0] == 0x80) ++run.answers;
+      }
+      if (run.quiet_until && run.unanswered > 0)
+        run.quiet_until =
+            std::min(std::max(*run.quiet_until, captured.time + settle_time(run)), *run.gives_up_at);
       return;
     }
     if (run.stale && !run.client->settled() && bytes.size() >= 4) {
@@ -166,6 +192,7 @@ class Runner {
     }
     run.stretched = false;
     run.since = std::max(run.since, captured.time);
+    run.unanswered = run.client->ended() && run.unanswered > 0 ? run.unanswered - 1 : 0;
     ++run.heard;
     run.decisive = index;
   }
@@ -187,8 +214,7 @@ class Runner {
       return {};
     }
     if (run.quiet_until) {
-      run.over = true;
-      run.result = run.client->take();
+      finish(run);
       return {};
     }
     const bool awaits_an_answer = !run.client->fell_silent() && !run.listens_after;

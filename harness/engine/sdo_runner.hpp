@@ -43,6 +43,8 @@ struct SdoRun {
   bool looked_again = false;
   std::uint64_t surplus = 0, answers = 0;  ///< frames of the server after the end, aborts among them
   std::optional<BusTime> quiet_until;
+  std::size_t unanswered = 0;          ///< frames on the bus since the server's last one
+  std::optional<BusTime> gives_up_at;  ///< what the server still has to say to those is waited for until then
 };
 
 /// Error: the environment failed. All runs are over on return.

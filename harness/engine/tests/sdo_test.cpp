@@ -150,6 +150,42 @@ TEST_CASE("what a server says after the client's abort is counted") {
   CHECK(out.only().verdict == Verdict::pass);
 }
 
+TEST_CASE("what a server still says to the segments behind its abort is heard out before the next request") {
+  // Its answers wait behind another frame of its own until the client's segments leave room on the bus.
+  ScriptedDevice device;
+  std::optional<BusTime> free_at;
+  std::size_t answers = 0;
+  device.before = [&](ScriptedDevice& on, const can::Frame& frame, BusTime now) {
+    const auto say = [&](std::initializer_list<std::uint8_t> bytes) {
+      on.send_at(*free_at + ++answers * 1ms, can::data_frame(CanId(0x581), bytes));
+    };
+    if ((frame.data[0] & 0xE1U) == 0xC0 && frame.data[1] == 0x10) {
+      on.send(can::data_frame(CanId(0x581), {0xA0, 0x10, 0x20, 0, 127, 0, 0, 0}));
+      free_at = now + 60ms;
+      return true;
+    }
+    if (!free_at || answers > 127) return false;
+    if (answers == 127) {
+      say({0x43, 0x00, 0x10, 0, 0x91, 1, 0, 0});
+    } else if (answers == 0) {
+      say({0x80, 0x10, 0x20, 0, 0x12, 0, 0x07, 0x06});
+    } else {
+      say({0x80, 0, 0, 0, 0x01, 0, 0x04, 0x05});
+    }
+    return true;
+  };
+  const auto out = play(device, steps_of(R"(
+      - download: {object: 2010h:00, pattern: 889 bytes, transfer: block}
+        either: [{if: ok}, {if: abort any}]
+      - talk: "> 600+N: 40 00 10 00 00 00 00 00"
+        checks: T-MUST
+        either:
+          - talk: "< 580+N: 43 00 10 00 .."
+)"));
+  INFO(out.only().reason);
+  CHECK(out.only().verdict == Verdict::pass);
+}
+
 TEST_CASE("after the client fell silent the next step finds the channel as it is") {
   BlockDevice device;
   device.server.data = Bytes(300, 7);
