@@ -3,7 +3,9 @@
 // with frames of others on its own CAN-IDs, and with 29-bit identifiers.
 #include <chrono>
 #include <deque>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "defects/cob_ids.hpp"
@@ -98,6 +100,24 @@ Change server_hangs_on_its_own_response() {
   };
 }
 
+/// The list of the nodes that 1016h names bites its tail when an entry gets another one once more.
+void server_hangs_on_renamed_nodes(Parts& parts) {
+  const auto renamed = std::make_shared<std::map<std::uint8_t, std::pair<std::uint64_t, int>>>();
+  after_writing_all(0x1016, [renamed](Parts& node, const std::function<void()>& former, std::uint8_t sub) {
+    const std::uint64_t named = node.device.dictionary.number(0x1016, sub) >> 16U & 0x7FU;
+    auto& [last, times] = (*renamed)[sub];
+    if (last != 0 && named != 0 && named != last) ++times;
+    if (named != 0) last = named;
+    former();
+  })(parts);
+  with_boot_up([renamed](Parts&) { renamed->clear(); })(parts);
+  deaf_to([renamed](Parts& whole, const Frame& frame) {
+    int times = 0;
+    for (const auto& [sub, each] : *renamed) times += each.second;
+    return times > 2 && has_own_id(whole, frame, 0x600);
+  })(parts);
+}
+
 constexpr std::uint32_t frame_bit = 0x2000'0000;
 
 Change takes_frame_bit_of_tpdos() { return decided(of_tpdo, &CobIdRules::frame_bit_allowed, true); }
@@ -170,6 +190,10 @@ DefectTable device_load_defects() {
        "A frame with the CAN-ID of its own heartbeat stops the device",
        {"CAN-ID-02"},
        stops_when_its_heartbeat_is_heard()},
+      {"1016-renamed-nodes-hang-sdo",
+       "Entries of 1016h that have named another node three times hang the SDO server",
+       {"OD-1016-05"},
+       Change(server_hangs_on_renamed_nodes)},
       {"own-response-heard-hangs-sdo",
        "A frame with the CAN-ID of its own SDO response makes the SDO server hang until the next NMT command",
        {"CAN-ID-02"},

@@ -2,6 +2,7 @@
 // Defects of the heartbeat producer (1017h) and consumer (1016h).
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -35,6 +36,27 @@ void starts_with_write_only(Parts& parts) {
   parts.device.outbox.add_filter([written](const FilterContext& context, std::vector<Outgoing>& frames) {
     if (context.service == Service::boot_up) *written = false;
     if (context.service == Service::heartbeat && !*written) frames.clear();
+  });
+}
+
+/// An event timer that is written where there was none takes the place of the heartbeat's.
+void ends_with_an_event_timer(Parts& parts) {
+  const auto ended = std::make_shared<bool>(false);
+  after_writing(0x1017, 0, [ended](Parts&, const Written& former) {
+    *ended = false;
+    former();
+  })(parts);
+  with_boot_up([ended](Parts&) { *ended = false; })(parts);
+  const auto times = std::make_shared<std::map<std::uint16_t, Duration>>();
+  parts.pdos.tpdo.rules.takes_effect.replace(
+      [ended, times, &device = parts.device](const auto& former, const PdoParameters& pdo) {
+        const Duration before = std::exchange((*times)[pdo.number()], pdo.event_timer());
+        if (device.state == NmtState::operational && before == Duration::zero() && pdo.event_timer() > before)
+          *ended = true;
+        return former(pdo);
+      });
+  parts.device.outbox.add_filter([ended](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::heartbeat && *ended) frames.clear();
   });
 }
 
@@ -173,6 +195,10 @@ DefectTable error_control_heartbeat_defects() {
        "The heartbeat comes at half the rate of 1017h",
        {"OD-1017-05", "EC-HBP-01"},
        lasts(200, of_producer, &HeartbeatProducerRules::period)},
+      {"heartbeat-ends-with-an-event-timer",
+       "An event timer that is written in Operational where there was none ends the heartbeat until 1017h is written",
+       {"EC-HBP-01"},
+       Change(ends_with_an_event_timer)},
       {"heartbeat-behind-tpdos",
        "Each TPDO is followed by a heartbeat while there are heartbeats",
        {"EC-HBP-01"},

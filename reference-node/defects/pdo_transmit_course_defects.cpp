@@ -55,6 +55,59 @@ void type_leaves_the_timer(Parts& parts) {
   });
 }
 
+/// Parameters that are written in the inhibit time take the alarm that would end it with them.
+void dies_in_the_inhibit_time(Parts& parts) {
+  struct Memory {
+    std::optional<BusTime> sent;
+    bool dead = false;
+  };
+  const auto memory = while_it_runs<Memory>(parts);
+  auto& rules = parts.pdos.tpdo.rules;
+  rules.carried.replace(
+      [memory, &device = parts.device](const auto& former, const PdoParameters& pdo, const Bytes& due) {
+        (*memory)[pdo.number()].sent = device.now;
+        return former(pdo, due);
+      });
+  rules.takes_effect.replace([memory, &device = parts.device](const auto& former, const PdoParameters& pdo) {
+    Memory& of_this = (*memory)[pdo.number()];
+    if (of_this.sent && device.now < *of_this.sent + pdo.inhibit_time()) of_this.dead = true;
+    return former(pdo);
+  });
+  const auto lives = [memory](const auto& former, const PdoParameters& pdo) {
+    return !(*memory)[pdo.number()].dead && former(pdo);
+  };
+  rules.has_event_timer.replace(lives);
+  rules.sent_with_event.replace(lives);
+}
+
+/// An event timer that is written in Operational runs whatever the type is.
+void written_timer_runs(Parts& parts) {
+  struct Memory {
+    std::optional<Duration> time;
+    bool runs = false;
+  };
+  const auto memory = while_it_runs<Memory>(parts);
+  parts.pdos.tpdo.rules.has_event_timer.replace([memory](const auto& former, const PdoParameters& pdo) {
+    Memory& of_this = (*memory)[pdo.number()];
+    of_this.runs = of_this.runs || (of_this.time && *of_this.time != pdo.event_timer());
+    of_this.time = pdo.event_timer();
+    return of_this.runs || former(pdo);
+  });
+}
+
+/// Each time that Operational is entered brings one more event timer, and none ends.
+void one_timer_for_each_start(Parts& parts) {
+  const auto starts = std::make_shared<int>(0);
+  ahead_of_state_change([starts](Parts& node) {
+    if (node.device.state == NmtState::operational) ++*starts;
+  })(parts);
+  with_boot_up([starts](Parts&) { *starts = 0; })(parts);
+  parts.pdos.tpdo.parameters.rules.event_timer.replace(
+      [starts](const auto& former, const PdoParameters& pdo, std::int64_t value) {
+        return former(pdo, value) / std::max(1, *starts);
+      });
+}
+
 void no_timer_behind_stopped(Parts& parts) {
   const auto stopped = std::make_shared<bool>(false);
   ahead_of_state_change([stopped](Parts& node) {
@@ -329,6 +382,18 @@ DefectTable pdo_transmit_course_defects() {
        "A synchronous type that is written in Operational leaves the event timer running",
        {"PDO-TX-11"},
        Change(type_leaves_the_timer)},
+      {"tpdo-dead-behind-a-write-in-the-inhibit-time",
+       "A TPDO whose parameters are written in its inhibit time is not sent any more until the state changes",
+       {"PDO-TX-09"},
+       Change(dies_in_the_inhibit_time)},
+      {"tpdo-event-timer-written-runs-with-any-type",
+       "An event timer that is written in Operational sends a synchronous TPDO",
+       {"PDO-TX-11"},
+       Change(written_timer_runs)},
+      {"tpdo-event-timer-for-each-start",
+       "A TPDO has one more event timer each time that Operational is entered",
+       {"PDO-TX-09"},
+       Change(one_timer_for_each_start)},
       {"tpdo-event-timer-dead-behind-stopped",
        "When Operational is entered from Stopped the event timer of a TPDO is not started",
        {"PDO-TX-09"},
