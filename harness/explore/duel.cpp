@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "base/text.hpp"
@@ -71,6 +72,8 @@ class Duel {
 
   std::optional<Difference> perform(const Action& action, std::size_t number) {
     affairs_.note(action);
+    const bool acts = action.kind != Action::Kind::wait;
+    if (acts) acted_.push_back(device_.now());
     // A model that only takes longer than we wait for it is no explanation of a device that says nothing.
     const auto patience = std::max(model_patience, device_.will_be_silent());
     const auto answer_of_model = model_.perform(action, model_.stopped() ? stopped_patience : patience);
@@ -78,6 +81,7 @@ class Duel {
     const auto answer_of_device = device_.perform(action, !silent                ? device_patience
                                                           : action.fault.empty() ? silent_patience_
                                                                                  : model_patience);
+    if (acts) acted_.push_back(device_.now());
     // Where both say nothing, it is only we who wait longer for the one.
     const bool both_silent = silent && answer_of_device.kind == Answer::Kind::silence;
     if (!both_silent) drift_ += std::chrono::abs(answer_of_device.taken - answer_of_model.taken);
@@ -201,6 +205,7 @@ class Duel {
       of_device_.erase(partner);
       if (!agree(device.frame, each.frame)) return differs(device, each);
       if (is_apart(device, each)) return off_time(device, each);
+      ++paired_[each.frame.id];
     }
     return overdue();
   }
@@ -215,7 +220,10 @@ class Duel {
     }
     const auto other = *partner;
     waiting.erase(partner);
-    if (agree(each.frame, other.frame) && !is_apart(each, other)) return std::nullopt;
+    if (agree(each.frame, other.frame) && !is_apart(each, other)) {
+      ++paired_[each.frame.id];
+      return std::nullopt;
+    }
     return other;
   }
 
@@ -247,8 +255,24 @@ class Duel {
     return out;
   }
 
+  /// Of frames that come again and again one more or less where something was done is a matter of when it was
+  /// done, which nobody knows to less than the jitter. The next one is not.
+  [[nodiscard]] bool is_on_the_edge(const Unasked& each) const {
+    constexpr unsigned again = 2;
+    const auto paired = paired_.find(each.frame.id);
+    if (jitter_ == Duration(0) || paired == paired_.end() || paired->second < again) return false;
+    return std::ranges::any_of(acted_, [&](BusTime time) {
+      return each.time >= time - tolerance - jitter_ && each.time <= time + tolerance + jitter_;
+    });
+  }
+
   std::optional<Difference> overdue() {
     const auto too_late = [&](const Unasked& each) { return each.time + allowance() < device_.now(); };
+    if (jitter_ > Duration(0)) {
+      const auto passes = [&](const Unasked& each) { return too_late(each) && is_on_the_edge(each); };
+      std::erase_if(of_model_, passes);
+      std::erase_if(of_device_, passes);
+    }
     if (const auto due = std::ranges::find_if(of_model_, too_late); due != of_model_.end()) {
       Difference out;
       out.what = What::missing;
@@ -274,7 +298,9 @@ class Duel {
   OwnAffairs affairs_;
   Answer answer_, due_;
   std::vector<Unasked> of_device_, of_model_;  ///< waiting for their partners
-  Duration drift_{};  ///< how much more or less time the answers of the device have taken, in all
+  std::map<std::uint32_t, unsigned> paired_;   ///< frames of each CAN-ID that both have sent
+  std::vector<BusTime> acted_;  ///< when the actions began and ended, on the clock of the device
+  Duration drift_{};            ///< how much more or less time the answers of the device have taken, in all
   std::size_t counted_ = 0;
 };
 

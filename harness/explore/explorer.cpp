@@ -64,12 +64,12 @@ Conversation with_pauses(const Conversation& conversation, NodeId node) {
   return out;
 }
 
-/// The same with other waits: longer ones, or none that are long.
-Conversation with_waits(const Conversation& conversation, Duration more) {
-  using namespace std::chrono_literals;
-  auto out = conversation;
-  for (auto& each : out) {
-    if (each.kind == Action::Kind::wait) each.time = std::max<Duration>(1ms, each.time + more);
+/// The same with a little more time between any two actions.
+Conversation with_time_between(const Conversation& conversation, Duration more) {
+  Conversation out;
+  for (const auto& each : conversation) {
+    if (!out.empty()) out.push_back(wait(more));
+    out.push_back(each);
   }
   return out;
 }
@@ -228,12 +228,11 @@ class Search {
       in_good_time = shows(patient);
       if (in_good_time) shrunk.conversation = std::move(patient);
     }
-    // On a real bus nobody knows to some milliseconds when anything happened: what shows only if the times
-    // are just so is too near to the edge to blame a device for it.
+    // On a real bus nobody knows to some milliseconds when anything happened: what does not show a little
+    // later, either, is too near to the edge of some time to blame a device for it.
     if (is_real() && !is_gone && !in_good_time) {
       using namespace std::chrono_literals;
-      in_good_time =
-          shows(with_waits(shrunk.conversation, 100ms)) || shows(with_waits(shrunk.conversation, -100ms));
+      in_good_time = shows(with_time_between(shrunk.conversation, 20ms + bench_.jitter));
     }
     auto kept = play(bench_, shrunk.conversation, true);
     if (!kept && is_real()) {
