@@ -173,8 +173,9 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
   const bool colour = use_colour(options.color, 1);
   auto suites = load_suites(*root, use_colour(options.color, 2));
   if (!suites) return refuse(suites.error(), exit_usage);
-  // A megabyte, read by another processor until it is asked for.
+  // Megabytes, read by another processor until they are asked for.
   auto reading = std::async(std::launch::async, load_patterns, root->root);
+  auto digesting = std::async(std::launch::async, suite_properties, *root);
   auto known = device_under_test({options.device, options.eds, options.node, options.waivers},
                                  {options.simulate, options.variants, root->root});
   if (!known) return refuse(known.error(), exit_usage);
@@ -280,7 +281,7 @@ int run(const RunCommand& options, RunReports& reports, std::optional<result::Ru
   facts.host = options.simulate ? "simulation" : host;
   facts.started = options.simulate ? 0 : static_cast<std::int64_t>(std::time(nullptr)) * 1'000'000'000;
   facts.notes = known->notes;
-  facts.properties = suite_properties(*root);
+  facts.properties = digesting.get();
   auto taken = take_inputs(known->files, *root, reports.has_bundle());
   if (!taken) return refuse(taken.error(), exit_usage);
   facts.add(taken->told);

@@ -128,8 +128,8 @@ Result<void> is_there(const LoadedSuites& suites, const device::Dictionary& desc
   plan.allowed = scenario::Risk::motion;
   plan.only.reset();
   plan.shard = {};
-  if (!engine::plan(suites.suite, suites.catalogue, described, plan).empty() ||
-      engine::names_a_monitor(plan.selection, suites.catalogue))
+  if (engine::names_a_monitor(plan.selection, suites.catalogue) ||
+      !engine::plan(suites.suite, suites.catalogue, described, plan).empty())
     return {};
   return fail("nothing is selected: no scenario matches", {}, "'canopen-conform list' shows what there is");
 }
