@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ constexpr std::uint8_t selective_vendor = 0x40;
 constexpr std::uint8_t selective_serial = 0x43;
 constexpr std::uint8_t selective_answer = 0x44;
 constexpr std::uint8_t identify_vendor = 0x46;
+constexpr std::uint8_t identify_revision_high = 0x49;
 constexpr std::uint8_t identify_serial_high = 0x4B;
 constexpr std::uint8_t identify_unconfigured = 0x4C;
 constexpr std::uint8_t fastscan = 0x51;
@@ -70,6 +72,60 @@ Change keeps_the_address() {
   };
 }
 
+Frame request(std::uint8_t specifier, std::uint32_t number) {
+  std::array<std::uint8_t, 8> data{specifier};
+  conform::store_le(std::span(data).subspan(1, 4), number);
+  return conform::can::data_frame(conform::CanId(request_id), data);
+}
+
+/// Of the frames of one service the first is the vendor-ID. Those of identify remote slave name two of the
+/// parts twice: the lowest number and the highest.
+class LssService {
+ public:
+  explicit LssService(bool selects) : selects_(selects) {}
+
+  [[nodiscard]] unsigned first() const { return selects_ ? selective_vendor : identify_vendor; }
+  [[nodiscard]] unsigned frames() const { return selects_ ? 4U : 6U; }
+  [[nodiscard]] std::uint8_t part(unsigned step) const {
+    constexpr std::array<std::uint8_t, 6> identified{0, 1, 2, 2, 3, 3};
+    return selects_ ? static_cast<std::uint8_t>(step) : identified[step];
+  }
+
+ private:
+  bool selects_;
+};
+
+/// Switch state selective and identify remote slave remember together which parts were the slave's, until the
+/// last one has come, another vendor-ID of switch state selective, or switch state global.
+void shares_the_parts(Parts& parts) {
+  parts.device.inbox.add_filter([&parts, fits = std::array<bool, 4>{}](std::vector<Frame>& frames) mutable {
+    if (frames.size() != 1 || !is_request(frames[0])) return;
+    const std::uint8_t specifier = frames[0].data[0];
+    if (specifier == switch_state_global || specifier == selective_vendor) fits = {};
+    const bool selects = specifier >= selective_vendor && specifier <= selective_serial;
+    if (!selects && (specifier < identify_vendor || specifier > identify_serial_high)) return;
+    const LssService service(selects);
+    const std::uint8_t part = service.part(specifier - service.first());
+    const auto named = static_cast<std::uint32_t>(conform::load_le(frames[0].bytes().subspan(1, 4)));
+    const std::uint32_t own = parts.lss.rules.address(part);
+    if (selects || part < 2)
+      fits[part] = named == own;
+    else if (specifier == identify_revision_high || specifier == identify_serial_high)
+      fits[part] = fits[part] && own <= named;
+    else
+      fits[part] = named <= own;
+    if (specifier != selective_serial && specifier != identify_serial_high) return;
+    const bool all = fits[0] && fits[1] && fits[2] && fits[3];
+    fits = {};
+    if (!all) return;
+    // As if all of them had been of this service.
+    frames.clear();
+    for (unsigned step = 0; step < service.frames(); ++step)
+      frames.push_back(request(static_cast<std::uint8_t>(service.first() + step),
+                               parts.lss.rules.address(service.part(step))));
+  });
+}
+
 /// Whether the slave is in the configuration state.
 std::shared_ptr<bool> in_configuration(Parts& parts) {
   const auto configuration = std::make_shared<bool>(false);
@@ -105,6 +161,13 @@ void counts_as_unconfigured_in_configuration(Parts& parts) {
       [configuration = in_configuration(parts)](const auto& former, const Frame& frame) {
         return former(frame) && (frame.data[0] != identify_unconfigured || !*configuration);
       });
+}
+
+/// A waiting slave does not hear who asks for those without node-ID.
+void tells_in_configuration_that_it_has_no_node_id(Parts& parts) {
+  deaf_to([configuration = in_configuration(parts)](Parts&, const Frame& frame) {
+    return is_request(frame, identify_unconfigured) && !*configuration;
+  })(parts);
 }
 
 /// An SDO request to this device makes it forget how far the frames from `first` to `last` had come.
@@ -164,6 +227,40 @@ void begins_in_configuration(Parts& parts) {
 /// A slave without node-ID takes unknown commands for those of a scan.
 void takes_unknown_for_scan(Parts& parts, Frame& frame) {
   if (is_request(frame) && frame.data[0] >= 0x60 && parts.device.node_id > 127) frame.data[0] = fastscan;
+}
+
+/// The default COB-IDs that a slave has when it loses its node-ID.
+struct KeptCobIds {
+  std::uint8_t node_id = 0;
+  std::vector<Entry*> entries;
+};
+
+/// The default COB-IDs of EMCY and PDOs stay when the slave loses its node-ID, and also when it is given
+/// another one, until it has the former one again.
+void keeps_cob_ids_over_no_node_id(Parts& parts) {
+  const auto kept = std::make_shared<KeptCobIds>();
+  parts.lss.rules.after_reset_communication.replace(
+      [&parts, kept](const auto& former, std::uint8_t active, std::uint8_t pending) -> std::uint8_t {
+        const std::uint8_t next = former(active, pending);
+        const bool loses = active != LssSlave::no_node_id && next == LssSlave::no_node_id;
+        if (!loses || !kept->entries.empty()) return next;
+        kept->node_id = active;
+        for (auto& [index, object] : parts.device.dictionary.objects()) {
+          const bool rpdo = index >= 0x1400 && index < 0x1600;
+          const bool tpdo = index >= 0x1800 && index < 0x1A00;
+          if (index != 0x1014 && !rpdo && !tpdo) continue;
+          for (auto& [sub, entry] : object.entries) {
+            if (!std::exchange(entry.adds_node_id, false)) continue;
+            kept->entries.push_back(&entry);
+          }
+        }
+        return next;
+      });
+  with_boot_up([kept](Parts& node) {
+    if (node.device.node_id != kept->node_id) return;
+    for (Entry* entry : kept->entries) entry->adds_node_id = true;
+    kept->entries.clear();
+  })(parts);
 }
 
 /// What the latest configure node-ID said; nothing: there was none.
@@ -345,6 +442,10 @@ DefectTable lss_sequence_defects() {
        "The first three parts of an LSS address stay, and the fourth one alone is answered",
        {"LSS-SS-03", "LSS-SS-04"},
        keeps_the_address()},
+      {"lss-identification-shares-address",
+       "What switch state selective and identify remote slave name counts for both",
+       {"LSS-SS-03", "LSS-ID-02", "LSS-GEN-08"},
+       Change(shares_the_parts)},
       {"lss-vendor-0-is-any",
        "Vendor-ID 0 in an LSS address stands for any",
        {"LSS-SS-02"},
@@ -385,6 +486,11 @@ DefectTable lss_sequence_defects() {
        "A slave without node-ID answers 4Ch once, until power is switched",
        {"LSS-ID-04"},
        tells_once_that_it_has_no_node_id()},
+      {.id = "lss-unconfigured-silent-in-waiting",
+       .summary = "A slave without node-ID answers 4Ch in the configuration state only",
+       .violates = {"LSS-ID-04"},
+       .how = Change(tells_in_configuration_that_it_has_no_node_id),
+       .lacks = {"lss identify non-configured"}},
       {"lss-configured-slave-answers-4c-in-configuration",
        "In the configuration state a slave with a node-ID answers 4Ch",
        {"LSS-ID-03"},
@@ -455,6 +561,10 @@ DefectTable lss_sequence_defects() {
        keeps_listening_to_its_first_node_id(
            is_nmt_command, [](Frame& frame, std::uint8_t node_id) { frame.data[1] = node_id; },
            [](const Frame& frame) { return frame.data[1]; })},
+      {"lss-cob-ids-kept-over-no-node-id",
+       "A slave without node-ID that is given another one than it had keeps the default COB-IDs of that",
+       {"OD-RST-06", "LSS-CN-06"},
+       Change(keeps_cob_ids_over_no_node_id)},
       {"lss-later-pdos-keep-cob-ids",
        "With another node-ID the default COB-IDs of the second PDOs and of all later ones stay",
        {"OD-RST-06"},
