@@ -95,7 +95,7 @@ bool SdoBlockDownload::on_frame(ByteView data, std::size_t unsent) {
     violation(too_short(data), abort::general);
     return true;
   }
-  if (aborts) return take_abort(data, mux_);
+  if (aborts) return take_abort(data, mux_, phase_ == Phase::initiate);
   if (phase_ == Phase::segments) {
     const auto on_the_bus = in_block_ - std::min(in_block_, unsent);
     if (on_the_bus == 0 || draining_) {

@@ -97,7 +97,8 @@ bool SdoBlockUpload::on_frame(ByteView data, std::size_t unsent) {
     return true;
   }
   // Within a sub-block 81h to 9Fh are last segments; 80h alone is an abort, as no segment has the number 0.
-  if (phase_ == Phase::segments ? data[0] == 0x80 : data[0] >> 5U == 4) return take_abort(data, mux_);
+  if (phase_ == Phase::segments ? data[0] == 0x80 : data[0] >> 5U == 4)
+    return take_abort(data, mux_, phase_ == Phase::initiate);
   if (phase_ != Phase::initiate &&
       (unsent > 0 || phase_ == Phase::start || phase_ == Phase::acknowledge || phase_ == Phase::confirm)) {
     if (stopped_) return false;

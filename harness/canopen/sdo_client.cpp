@@ -27,13 +27,15 @@ void SdoClient::remark(std::string text) {
     result_.remarks.push_back(std::move(text));
 }
 
-bool SdoClient::take_abort(ByteView bytes, Multiplexer mux) {
+bool SdoClient::take_abort(ByteView bytes, Multiplexer mux, bool maybe_unknown) {
   const auto found = decode_abort(bytes);
   if (!found) return false;
   if (found->reserved_bits)
     remark(fmt::format("reserved bits of the abort command are set ({})", hex(bytes[0], 2)));
   result_.code = found->code;
-  if (found->mux != mux) {
+  const bool unknown =
+      maybe_unknown && found->code == abort::command_specifier && found->mux == Multiplexer{};
+  if (found->mux != mux && !unknown) {
     violation(fmt::format("aborts {} instead of {} ({})", to_string(found->mux), to_string(mux),
                           describe(found->code)),
               std::nullopt);

@@ -105,7 +105,9 @@ class SdoClient {
   void violation(std::string detail, std::optional<AbortCode> reply);
   void remark(std::string text);
   /// Ends the transfer when `bytes` are an abort (1000 0000b and, with a remark, reserved bits).
-  bool take_abort(ByteView bytes, Multiplexer mux);
+  /// `maybe_unknown`: it refuses a request that the server need not know; 0504 0001h then has no multiplexer,
+  /// and may name 0000h:00.
+  bool take_abort(ByteView bytes, Multiplexer mux, bool maybe_unknown = false);
   /// Nothing came: the client tells the server that it gives up (CiA 301, table 22, 0504 0000h).
   void give_up_waiting();
 

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "monitor/factories.hpp"
 #include "monitor/restarts.hpp"
+#include "monitor/sdo_server_frame.hpp"
 
 namespace conform::monitor {
 namespace {
@@ -14,6 +15,14 @@ namespace {
 using canopen::NmtCommand;
 using Subject = Observation::Subject;
 using result::Verdict;
+
+/// A transfer from before that the server gives up: no answer to what came in Stopped.
+bool gives_a_transfer_up(const Observation& seen) {
+  const auto& answer = seen.answer;
+  if (!answer.well_formed || (answer.to != SdoAnswer::To::itself && answer.to != SdoAnswer::To::unclear))
+    return false;
+  return server::is_abort(seen.frame()) && server::code_of(seen.frame()) == canopen::abort::timed_out;
+}
 
 class SdoStates final : public Monitor {
  public:
@@ -45,9 +54,7 @@ class SdoStates final : public Monitor {
       const bool older = (!asked_in_stopped_ || unanswered_) && seen.answer.to != SdoAnswer::To::stream;
       if (in_stopped) unanswered_ = false;
       const bool made_in_stopped = nmt.commanded_to_sender(seen.time()) == canopen::NmtState::stopped;
-      if (made_in_stopped && !older && bad(stopped)) {
-        tell(stopped, seen, "an SDO response", "silence", "the device was stopped and SDO is off in Stopped");
-      }
+      if (made_in_stopped && !older && bad(stopped)) tell_in_stopped(seen);
       // Judged when the boot-up message comes: without it there was no reset.
       if (!nmt.booting() || nmt.overdue(seen.time()) || !nmt.is_newer(seen.time(), nmt.reset_at())) return;
       if (early_ && early_reset_ == nmt.reset_index()) return;
@@ -67,6 +74,14 @@ class SdoStates final : public Monitor {
   }
 
  private:
+  void tell_in_stopped(const Observation& seen) {
+    if (gives_a_transfer_up(seen)) {
+      return tell(stopped, seen, "an abort 0504 0000h", "silence",
+                  "the device was stopped, and a transfer from before has timed out", Verdict::warn);
+    }
+    tell(stopped, seen, "an SDO response", "silence", "the device was stopped and SDO is off in Stopped");
+  }
+
   bool asked_in_stopped_ = false;
   bool unanswered_ = false;  ///< the last request that came before Stopped
   std::optional<Violation> early_;

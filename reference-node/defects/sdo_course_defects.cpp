@@ -283,6 +283,12 @@ DefectTable segmented_rows() {
        stores_by_exchange([](const Download& download, const SdoExchange& e) {
          return is_client_abort(e) && download.data.size() >= two_segments;
        })},
+      {"segmented-download-of-short-value-stored-by-abort",
+       "Of a segmented download up to four bytes are stored when the client aborts it behind them",
+       {"SDO-SDN-19"},
+       stores_by_exchange([](const Download& download, const SdoExchange& e) {
+         return is_client_abort(e) && download.data.size() <= 4;
+       })},
       {"segmented-download-stored-by-new-request",
        "What has come of a segmented download is stored when another transfer replaces it",
        {"SDO-SDN-18"},

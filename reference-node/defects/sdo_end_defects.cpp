@@ -100,18 +100,32 @@ void abort_leaves_the_sub_block(Parts& parts) {
   });
 }
 
+/// The transfer of the default server that Stopped is about to end is given up after this time.
+void give_up_later(Parts& node, Duration delay, std::function<bool()> still_wanted) {
+  const SdoServer* server =
+      node.sdo.server_of(conform::can::data_frame(conform::CanId(0x600U + node.device.node_id), {}));
+  if (server == nullptr || !server->running_mux()) return;
+  const FilterContext stopped{Service::sdo, node.device.node_id, node.device.state};
+  Outgoing abort = response(stopped, time_out_abort(*server->running_mux()));
+  abort.delay = delay;
+  abort.still_wanted = std::move(still_wanted);
+  node.device.outbox.send(stopped, {std::move(abort)}, node.device.now);
+}
 /// Stopped ends a transfer of the default server, and not the time after which it is given up.
 void stopped_leaves_the_time_out(Parts& parts) {
   ahead_of_state_change([](Parts& node) {
     if (node.device.state != NmtState::stopped) return;
-    const SdoServer* server =
-        node.sdo.server_of(conform::can::data_frame(conform::CanId(0x600U + node.device.node_id), {}));
-    if (server == nullptr || !server->running_mux()) return;
-    const FilterContext stopped{Service::sdo, node.device.node_id, node.device.state};
-    Outgoing abort = response(stopped, time_out_abort(*server->running_mux()));
-    abort.delay = node.sdo.choices.time_out.value_or(std::chrono::seconds(1));
-    abort.still_wanted = [&node] { return node.device.works_now(Service::sdo); };
-    node.device.outbox.send(stopped, {std::move(abort)}, node.device.now);
+    give_up_later(node, node.sdo.choices.time_out.value_or(std::chrono::seconds(1)),
+                  [&node] { return node.device.works_now(Service::sdo); });
+  })(parts);
+}
+/// The time goes on in Stopped, and the abort is sent there; with another state it is forgotten.
+void times_out_in_stopped(Parts& parts) {
+  const auto changes = std::make_shared<std::uint32_t>(0);
+  ahead_of_state_change([changes](Parts& node) {
+    ++*changes;
+    if (node.device.state != NmtState::stopped) return;
+    give_up_later(node, std::chrono::seconds(3), [changes, now = *changes] { return *changes == now; });
   })(parts);
 }
 
@@ -199,6 +213,10 @@ DefectTable alive_rows() {
        "A transfer that Stopped has ended is given up after the time-out",
        {"SDO-SUP-19"},
        Change(stopped_leaves_the_time_out)},
+      {"transfer-times-out-in-stopped",
+       "A transfer that was open when the node was stopped is given up by an abort in Stopped, three seconds later",
+       {"SDO-GEN-15"},
+       Change(times_out_in_stopped)},
   };
 }
 

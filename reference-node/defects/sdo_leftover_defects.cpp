@@ -372,6 +372,13 @@ DefectTable sdo_leftover_defects() {
        "Of the size that a segmented download tells 24 bits count",
        {"SDO-SDN-06"},
        [](Parts& parts) { segmented_size_cut(parts, 24); }},
+      {"segmented-download-size-bit-31-unanswered",
+       "A segmented download that tells a size with bit 31 set gets no answer",
+       {"SDO-SDN-06"},
+       silent([](const SdoExchange& e) {
+         return e.step == SdoStep::download_initiate && !is_expedited(e) && is_sized(e) &&
+                (e.request[7] & 0x80U) != 0;
+       })},
       {"block-download-size-16-bits",
        "Of the size that a block download tells 16 bits count",
        {"SDO-BDN-12"},
@@ -380,6 +387,14 @@ DefectTable sdo_leftover_defects() {
        "Of the size that a block download tells 24 bits count",
        {"SDO-BDN-12"},
        [](Parts& parts) { block_size_cut(parts, 24); }},
+      {"block-download-size-bit-31-unanswered",
+       "A block download that tells a size with bit 31 set gets no answer",
+       {"SDO-BDN-12"},
+       silent([](const SdoExchange& e) {
+         // Bit 1 of the command: bytes 4 to 7 hold the size.
+         return e.step == SdoStep::block_download_initiate && (e.request[0] & 0x02U) != 0 &&
+                (e.request[7] & 0x80U) != 0;
+       })},
       {"segmented-download-of-8-bytes-needs-size",
        "A segmented download that tells no size cannot have eight bytes",
        {"SDO-SDN-02"},

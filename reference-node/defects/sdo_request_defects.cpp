@@ -69,6 +69,16 @@ Change foreign_ends_transfer(std::uint32_t base) {
   });
 }
 
+/// A remote frame on the request CAN-ID, while a segmented download is open there.
+void take_remote_frame_for_segment(Parts& parts, Frame& frame) {
+  if (frame.extended || !frame.remote) return;
+  const SdoServer* server = parts.sdo.server_of(frame);
+  if (server == nullptr || server->running<SegmentedDownload>() == nullptr) return;
+  frame.remote = false;
+  frame.dlc = 8;
+  frame.data = {};
+}
+
 // 001x nnes: an expedited download that tells its length.
 bool sized_download(const Request& request) { return (request[0] & 0xE3U) == 0x23; }
 std::size_t told_length(const Request& request) { return 4U - ((request[0] >> 2U) & 0x03U); }
@@ -178,6 +188,10 @@ DefectTable segment_rows() {
        misread([](Frame& frame, std::uint8_t node_id) {
          if (frame.id == 0x600U + node_id && frame.size() < 8) take_for_abort(frame, node_id);
        })},
+      {"remote-frame-taken-for-a-segment",
+       "A remote frame within a segmented download is taken for a segment full of zeros",
+       {"SDO-GEN-10"},
+       misreads(take_remote_frame_for_segment)},
       {"foreign-request-ends-a-transfer",
        "An SDO request to another node ends the running transfer",
        {"SDO-SUP-22"},

@@ -15,9 +15,10 @@ namespace refnode {
 using conform::AbortCode;
 
 struct SdoChoices {
-  bool segmented = true;         ///< false: expedited transfers only (and block transfer, if that is offered)
-  bool block = true;             ///< false: block requests are refused with 0504 0001h
-  bool expedited_upload = true;  ///< false: objects of one to four bytes are uploaded in segments too
+  bool segmented = true;  ///< false: expedited transfers only (and block transfer, if that is offered)
+  AbortCode no_segmented = abort_code::command_unknown;  ///< what a segmented download is refused with then
+  bool block = true;                   ///< false: block requests are refused with 0504 0001h
+  bool expedited_upload = true;        ///< false: objects of one to four bytes are uploaded in segments too
   bool upload_size_indicated = true;   ///< segmented and block upload; false: bytes 4-7 stay zero
   std::size_t upload_segment = 7;      ///< segmented upload: bytes in each segment but the last, 1 to 7
   bool toggle_errors_ignored = false;  ///< true: no reply to a repeated segment in place of 0503 0000h

@@ -146,7 +146,7 @@ SdoReply SdoServer::initiate_download(SdoExchange& exchange) {
     return confirmation;
   }
 
-  if (!choices_->segmented) return refuse(abort_code::command_unknown);
+  if (!choices_->segmented) return refuse(choices_->no_segmented);
   std::optional<std::size_t> announced;
   if (sized) announced = size_field(exchange.request);
   if (!choices_->entry_looked_at_late) {

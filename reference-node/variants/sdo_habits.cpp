@@ -45,6 +45,17 @@ void refuse_reserved_bits(Parts& parts) {
       });
 }
 
+void block_transfer_unknown(Parts& parts) {
+  parts.sdo.choices.block = false;
+  parts.device.outbox.add_filter([](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.sdo == nullptr || context.sdo->aborted != abort_code::command_unknown) return;
+    if (context.sdo->step != SdoStep::block_upload_initiate &&
+        context.sdo->step != SdoStep::block_download_initiate)
+      return;
+    for (Outgoing& outgoing : frames) std::fill_n(outgoing.frame.data.begin() + 1, 3, std::uint8_t{0});
+  });
+}
+
 static bool is_request(const conform::can::Frame& frame) {
   return !frame.extended && !frame.remote && frame.size() == 8;
 }

@@ -12,6 +12,8 @@ void fill_unused_bytes(Parts& parts);
 /// Reserved bits of a block initiate: refused before anybody looked at the multiplexer. The server behind the
 /// filter has begun the transfer all the same: that it times out is nobody's business.
 void refuse_reserved_bits(Parts& parts);
+/// Block transfer is unknown, and a request for it a command that has no multiplexer.
+void block_transfer_unknown(Parts& parts);
 /// An abort that names another object than that of the transfer is about another transfer.
 void aborts_of_its_object(Parts& parts);
 /// The abort that refuses a new request names the transfer that it ends.

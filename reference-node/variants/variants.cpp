@@ -124,7 +124,7 @@ VariantTable stacks(const VariantTable& all) {
       like("like-python-canopen", "habits of canopen for Python", all,
            {"heartbeat-at-once", "boot-up-at-once", "guarding-absent", "1015-absent", "1019-absent",
             "1028-absent", "1029-absent", "lss-absent", "sdo-no-time-out", "sdo-segments-checked-at-the-end",
-            "sdo-servers-absent", "sdo-client-absent", "tpdo-without-remote-frames",
+            "sdo-servers-absent", "sdo-client-absent", "sdo-block-unknown", "tpdo-without-remote-frames",
             "abort-too-long-0607-0010", "abort-too-short-0607-0010"}),
       like("like-durand", "habits of durand", all,
            {"heartbeat-at-once", "boot-up-at-once", "guarding-absent", "1019-absent", "1028-absent",

@@ -237,6 +237,32 @@ TEST_CASE("A server may abort in the middle of a sub-block") {
   CHECK_FALSE(client.next(0));
 }
 
+TEST_CASE("A server that knows no block transfer need not name the object when it refuses it") {
+  const SdoBytes unknown{0x80, 0, 0, 0, 0x01, 0x00, 0x04, 0x05};
+  const SdoBytes no_object{0x80, 0, 0, 0, 0x00, 0x00, 0x02, 0x06};
+  const auto refused = [](SdoClient& client, const SdoBytes& answer) {
+    static_cast<void>(send(client));
+    CHECK(client.on_frame(answer, 0));
+    REQUIRE(client.ended());
+    return client.take();
+  };
+  SdoBlockUpload up(buffer, {.blksize = 20, .crc = false});
+  const auto upload_refused = refused(up, unknown);
+  CHECK(upload_refused.kind == Kind::aborted);
+  CHECK(upload_refused.code == abort::command_specifier);
+  SdoBlockDownload down(heartbeat_time, {0xE8, 0x03}, {});
+  const auto download_refused = refused(down, unknown);
+  CHECK(download_refused.kind == Kind::aborted);
+  CHECK(download_refused.code == abort::command_specifier);
+  // Another code is about an object, and a transfer that has begun has one.
+  SdoBlockUpload other(buffer, {.blksize = 20, .crc = false});
+  CHECK(refused(other, no_object).kind == Kind::violation);
+  SdoBlockDownload begun(heartbeat_time, {0xE8, 0x03}, {});
+  static_cast<void>(send(begun));
+  CHECK(begun.on_frame(SdoBytes{0xA4, 0x17, 0x10, 0x00, 20}, 0));
+  CHECK(refused(begun, unknown).kind == Kind::violation);
+}
+
 TEST_CASE("A wrong CRC is refused, and a CRC that was not agreed is not looked at") {
   ScriptedServer server;
   CHECK(play(with(download(30), {"wrong crc"}), server).code == abort::crc);

@@ -82,6 +82,16 @@ TEST_CASE("In Stopped the server is silent") {
   CHECK(verdict_of(cases, "monitor/sdo-states") == Verdict::pass);
 }
 
+TEST_CASE("A transfer from before that times out in Stopped, where something was asked since, warns") {
+  const std::string upload = "> 40 08 10 00 00 00 00 00", begun = "< 41 08 10 00 0C 00 00 00",
+                    segment = "> 60 00 00 00 00 00 00 00", given_up = "< 80 08 10 00 00 00 04 05",
+                    refused = "< 80 08 10 00 22 00 00 08";
+  CHECK(told({upload, begun, stop, "wait 200 ms", segment, given_up}) == Told{"warn SDO-GEN-15 in frame 5"});
+  CHECK(told({upload, begun, stop, "wait 200 ms", segment, refused}) == Told{"fail SDO-GEN-15 in frame 5"});
+  // Nobody asked for it: it may have been on its way.
+  CHECK(told({upload, begun, stop, "wait 200 ms", given_up}).empty());
+}
+
 TEST_CASE("The heartbeat tells the commanded state, where the device cannot leave it by itself") {
   CHECK(told({stop, "< 701: 7F", "wait 200 ms", "< 701: 7F"}) == Told{"fail EC-HBP-06 in frame 3"});
   CHECK(told({pre_operational, "wait 200 ms", "< 701: 05"}) == Told{"fail EC-HBP-06 in frame 2"});
