@@ -15,22 +15,25 @@ using namespace defect;
 namespace {
 
 CobIdRules& of_emergency(Parts& parts) { return parts.emergency.cob_id_rules; }
-/// What a lost heartbeat has set in 1001h only its return clears.
-void register_outlives_reset(Parts& parts) {
-  const auto left = std::make_shared<std::uint8_t>(0);
-  parts.device.errors.raise.replace([left, &parts](const auto& former, const ErrorCause& cause, auto detail) {
-    former(cause, detail);
-    if (cause.source == ErrorSource::heartbeat) *left = parts.emergency.error_register();
-  });
-  parts.device.errors.clear.replace([left](const auto& former, const ErrorCause& cause) {
-    if (cause.source == ErrorSource::heartbeat) *left = 0;
-    former(cause);
-  });
-  reading(0x1001, 0, [left](Parts&, const Read& former) {
-    Upload shown = former();
-    if (shown) shown->front() |= *left;
-    return shown;
-  })(parts);
+
+/// What an error of this source has set in 1001h only its end clears, or nothing at all.
+Change register_outlives_reset(ErrorSource source, bool ends = true) {
+  return [=](Parts& parts) {
+    const auto left = std::make_shared<std::uint8_t>(0);
+    parts.device.errors.raise.replace([=, &parts](const auto& former, const ErrorCause& cause, auto detail) {
+      former(cause, detail);
+      if (cause.source == source) *left = parts.emergency.error_register();
+    });
+    parts.device.errors.clear.replace([=](const auto& former, const ErrorCause& cause) {
+      if (cause.source == source && ends) *left = 0;
+      former(cause);
+    });
+    reading(0x1001, 0, [left](Parts&, const Read& former) {
+      Upload shown = former();
+      if (shown) shown->front() |= *left;
+      return shown;
+    })(parts);
+  };
 }
 
 /// Other bits of the error register for an error than those of table 54.
@@ -278,7 +281,15 @@ DefectTable emergency_defects() {
       {"1001-outlives-reset-communication",
        "The bits of 1001h for a lost heartbeat stay over reset communication",
        {"OD-1001-06"},
-       Change(register_outlives_reset)},
+       register_outlives_reset(ErrorSource::heartbeat)},
+      {"1001-of-guarding-outlives-reset",
+       "The bits of 1001h for guard requests that stayed away stay over reset communication",
+       {"OD-1001-06"},
+       register_outlives_reset(ErrorSource::guarding)},
+      {"1001-of-guarding-for-ever",
+       "The bits of 1001h for guard requests that stayed away are never cleared",
+       {"OD-1001-06"},
+       register_outlives_reset(ErrorSource::guarding, false)},
       {"1001-empty-while-emcy-not-valid",
        "1001h shows no error while 1014h is not valid",
        {"OD-1001-05"},

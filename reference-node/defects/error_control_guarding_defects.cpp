@@ -212,6 +212,25 @@ Change goes_on_beside_heartbeat() {
       }));
 }
 
+/// A timer of the guard time runs from the first request on, and the life time ends with one of its ticks.
+void ends_with_a_tick(Parts& parts) {
+  const auto first = std::make_shared<std::optional<conform::BusTime>>();
+  with_boot_up([first](Parts&) { first->reset(); })(parts);
+  after_writing(0x100C, 0, [first](Parts&, const std::function<void()>& former) {
+    first->reset();
+    former();
+  })(parts);
+  parts.guarding.rules.life_time.replace(
+      [first, &parts](const auto& former, std::uint64_t guard_time, std::uint64_t factor) -> Duration {
+        const Duration right = former(guard_time, factor);
+        if (right <= Duration::zero()) return right;
+        if (!*first) *first = parts.device.now;
+        const Duration tick = std::chrono::milliseconds(static_cast<std::int64_t>(guard_time));
+        const Duration since = (parts.device.now - **first) % tick;
+        return since == Duration::zero() ? right : right + (tick - since);
+      });
+}
+
 DefectTable request_rows() {
   return {
       {"guard-no-reply",
@@ -296,6 +315,10 @@ DefectTable request_rows() {
          if (context.service != Service::guarding || frames.empty() || ++replies % 3 != 0) return;
          frames.push_back({frames.front().frame, std::chrono::milliseconds(20)});
        })},
+      {"life-time-ends-with-a-tick",
+       "The life time ends with a tick of the guard time that began with the first request",
+       {"EC-NG-07"},
+       Change(ends_with_a_tick)},
       {"guarding-dead-after-heartbeat",
        "Guard requests are not answered any more when the heartbeat was on once",
        {"EC-NG-12"},

@@ -86,6 +86,13 @@ void reports_what_came_before(Parts& parts) {
 
 DefectTable pdo_receive_traffic_defects() {
   return {
+      {"rpdo-deaf-with-bit-30",
+       "An RPDO whose COB-ID has bit 30 set is not received",
+       {"PDO-RX-01", "OD-1400-14"},
+       decides(rpdo_traffic, &ReceivePdoRules::valid,
+               [](const auto& former, const PdoParameters& pdo) {
+                 return former(pdo) && pdo.cob_id().remote_allowed();
+               })},
       {"rpdo-second-not-processed",
        "The second RPDO is never processed",
        {"PDO-RX-01"},

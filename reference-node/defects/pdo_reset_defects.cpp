@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "defects/pdos.hpp"
+#include "defects/receivers.hpp"
 
 namespace refnode {
 
@@ -70,6 +71,25 @@ Change keeps_the_event_timer(PdoRulesPart of, std::uint16_t first) {
           return former(pdo, kept(*written, pdo, value));
         });
   };
+}
+
+/// The event timers of TPDOs that a reset finds in Operational go on until the next NMT command.
+void timers_outlive_operational(Parts& parts) {
+  const auto was_operational = std::make_shared<bool>(false);
+  const auto written = written_ever(parts, 0x1800, 5);
+  deaf_to([was_operational](Parts& node, const Frame& frame) {
+    if (is_nmt_command(frame) && is_for(node, frame))
+      *was_operational = frame.data[0] > 0x80 && node.device.state == NmtState::operational;
+    return false;
+  })(parts);
+  parts.device.works.replace([was_operational](const auto& former, Service service, NmtState state) {
+    return former(service, state) ||
+           (*was_operational && service == Service::tpdo && state == NmtState::pre_operational);
+  });
+  parts.pdos.tpdo.parameters.rules.event_timer.replace(
+      [=](const auto& former, const PdoParameters& pdo, std::int64_t value) {
+        return former(pdo, *was_operational ? kept(*written, pdo, value) : value);
+      });
 }
 
 /// What bit 31 of the COB-ID was last written as decides.
@@ -170,6 +190,10 @@ DefectTable pdo_reset_defects() {
        "Behind reset communication the event timer of a TPDO runs that was written before",
        {"NMT-FSA-24"},
        keeps_the_event_timer(tpdo_parameters, 0x1800)},
+      {"tpdo-goes-on-behind-a-reset-in-operational",
+       "The event timer of a TPDO goes on in Pre-operational behind a reset in Operational",
+       {"PDO-TX-02"},
+       Change(timers_outlive_operational)},
       {"rpdo-deadline-in-use-outlives-reset",
        "Behind reset communication the deadline of an RPDO is watched that was written before",
        {"NMT-FSA-24"},

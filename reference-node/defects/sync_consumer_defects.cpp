@@ -188,6 +188,12 @@ Change expects_the_first() {
 
 DefectTable sync_consumer_defects() {
   return {
+      {"sync-known-by-function-code",
+       "Frames of the function code of SYNC, EMCYs of other nodes, are taken for SYNC",
+       {"SYNC-CON-02"},
+       misreads([](Parts&, Frame& frame) {
+         if (!frame.extended && !frame.remote && (frame.id & ~0x7FU) == 0x080U) frame.id = 0x080;
+       })},
       {"sync-counter-of-two-is-an-error",
        "With an overflow value of 2 the counter of a SYNC is reported as a wrong length",
        {"SYNC-CON-04", "SYNC-CON-05"},

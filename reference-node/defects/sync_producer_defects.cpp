@@ -130,6 +130,28 @@ Change never_works_in(NmtState state) {
   };
 }
 
+/// Behind Stopped 1006h alone decides, until one of both is written.
+void produces_behind_stopped(Parts& parts) {
+  const auto stopped = std::make_shared<bool>(false);
+  with_boot_up([stopped](Parts&) { *stopped = false; })(parts);
+  for (const std::uint16_t index : {std::uint16_t{0x1005}, std::uint16_t{0x1006}}) {
+    after_writing(index, 0, [stopped](Parts&, const std::function<void()>& written) {
+      *stopped = false;
+      written();
+    })(parts);
+  }
+  parts.sync.cob_id_rules.produced.replace(
+      [stopped](const auto& former, std::uint32_t value) { return *stopped || former(value); });
+  parts.nmt.on_change = [&parts, stopped, former = parts.nmt.on_change](NmtState from) {
+    former(from);
+    if (from != NmtState::stopped || parts.device.state == NmtState::initialising) return;
+    *stopped = true;
+    if (parts.sync_producer.next_wakeup()) return;
+    parts.sync_producer.on_reset();
+    parts.sync_producer.on_boot_up();
+  };
+}
+
 /// Another period is taken for another beginning.
 void counts_anew_with_the_period(Parts& parts) {
   const auto anew = std::make_shared<bool>(false);
@@ -262,6 +284,10 @@ DefectTable switch_rows() {
        "Bit 31 of 1005h switches the SYNC producer on",
        {"OD-1005-11", "SYNC-PRO-03"},
        produces_when([](Parts&, bool right, std::uint32_t cob_id) { return right || has_bit31(cob_id); })},
+      {"sync-behind-stopped-without-producer-bit",
+       "Behind Stopped SYNC is sent with the period of 1006h although bit 30 of 1005h is 0",
+       {"OD-1005-09", "SYNC-PRO-03"},
+       Change(produces_behind_stopped)},
       {"sync-by-odd-can-id",
        "An odd CAN-ID in 1005h switches the SYNC producer on",
        {"SYNC-PRO-03"},
