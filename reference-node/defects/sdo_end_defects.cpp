@@ -111,6 +111,7 @@ void give_up_later(Parts& node, Duration delay, std::function<bool()> still_want
   abort.still_wanted = std::move(still_wanted);
   node.device.outbox.send(stopped, {std::move(abort)}, node.device.now);
 }
+
 /// Stopped ends a transfer of the default server, and not the time after which it is given up.
 void stopped_leaves_the_time_out(Parts& parts) {
   ahead_of_state_change([](Parts& node) {
@@ -119,6 +120,7 @@ void stopped_leaves_the_time_out(Parts& parts) {
                   [&node] { return node.device.works_now(Service::sdo); });
   })(parts);
 }
+
 /// The time goes on in Stopped, and the abort is sent there; with another state it is forgotten.
 void times_out_in_stopped(Parts& parts) {
   const auto changes = std::make_shared<std::uint32_t>(0);

@@ -44,13 +44,17 @@ Change has_period(Duration (*as)(Duration right)) {
                  [as](const auto& former, std::int64_t value) { return as(former(value)); });
 }
 
+void begin_anew(SyncProducer& producer) {
+  producer.on_reset();
+  producer.on_boot_up();
+}
+
 /// Entering Operational begins production anew.
 void begins_anew_in_operational(Parts& parts) {
   parts.nmt.on_change = [&parts, former = parts.nmt.on_change](NmtState from) {
     former(from);
     if (parts.device.state != NmtState::operational) return;
-    parts.sync_producer.on_reset();
-    parts.sync_producer.on_boot_up();
+    begin_anew(parts.sync_producer);
   };
 }
 
@@ -74,18 +78,10 @@ void stays_on(Parts& parts) {
 
 /// What was stored is not begun with, only what is written.
 void idle_until_written(Parts& parts) {
-  const auto written = std::make_shared<bool>(false);
-  parts.device.outbox.add_filter([written](const FilterContext& context, std::vector<Outgoing>&) {
-    if (context.service == Service::boot_up) *written = false;
-  });
-  for (const std::uint16_t index : {std::uint16_t{0x1005}, std::uint16_t{0x1006}}) {
-    after_writing(index, 0, [written](Parts&, const std::function<void()>& former) {
-      *written = true;
-      former();
-    })(parts);
-  }
   parts.sync.cob_id_rules.produced.replace(
-      [written](const auto& former, std::uint32_t value) { return *written && former(value); });
+      [written = written_since_boot_up(parts, {0x1005, 0x1006})](const auto& former, std::uint32_t value) {
+        return !written->empty() && former(value);
+      });
 }
 
 /// A node that was in Stopped produces no SYNC until it is reset.
@@ -147,8 +143,7 @@ void produces_behind_stopped(Parts& parts) {
     if (from != NmtState::stopped || parts.device.state == NmtState::initialising) return;
     *stopped = true;
     if (parts.sync_producer.next_wakeup()) return;
-    parts.sync_producer.on_reset();
-    parts.sync_producer.on_boot_up();
+    begin_anew(parts.sync_producer);
   };
 }
 
@@ -196,8 +191,7 @@ Change begins_anew_with(std::uint16_t index, bool of_same_value = false) {
     after_writing(index, 0, [restarts](Parts& node, const std::function<void()>& former) {
       former();
       if (!*restarts || !node.sync_producer.next_wakeup()) return;
-      node.sync_producer.on_reset();
-      node.sync_producer.on_boot_up();
+      begin_anew(node.sync_producer);
     })(parts);
   };
 }
@@ -218,8 +212,7 @@ void begins_the_period_anew(Parts& parts) {
     former(from);
     if (from != NmtState::pre_operational || parts.device.state != NmtState::operational) return;
     if (!parts.sync_producer.next_wakeup()) return;
-    parts.sync_producer.on_reset();
-    parts.sync_producer.on_boot_up();
+    begin_anew(parts.sync_producer);
     count->goes_on = true;
   };
 }
