@@ -22,6 +22,13 @@ bool limit_leaves_room(const Entry& entry, const std::optional<Bytes>& limit, bo
   return load_le(*limit) != end;
 }
 
+/// Whether no limit leaves out a value of the type: limits may be declared that are its ends, and one of them
+/// alone may leave out much. Of what is no integer, nobody knows what a limit leaves out.
+bool has_full_range(const Entry& entry) {
+  if (!canopen::is_integer(entry.type)) return !entry.low && !entry.high;
+  return !limit_leaves_room(entry, entry.high, true) && !limit_leaves_room(entry, entry.low, false);
+}
+
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> out;
   for (const auto word : split(text, ' ')) {
@@ -80,7 +87,8 @@ Result<Clause> parse_clause(std::vector<std::string_view> words) {
       {"writable", [](const Entry& e) { return e.writable(); }},
       {"low limit", [](const Entry& e) { return e.low.has_value(); }},
       {"high limit", [](const Entry& e) { return e.high.has_value(); }},
-      {"limits", [](const Entry& e) { return e.low.has_value() && e.high.has_value(); }},
+      {"limits", [](const Entry& e) { return e.low.has_value() || e.high.has_value(); }},
+      {"full range", &has_full_range},
       {"high limit below type maximum", [](const Entry& e) { return limit_leaves_room(e, e.high, true); }},
       {"low limit above type minimum", [](const Entry& e) { return limit_leaves_room(e, e.low, false); }},
       {"default", [](const Entry& e) { return e.default_value.has_value(); }},

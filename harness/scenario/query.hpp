@@ -16,10 +16,10 @@ namespace conform::scenario {
 
 /// entries | objects | rpdos | tpdos [with CLAUSE {and CLAUSE}], where a clause may begin with `not` and is
 /// one of access WORD {or WORD}, readable, writable, type NAME, size N or A..B, index A..B, low limit, high
-/// limit, limits, default, high limit below type maximum, low limit above type minimum, declared default,
-/// mappable, domain, integer, command, claimed, complex, array, element (of a complex object, from 01h on),
-/// fixed size, changing, open access, safe. `holding 15.. bytes` is a question to the device: only `given`
-/// knows it.
+/// limit, limits (one of them at least), full range (no limit leaves out a value of the type), default, high
+/// limit below type maximum, low limit above type minimum, declared default, mappable, domain, integer,
+/// command, claimed, complex, array, element (of a complex object, from 01h on), fixed size, changing, open
+/// access, safe. `holding 15.. bytes` is a question to the device: only `given` knows it.
 class Query {
  public:
   static Result<Query> parse(std::string_view text);

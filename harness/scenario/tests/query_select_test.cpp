@@ -96,6 +96,29 @@ TEST_CASE("Clauses on limits know whether the type leaves room beyond them") {
   CHECK(selected("entries with declared default") == "2000h:00");
 }
 
+TEST_CASE("A full range is one of which no limit leaves out a value, whether limits are declared or not") {
+  using canopen::DataType;
+  device::Dictionary all;
+  const auto add = [&all](std::uint16_t index, DataType type, std::optional<Bytes> low,
+                          std::optional<Bytes> high) {
+    auto out = entry(index, 0, type, Access::rw);
+    out.low = std::move(low);
+    out.high = std::move(high);
+    all.add(out);
+  };
+  add(0x2000, DataType::unsigned8, Bytes{0}, Bytes{0xFF});
+  add(0x2001, DataType::unsigned8, std::nullopt, std::nullopt);
+  add(0x2002, DataType::unsigned8, std::nullopt, Bytes{0x0F});
+  add(0x2003, DataType::unsigned8, Bytes{1}, std::nullopt);
+  add(0x2004, DataType::integer16, Bytes{0x00, 0x80}, Bytes{0xFF, 0x7F});
+  add(0x2005, DataType::integer16, std::nullopt, Bytes{0xFF, 0xFF});
+  add(0x2006, DataType::real32, std::nullopt, std::nullopt);
+  add(0x2007, DataType::real32, Bytes{0, 0, 0, 0}, std::nullopt);
+  std::string out;
+  for (const auto mux : Query::parse("entries with full range")->select(all)) out += to_string(mux) + " ";
+  CHECK(out == "2000h:00 2001h:00 2004h:00 2006h:00 ");
+}
+
 TEST_CASE("Clauses on properties of the description select by them") {
   CHECK(selected("entries with mappable") == "2000h:00");
   CHECK(selected("entries with changing") == "2000h:00");
