@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <tuple>
 
 #include "base/random.hpp"
@@ -35,6 +36,22 @@ std::vector<Multiplexer> sample(std::vector<Multiplexer> items, std::size_t coun
   return out;
 }
 
+/// What a sample of `objects` has left out, dealt out to its cases in turn. A few each: a device of hundreds
+/// of PDOs that are all off is not asked for each of them.
+void add_stand_ins(std::span<PlannedCase> cases, const std::vector<Multiplexer>& objects) {
+  constexpr std::size_t most = 4;
+  std::set<std::string> drawn;
+  for (const auto& planned : cases) drawn.insert(planned.instance);
+  std::size_t turn = 0;
+  for (const auto object : objects) {
+    auto name = to_string(object);
+    if (drawn.contains(name)) continue;
+    auto& stand_ins = cases[turn++ % cases.size()].stand_ins;
+    if (stand_ins.size() == most) return;
+    stand_ins.push_back(std::move(name));
+  }
+}
+
 std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device::Dictionary& dictionary,
                                 const PlanOptions& options) {
   std::vector<PlannedCase> out;
@@ -63,10 +80,10 @@ std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device
       none.not_applicable = "the device has no " + (query ? query->words() : scenario.for_each->query);
       if (query) none.wants = wants_of(*query);
     }
-    if (scenario.sample > 0 && !options.all_objects)
-      objects = sample(std::move(objects), scenario.sample, options.seed);
-    for (const auto object : objects)
+    const bool sampled = scenario.sample > 0 && !options.all_objects && objects.size() > scenario.sample;
+    for (const auto object : sampled ? sample(objects, scenario.sample, options.seed) : objects)
       add(to_string(object)).names[scenario.for_each->variable] = to_string(object);
+    if (sampled) add_stand_ins(out, objects);
   }
   return out;
 }
@@ -103,6 +120,9 @@ std::vector<PlannedCase> chosen(const scenario::Suite& suite, const scenario::Ca
       });
       for (auto& planned : expand(scenario, dictionary, each ? whole : options)) {
         if (!options.selection.takes(scenario, planned.instance, catalogue)) continue;
+        std::erase_if(planned.stand_ins, [&](const std::string& object) {
+          return !options.selection.takes(scenario, object, catalogue);
+        });
         if (scenario.risk > options.allowed) {
           planned.held_back = "held back: risk '" + std::string(steps::word_of(scenario.risk)) +
                               "' is not allowed in this run (--allow " +
@@ -160,6 +180,14 @@ void put_in_order(std::vector<PlannedCase>& out, const PlanOptions& options) {
 
 }  // namespace
 
+PlannedCase PlannedCase::of(const std::string& object) const {
+  auto out = *this;
+  out.instance = object;
+  out.names[scenario->for_each->variable] = object;
+  out.stand_ins.clear();
+  return out;
+}
+
 std::vector<PlannedCase> plan(const scenario::Suite& suite, const scenario::Catalogue& catalogue,
                               const device::Dictionary& dictionary, const PlanOptions& options) {
   auto out = chosen(suite, catalogue, dictionary, options);
@@ -196,7 +224,8 @@ std::vector<PlannedCase> named_but_absent(const scenario::Suite& suite, const sc
                        .held_back = {},
                        .not_applicable = {},
                        .wants = {},
-                       .absent = "'" + name + "' is asked for, and there is no such case for this device"});
+                       .absent = "'" + name + "' is asked for, and there is no such case for this device",
+                       .stand_ins = {}});
       }
     }
   }

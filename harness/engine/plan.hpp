@@ -27,6 +27,12 @@ struct PlannedCase {
   std::string not_applicable;                             ///< a query that found nothing
   std::vector<result::Want> wants;                        ///< what would make it run
   std::string absent;  ///< why a case that was asked for by name cannot be played: it stays open
+  /// Of a sample: other objects of the query, in the order in which they stand in where the case does not
+  /// apply to its own. No two cases have the same one.
+  std::vector<std::string> stand_ins;
+
+  /// The same case of another object.
+  [[nodiscard]] PlannedCase of(const std::string& object) const;
 };
 
 /// One of several parts of a run that are played at the same time, on machines of their own.

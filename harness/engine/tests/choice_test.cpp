@@ -106,6 +106,39 @@ TEST_CASE("an instance is played by its name also where the sample is without it
   CHECK(names(options, sampled) == std::vector{all.back()});
 }
 
+TEST_CASE("a sample is drawn anew where the case does not apply to what was drawn") {
+  const auto play_for = [](const std::string& when) {
+    ScriptedDevice device;
+    const std::string scenario = R"(
+  - id: reads
+    title: t
+    sample: 1
+    for_each: {object: "objects with access ro"}
+    when: )" + when + R"(
+    steps:
+      - upload: {object: $object}
+        checks: T-MUST
+)";
+    return play(device, scenario).run.cases.front();
+  };
+  const auto any = play_for("$object is present");
+  REQUIRE(any.verdict == Verdict::pass);
+  // Another one stands in for it, under its own name.
+  const auto other_value = [&](int value) {
+    return play_for("value of $object is not " + std::to_string(value));
+  };
+  int held = 0;
+  while (held < 100 && other_value(held).instance == any.instance) ++held;
+  const auto another = other_value(held);
+  CHECK(another.verdict == Verdict::pass);
+  CHECK(another.instance != any.instance);
+  // Where there is none, the first one says why.
+  const auto none = play_for("value of $object is 12345678h");
+  CHECK(none.verdict == Verdict::not_applicable);
+  CHECK(none.instance == any.instance);
+  CHECK(none.reason.contains(any.instance));
+}
+
 TEST_CASE("a run with a budget plays what is worth most first and leaves out what would not end in time") {
   const auto whole = names({});
   const result::Worths worths({{whole[3], std::chrono::milliseconds(1), 9},
