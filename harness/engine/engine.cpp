@@ -210,7 +210,7 @@ class Run {
       }
       run_.recorder.observer().case_begun(out_, i);
       const auto begun = run_.recorder.now();
-      auto done = run_case(plan_[i], result);
+      auto done = run_of_sample(plan_[i], result);
       budget_.took(result.name(), run_.recorder.now() - begun);
       channels_.note(scenario, result);
       run_.recorder.observer().case_ended(out_, i);
@@ -249,6 +249,30 @@ class Run {
     return life_.note_restarts();
   }
 
+  /// What does not apply to the object that was drawn is judged of another one: whoever takes a sample wants
+  /// a verdict. Where it applies to none of them the first one says why.
+  Result<void> run_of_sample(const PlannedCase& planned, CaseResult& result) {
+    auto done = run_case(planned, result);
+    std::optional<CaseResult> first;
+    auto instance = planned.instance;
+    for (const auto& object : planned.stand_ins) {
+      if (!done || fell_silent_ || !is_left_out_for(instance, result)) return done;
+      if (!first) first = result;
+      const auto other = planned.of(object);
+      instance = object;
+      result = planned_result(other, run_.catalogue);
+      done = run_case(other, result);
+    }
+    if (done && !fell_silent_ && first && result.verdict == Verdict::not_applicable) result = *first;
+    return done;
+  }
+
+  /// Whether the case did not apply for what the object is, so that it may apply to another one.
+  [[nodiscard]] bool is_left_out_for(std::string_view instance, const CaseResult& result) const {
+    if (result.verdict != Verdict::not_applicable) return false;
+    return runner_.entered_steps() || result.reason.contains(instance.substr(0, instance.find(':')));
+  }
+
   Result<void> run_case(const PlannedCase& planned, CaseResult& result) {
     const auto fresh = result;
     Repeats repeats(run_.options.repeat);
@@ -283,6 +307,7 @@ class Run {
   /// Once. What befell the host meanwhile, if it matters.
   Result<std::optional<HostTrouble>> try_case(const PlannedCase& planned, CaseResult& result) {
     auto& recorder = run_.recorder;
+    const auto first = recorder.capture().size();
     begin_part(result, can::CasePart::preparation);
     // The case has not begun: an outage takes nothing from it.
     auto ready = again_after_outages([&] { return reach_start(*planned.scenario); });
@@ -325,9 +350,11 @@ class Run {
     result.finished = true;
     const bool other_client =
         run_.session.channel().has_other_client(result.first_frame, recorder.capture().size());
-    if (auto trouble = trouble_of(health, recorder.transport().health(), lateness, other_client))
-      return trouble;
-    return machine_trouble(recorder.transport().info(), recorder.latest_late_waking(), result.begin);
+    auto trouble = trouble_of(health, recorder.transport().health(), lateness, other_client);
+    if (!trouble)
+      trouble = machine_trouble(recorder.transport().info(), recorder.latest_late_waking(), result.begin);
+    if (trouble && trouble->passes_by && recorder.transport().info().is_virtual) life_.note_late(first);
+    return trouble;
   }
 
   /// A phase that judges nothing, once more behind each outage that ended it.
@@ -397,7 +424,7 @@ class Run {
     run_.live.follow(frames);
     conclude_trace(run_.live.watch(), frames,
                    {run_.monitors, run_.profile, run_.catalogue, run_.waivers, run_.options.strict},
-                   life_.losses(), out_);
+                   life_.losses(), life_.late(), out_);
     // The preparation is no test of anything, unless only monitors were asked for.
     const auto scenarios = std::span(out_.cases).first(plan_.size());
     const auto was_run = [](const CaseResult& each) { return each.first_frame < each.end_frame; };

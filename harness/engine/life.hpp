@@ -33,6 +33,9 @@ class Life {
   /// Where the host lost frames, or its clock was set, nobody must draw conclusions from the trace.
   void note_losses();
 
+  /// The machine was late, which the device shares: capture indices from `first` to now.
+  void note_late(std::size_t first) { late_.push_back({first, run_.recorder.capture().size()}); }
+
   /// A start that nobody asked for, while the case ran: what was judged afterwards was judged of another
   /// device.
   [[nodiscard]] Result<void> judge_restarts(result::CaseResult& result, CaseRunner& runner);
@@ -46,6 +49,7 @@ class Life {
   void tell_losses();
 
   [[nodiscard]] const std::vector<monitor::Loss>& losses() const { return losses_; }
+  [[nodiscard]] const std::vector<monitor::Loss>& late() const { return late_; }
   /// Index behind the last frame of the device, 0 when none came.
   [[nodiscard]] std::size_t last_heard() const;
 
@@ -62,7 +66,7 @@ class Life {
   std::size_t known_restarts_ = 0;
   std::size_t unexplained_ = 0;  ///< restarts without a known cause
   bool says_all_twice_ = false;  ///< one device, and the scenarios judge it
-  std::vector<monitor::Loss> losses_;
+  std::vector<monitor::Loss> losses_, late_;
   std::vector<std::string> tried_again_;
   can::BusHealth health_;           ///< at the last look
   std::size_t trusted_frames_ = 0;  ///< capture's length at that time

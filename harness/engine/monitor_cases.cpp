@@ -89,10 +89,11 @@ void judge_trace(std::span<const can::CapturedFrame> frames, const TraceRules& r
 }
 
 void conclude_trace(monitor::Watch& watch, std::span<const can::CapturedFrame> frames,
-                    const TraceRules& rules, std::span<const monitor::Loss> losses, result::RunResult& out) {
+                    const TraceRules& rules, std::span<const monitor::Loss> losses,
+                    std::span<const monitor::Loss> late, result::RunResult& out) {
   const ConcludedCases cases(out, rules);
   monitor::conclude(watch, frames, rules.profile.node, rules.monitors, cap_of(rules.catalogue, rules.strict),
-                    losses, cases.scenarios, cases.own);
+                    losses, cases.scenarios, cases.own, late);
   cases.apply_waivers();
 }
 

@@ -46,9 +46,11 @@ struct TraceRules {
 /// Judges a recorded trace by `facts`: the last cases of `out` are those of the monitors.
 void judge_trace(std::span<const can::CapturedFrame> frames, const TraceRules& rules,
                  const monitor::Facts& facts, std::span<const monitor::Loss> losses, result::RunResult& out);
-/// The same of the trace of a run, which `watch` has seen to its end.
+/// The same of the trace of a run, which `watch` has seen to its end. `late`: where the machine was late that
+/// the device shares.
 void conclude_trace(monitor::Watch& watch, std::span<const can::CapturedFrame> frames,
-                    const TraceRules& rules, std::span<const monitor::Loss> losses, result::RunResult& out);
+                    const TraceRules& rules, std::span<const monitor::Loss> losses,
+                    std::span<const monitor::Loss> late, result::RunResult& out);
 
 /// What the monitors passed is open, for the given reason; what they found stays.
 void withdraw_passes(std::span<result::CaseResult> monitors, const std::string& why);

@@ -55,6 +55,8 @@ class Monitor {
   virtual void on_frame(const Observation& seen, const Follower& follower) = 0;
   /// Whether on_frame() is called for such frames at all: most of a trace is no matter of most monitors.
   [[nodiscard]] virtual bool wants(Observation::Subject) const { return true; }
+  /// Whether a violation is one of time: on a machine that was late, and that the device shares, it is open.
+  [[nodiscard]] virtual bool rests_on_time(std::size_t /*requirement*/) const { return false; }
   /// Frames were lost before the next one.
   virtual void on_loss() {}
   /// The trace is over.

@@ -29,6 +29,8 @@ class SdoStates final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { stopped, before_boot_up };
 
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override { return requirement == stopped; }
+
   void on_frame(const Observation& seen, const Follower& follower) override {
     const auto& nmt = follower.nmt();
     const bool in_stopped = nmt.commanded(seen.time()) == canopen::NmtState::stopped;
@@ -208,6 +210,8 @@ class Heartbeat final : public Monitor {
  public:
   using Monitor::Monitor;
   enum : std::size_t { state, bit_7, form };
+
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override { return requirement == state; }
 
   [[nodiscard]] bool wants(Subject subject) const override { return subject == Subject::error_control; }
   void on_frame(const Observation& seen, const Follower& follower) override {

@@ -62,6 +62,10 @@ class Tpdos final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { operational, valid, length };
 
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override {
+    return requirement == operational;
+  }
+
   [[nodiscard]] bool wants(Subject subject) const override { return subject == Subject::data; }
   void on_frame(const Observation& seen, const Follower& follower) override {
     if (seen.subject != Subject::data || !seen.received()) return;
@@ -133,6 +137,8 @@ class TpdoTriggers final : public Monitor {
  public:
   using Monitor::Monitor;
   enum : std::size_t { every_sync, nth_sync, sync_and_event, request, sampled, inhibit };
+
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override { return requirement == inhibit; }
 
   [[nodiscard]] bool wants(Subject subject) const override {
     return subject == Subject::data || subject == Subject::remote;

@@ -45,6 +45,10 @@ class SyncProducer final : public Monitor {
   using Monitor::Monitor;
   enum : std::size_t { off, stopped, period, counter };
 
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override {
+    return requirement == stopped || requirement == period;
+  }
+
   [[nodiscard]] bool wants(Subject subject) const override {
     return subject == Subject::data || subject == Subject::nmt || subject == Subject::error_control;
   }
@@ -138,6 +142,8 @@ class TimeProducer final : public Monitor {
  public:
   using Monitor::Monitor;
   enum : std::size_t { off, stopped, form };
+
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override { return requirement == stopped; }
 
   [[nodiscard]] bool wants(Subject subject) const override { return subject == Subject::data; }
   void on_frame(const Observation& seen, const Follower& follower) override {

@@ -61,8 +61,8 @@ std::string case_at(std::size_t index, std::span<const result::CaseResult> cases
 Verdict capped(Verdict verdict, Verdict cap) { return verdict == Verdict::fail ? cap : verdict; }
 
 void conclude_one(const Monitor& monitor, std::span<const can::CapturedFrame> frames, NodeId node,
-                  const Cap& cap, std::span<const Loss> losses, std::span<const result::CaseResult> others,
-                  result::CaseResult& out) {
+                  const Cap& cap, std::span<const Loss> losses, std::span<const Loss> late,
+                  std::span<const result::CaseResult> others, result::CaseResult& out) {
   const auto& rule = monitor.rule();
   out.verdict = Verdict::not_applicable;
   for (std::size_t i = 0; i < rule.requirements.size(); ++i) {
@@ -84,13 +84,18 @@ void conclude_one(const Monitor& monitor, std::span<const can::CapturedFrame> fr
       finding.reason = violation.reason;
       finding.evidence = evidence(frames, node, violation.index);
       finding.frames_seen = violation.index + 1;
-      const auto inside = [&violation](std::size_t begin, std::size_t end) {
-        return violation.index >= begin && violation.index < end;
+      const auto among = [&violation](std::span<const Loss> all) {
+        return std::ranges::any_of(all, [&](const Loss& each) {
+          return violation.index >= each.begin && violation.index < each.end;
+        });
       };
       finding.during = case_at(violation.index, others);
-      if (std::ranges::any_of(losses, [&](const Loss& loss) { return inside(loss.begin, loss.end); })) {
+      if (among(losses)) {
         finding.verdict = Verdict::inconclusive;
         finding.reason += "; but the host lost frames at that time";
+      } else if (monitor.rests_on_time(i) && among(late)) {
+        finding.verdict = Verdict::inconclusive;
+        finding.reason += "; but the machine, which the device shares, was late at that time";
       }
       judgement.verdict = worst(judgement.verdict, finding.verdict);
       judgement.findings.push_back(std::move(finding));
@@ -164,26 +169,28 @@ result::CaseResult planned_case(const Rule& rule, const Cap& cap) {
 
 void conclude(Watch& watch, std::span<const can::CapturedFrame> frames, NodeId node,
               std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
-              std::span<const result::CaseResult> others, std::span<result::CaseResult> cases) {
+              std::span<const result::CaseResult> others, std::span<result::CaseResult> cases,
+              std::span<const Loss> late) {
   CONFORM_CHECK(chosen.size() == cases.size());
   watch.end();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const auto found =
         std::ranges::find_if(watch.monitors(), [&](const auto& each) { return &each->rule() == chosen[i]; });
     CONFORM_CHECK(found != watch.monitors().end());
-    conclude_one(**found, frames, node, cap, losses, others, cases[i]);
+    conclude_one(**found, frames, node, cap, losses, late, others, cases[i]);
   }
 }
 
 void judge(std::span<const can::CapturedFrame> frames, const Facts& facts,
            std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
-           std::span<const result::CaseResult> others, std::span<result::CaseResult> cases) {
+           std::span<const result::CaseResult> others, std::span<result::CaseResult> cases,
+           std::span<const Loss> late) {
   Watch watch(facts, chosen);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (std::ranges::any_of(losses, [i](const Loss& loss) { return loss.end == i; })) watch.on_loss();
     watch.on_frame(frames[i], i);
   }
-  conclude(watch, frames, facts.node, chosen, cap, losses, others, cases);
+  conclude(watch, frames, facts.node, chosen, cap, losses, others, cases, late);
 }
 
 }  // namespace conform::monitor

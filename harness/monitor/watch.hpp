@@ -64,14 +64,16 @@ class Watch {
 
 /// The judgement of a watch that has seen all of `frames`, which ends with it. `cases` are the planned ones
 /// of `chosen`, rules that it watched, in the same order; `others` are the scenarios that ran meanwhile, so
-/// that findings can name them.
+/// that findings can name them. `late`: frames among which a machine that the device shares was late.
 void conclude(Watch& watch, std::span<const can::CapturedFrame> frames, NodeId node,
               std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
-              std::span<const result::CaseResult> others, std::span<result::CaseResult> cases);
+              std::span<const result::CaseResult> others, std::span<result::CaseResult> cases,
+              std::span<const Loss> late = {});
 
 /// Both in one: of a trace that is there already.
 void judge(std::span<const can::CapturedFrame> frames, const Facts& facts,
            std::span<const Rule* const> chosen, const Cap& cap, std::span<const Loss> losses,
-           std::span<const result::CaseResult> others, std::span<result::CaseResult> cases);
+           std::span<const result::CaseResult> others, std::span<result::CaseResult> cases,
+           std::span<const Loss> late = {});
 
 }  // namespace conform::monitor

@@ -171,3 +171,22 @@ TEST_CASE("The inhibit time is kept") {
             .told()
             .empty());
 }
+
+TEST_CASE("Where the machine was late that the device shares, only violations that rest on time are open") {
+  const std::vector<monitor::Loss> late = {{0, 1000}}, before = {{0, 3}};
+  const auto soon = [] {
+    return configured(255)
+        .write(0x1800, 1, 0x8000'0181)
+        .write(0x1800, 3, 1000)
+        .write(0x1800, 1, 0x181)
+        .line("wait 500 ms")
+        .line(tpdo)
+        .line("wait 20 ms")
+        .line(tpdo);
+  };
+  CHECK(soon().told({}, late) == Told{"inconclusive PDO-TX-12"});
+  CHECK(soon().told({}, before) == Told{"fail PDO-TX-12"});
+  CHECK(Story().line(pre_operational).later(tpdo).told({}, late) == Told{"inconclusive PDO-TX-02"});
+  CHECK(Story().line(start).read(0x1800, 1, 0x8000'0181).later(tpdo).told({}, late) ==
+        Told{"fail OD-1800-09"});
+}

@@ -57,7 +57,8 @@ inline std::vector<can::CapturedFrame> trace(const std::vector<std::string>& lin
 }
 
 inline std::vector<result::CaseResult> judged(const std::vector<can::CapturedFrame>& frames,
-                                              const std::vector<Loss>& losses = {}, const Facts& facts = {}) {
+                                              const std::vector<Loss>& losses = {}, const Facts& facts = {},
+                                              const std::vector<Loss>& late = {}) {
   std::vector<const Rule*> all;
   std::vector<result::CaseResult> cases;
   const Cap cap = [](std::string_view) { return result::Verdict::fail; };
@@ -65,7 +66,7 @@ inline std::vector<result::CaseResult> judged(const std::vector<can::CapturedFra
     all.push_back(&rule);
     cases.push_back(planned_case(rule, cap));
   }
-  judge(frames, facts, all, cap, losses, {}, cases);
+  judge(frames, facts, all, cap, losses, {}, cases, late);
   return cases;
 }
 
@@ -138,9 +139,9 @@ class Story {
   Story& later(std::string frame) { return line("wait 150 ms").line(std::move(frame)); }
 
   /// "fail PDO-TX-02", each kind once.
-  [[nodiscard]] Told told(const Facts& facts = {}) const {
+  [[nodiscard]] Told told(const Facts& facts = {}, const std::vector<Loss>& late = {}) const {
     Told out;
-    for (const auto& each : testing::told(judged(trace(lines_), {}, facts)))
+    for (const auto& each : testing::told(judged(trace(lines_), {}, facts, late)))
       if (auto kind = each.substr(0, each.find(" in ")); std::ranges::find(out, kind) == out.end())
         out.push_back(std::move(kind));
     return out;
