@@ -64,7 +64,11 @@ class Send final : public Action {
     }
     out->remote_ = fields.optional("rtr").boolean().value_or(false);
     out->extended_ = fields.optional("ext").boolean().value_or(false);
-    if (const auto dlc = fields.optional("dlc")) out->dlc_ = dlc.number(0, 15);
+    if (const auto dlc = fields.optional("dlc"); dlc && dlc.node()->text().starts_with('$')) {
+      if (auto expression = parse_expression_at(dlc, context.names)) out->named_dlc_ = *expression;
+    } else if (dlc) {
+      out->dlc_ = dlc.number(0, 15);
+    }
     return id && out->data_.size() <= 8 ? std::move(out) : nullptr;
   }
   Need need() const override {
@@ -126,6 +130,12 @@ class Send final : public Action {
     frame.remote = remote_;
     frame.extended = extended_ || *id > 0x7FF;
     if (dlc_) frame.dlc = static_cast<std::uint8_t>(*dlc_);
+    if (!named_dlc_.empty()) {
+      const auto dlc = named_dlc_.number(session);
+      if (!dlc) return std::unexpected(dlc.error());
+      if (*dlc > 15) return fail_scenario("'" + named_dlc_.text() + "' is no DLC, which is 0 to 15");
+      frame.dlc = static_cast<std::uint8_t>(*dlc);
+    }
     if (!remote_ && !extended_ && frame.id == 0 && frame.size() >= 2 &&
         frame.data[1] != session.node().value()) {
       return fail_scenario("an NMT command that is not for the device under test",
@@ -134,7 +144,7 @@ class Send final : public Action {
     return frame;
   }
 
-  Expression id_, named_data_;
+  Expression id_, named_data_, named_dlc_;
   Bytes data_;
   bool remote_ = false, extended_ = false;
   std::optional<std::uint64_t> dlc_;
@@ -282,7 +292,7 @@ class Silence final : public Action {
 
 constexpr Verb table[] = {
     {"send", "Send one frame, legal or not.",
-     "id: CAN-ID\ndata: bytes, or $name of saved ones or of a number of one byte\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes",
+     "id: CAN-ID\ndata: bytes, or $name of saved ones or of a number of one byte\nrtr: true for a remote frame\next: true for 29 bits\ndlc: if not the number of bytes; a number or $name",
      "- send: {id: 80h, data: \"\"}", &Send::parse},
     {"frame", "Wait for a frame of the device.",
      "id: CAN-ID, or heartbeat, emcy, emcy error (any but 0000h), sync, tpdo 1\nwithin: 200 ms, or 190 ms..340 ms\nafter: label to count from\nsave: name that the data get",

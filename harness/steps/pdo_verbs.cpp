@@ -2,11 +2,13 @@
 // Verbs about PDOs: configure one by the procedure of the standard, look at its mapping, read what it would
 // carry, send SYNC.
 #include <array>
+#include <vector>
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/pdo.hpp"
+#include "steps/pdo_objects.hpp"
 #include "steps/sdo_access.hpp"
 #include "steps/verb_tables.hpp"
 
@@ -14,27 +16,6 @@ namespace conform::steps {
 namespace {
 
 constexpr std::uint64_t most_entries = 0x40;
-
-bool is_absent(const Actual& actual) {
-  return actual.kind == Actual::Kind::aborted &&
-         (actual.code == canopen::abort::no_object || actual.code == canopen::abort::no_sub_index);
-}
-
-/// The communication object of a PDO, named by itself or by its mapping object.
-Result<Index> communication_of(const ObjectReference& pdo, Session& session) {
-  const auto object = pdo.resolve(session);
-  if (!object) return std::unexpected(object.error());
-  if (const auto index = canopen::pdo_communication(object->index)) return *index;
-  return fail_scenario(to_string(*object) + " is not a PDO",
-                       "1400h-15FFh, 1800h-19FFh or the mapping of one");
-}
-
-std::string pdo_words(const ObjectReference& pdo, Session& session) {
-  const auto index = communication_of(pdo, session);
-  if (!index) return pdo.text();
-  const bool receive = index->value() < 0x1800;
-  return (receive ? "RPDO " : "TPDO ") + std::to_string(index->value() - (receive ? 0x1400 : 0x1800) + 1);
-}
 
 /// An entry of a mapping: index in bits 31-16, sub-index in bits 15-8, length in bits in bits 7-0.
 struct MappedEntry {
@@ -90,7 +71,8 @@ struct MappedEntry {
 };
 
 /// Destroy the PDO, write mapping and parameters, create it again (7.5.2.36, 7.5.2.38). The first refusal
-/// ends it.
+/// ends it, but for what cannot be written and need not be: a COB-ID that is const and stays (what may be
+/// changed of a valid PDO is for the device to say), and a mapping that is const and the one that is wanted.
 class SetPdo final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
@@ -140,9 +122,13 @@ class SetPdo final : public Action {
     auto actual = read(session, cob_id);
     if (!is_confirmed(actual)) return actual;
     const auto before = static_cast<std::uint32_t>(load_le(actual->data));
-    if ((before & canopen::cob_id::bit31) == 0) {
+    const bool was_valid = (before & canopen::cob_id::bit31) == 0;
+    bool switched = false;
+    if (was_valid) {
       actual = write(session, cob_id, before | canopen::cob_id::bit31, 4);
-      if (!is_confirmed(actual)) return actual;
+      switched = is_confirmed(actual);
+      const bool stays = valid_ && can_id_.empty() && actual && is_read_only(*actual);
+      if (!switched && !stays) return actual;
     }
     if (maps_) {
       actual = write_mapping(session, canopen::pdo_mapping(*index));
@@ -156,6 +142,7 @@ class SetPdo final : public Action {
       if (!is_confirmed(actual)) return actual;
     }
     if (!valid_) return actual;
+    if (was_valid && !switched) return confirmed();
     auto target = before & ~canopen::cob_id::bit31;
     if (!can_id_.empty()) {
       const auto id = can_id_.number(session);
@@ -180,6 +167,16 @@ class SetPdo final : public Action {
                                                            {"event_timer", "event timer", 5, 2},
                                                            {"sync_start", "SYNC start value", 6, 1}}};
 
+  static bool is_read_only(const Actual& actual) {
+    return actual.kind == Actual::Kind::aborted && actual.code == canopen::abort::read_only;
+  }
+  static Actual confirmed() {
+    Actual out;
+    out.kind = Actual::Kind::confirmed;
+    out.detail = "confirmed";
+    return out;
+  }
+
   /// What already holds the value stays untouched; a parameter that is absent does what its value 0 says.
   static Result<Actual> write_parameter(Session& session, Multiplexer object, std::uint64_t wanted,
                                         std::size_t size) {
@@ -194,29 +191,50 @@ class SetPdo final : public Action {
     return write(session, object, wanted, size);
   }
 
-  /// What an RPDO maps is changed by its next frame, and has to be put back as after a download. A data type
-  /// (index up to 001Fh) only fills its place.
-  static Result<void> will_receive(Session& session, Index mapping, std::uint64_t entry) {
-    const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)),
-                             SubIndex(static_cast<std::uint8_t>(entry >> 8U))};
-    const bool receives = mapping < Index(0x1800);
-    return receives && object.index > Index(0x1F) ? session.will_change(object) : Result<void>();
+  /// The values of the entries, as often as they are asked for.
+  Result<std::vector<std::uint64_t>> wanted_mapping(Session& session) const {
+    std::vector<std::uint64_t> out;
+    std::uint64_t bits = 0;
+    while (!entries_.empty() && out.size() < most_entries &&
+           (out.size() < entries_.size() || bits < least_bits_)) {
+      const auto entry = entries_[out.size() % entries_.size()].resolve(session);
+      if (!entry) return std::unexpected(entry.error());
+      out.push_back(*entry);
+      bits += *entry & 0xFF;
+    }
+    return out;
+  }
+
+  /// True: the mapping is that already.
+  static Result<bool> holds_mapping(Session& session, Index mapping,
+                                    const std::vector<std::uint64_t>& wanted) {
+    for (std::size_t sub = 0; sub <= wanted.size(); ++sub) {
+      const auto held = read(session, {mapping, SubIndex(static_cast<std::uint8_t>(sub))});
+      if (!held) return std::unexpected(held.error());
+      if (!is_confirmed(held) || load_le(held->data) != (sub == 0 ? wanted.size() : wanted[sub - 1]))
+        return false;
+    }
+    return true;
   }
 
   Result<Actual> write_mapping(Session& session, Index mapping) const {
-    auto actual = write(session, {mapping, SubIndex(0)}, 0, 1);
-    if (!is_confirmed(actual)) return actual;
-    std::uint64_t bits = 0, count = 0;
-    while (!entries_.empty() && count < most_entries && (count < entries_.size() || bits < least_bits_)) {
-      const auto entry = entries_[count % entries_.size()].resolve(session);
-      if (!entry) return std::unexpected(entry.error());
-      if (auto noted = will_receive(session, mapping, *entry); !noted) return std::unexpected(noted.error());
-      ++count;
-      actual = write(session, {mapping, SubIndex(static_cast<std::uint8_t>(count))}, *entry, 4);
-      if (!is_confirmed(actual)) return actual;
-      bits += *entry & 0xFF;
+    const auto wanted = wanted_mapping(session);
+    if (!wanted) return std::unexpected(wanted.error());
+    for (const auto entry : *wanted) {
+      if (auto noted = will_receive(session, mapping, entry); !noted) return std::unexpected(noted.error());
     }
-    return count == 0 ? actual : write(session, {mapping, SubIndex(0)}, count, 1);
+    auto actual = write(session, {mapping, SubIndex(0)}, 0, 1);
+    if (actual && is_read_only(*actual)) {
+      const auto same = holds_mapping(session, mapping, *wanted);
+      if (!same) return std::unexpected(same.error());
+      return *same ? Result<Actual>(confirmed()) : actual;
+    }
+    if (!is_confirmed(actual)) return actual;
+    for (std::size_t i = 0; i < wanted->size(); ++i) {
+      actual = write(session, {mapping, SubIndex(static_cast<std::uint8_t>(i + 1))}, (*wanted)[i], 4);
+      if (!is_confirmed(actual)) return actual;
+    }
+    return wanted->empty() ? actual : write(session, {mapping, SubIndex(0)}, wanted->size(), 1);
   }
 
   ObjectReference pdo_;
@@ -296,8 +314,8 @@ class PdoMapping final : public Action {
     if (pdo) {
       if (auto parsed = parse_object_at(pdo, context.names)) out->pdo_ = *parsed;
     }
-    if (data) {
-      out->save_ = fields.required("save").text().value_or("");
+    if (const auto save = data ? fields.required("save") : fields.optional("save")) {
+      out->save_ = save.text().value_or("");
       context.know(out->save_);
     }
     return pdo ? std::move(out) : nullptr;
@@ -323,6 +341,7 @@ class PdoMapping final : public Action {
       return actual;
     }
     actual->data.clear();
+    if (!save_.empty()) session.set(save_, Value::of_number((mapping.bits + 7) / 8));
     actual->measured["count"] = mapping.entries.size();
     actual->measured["bits"] = mapping.bits;
     actual->measured["absent"] = mapping.absent;
@@ -340,6 +359,55 @@ class PdoMapping final : public Action {
  private:
   ObjectReference pdo_;
   bool data_ = false;
+  std::string save_;
+};
+
+/// A place in a PDO that is found as it is: one of the entries that it maps.
+class MappedEntryOf final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<MappedEntryOf>();
+    auto fields = value.fields("mapped_entry");
+    const auto pdo = fields.required("pdo");
+    const auto save = fields.required("save");
+    if (pdo) {
+      if (auto parsed = parse_object_at(pdo, context.names)) out->pdo_ = *parsed;
+    }
+    out->save_ = save.text().value_or("");
+    if (save) context.know(out->save_);
+    return pdo && save ? std::move(out) : nullptr;
+  }
+  Need need() const override { return {}; }
+  std::vector<ObjectReference> concerns() const override { return {pdo_}; }
+  bool rests_on_time() const override { return false; }
+  std::string words(Session& session) const override {
+    return "look for an entry of " + pdo_words(pdo_, session) + " that tests may write";
+  }
+  Result<Actual> run(Session& session) const override {
+    const auto index = communication_of(pdo_, session);
+    if (!index) return std::unexpected(index.error());
+    Mapping mapping;
+    auto actual = read_mapping(session, canopen::pdo_mapping(*index), mapping, false);
+    if (!is_confirmed(actual)) return actual;
+    actual->data.clear();
+    for (const auto mapped : mapping.entries) {
+      const Multiplexer object{Index(static_cast<std::uint16_t>(mapped >> 16U)),
+                               SubIndex(static_cast<std::uint8_t>((mapped >> 8U) & 0xFFU))};
+      const auto* entry = session.dictionary().find(object);
+      if (entry == nullptr || !entry->safe || !entry->readable() || !canopen::is_integer(entry->type) ||
+          entry->size() != (mapped & 0xFFU) / 8)
+        continue;
+      session.set(save_, Value::of_object(object));
+      actual->detail = to_string(object);
+      return actual;
+    }
+    actual->kind = Actual::Kind::silence;
+    actual->detail = "it maps nothing that tests may write and read";
+    return actual;
+  }
+
+ private:
+  ObjectReference pdo_;
   std::string save_;
 };
 
@@ -418,11 +486,15 @@ constexpr Verb table[] = {
      "- set_pdo: {pdo: 1800h, type: 1, event_timer: 0}\n- set_pdo: {pdo: $pdo, mapping: [$word, $word], valid: false}\n  checks: OD-1A00-05",
      &SetPdo::parse},
     {"mapping", "Read the mapping of a PDO and look for the objects it names.",
-     "pdo: its communication or mapping object\nmeasured: count, bits, absent, longer, shorter (entries against their objects)",
+     "pdo: its communication or mapping object\nsave: name that the length gets, in bytes\nmeasured: count, bits, absent, longer, shorter (entries against their objects)",
      "- mapping: {pdo: 1600h}\n  checks: OD-1600-03\n  expect: {bits: ..64}", &PdoMapping::parse},
     {"mapped_data", "Read what the objects mapped to a PDO hold, packed as the PDO carries them.",
      "pdo: its communication or mapping object\nsave: name that the data get",
      "- mapped_data: {pdo: $pdo, save: held}", &PdoMapping::parse_data},
+    {"mapped_entry", "Find an integer that a PDO maps, and that tests may write and read.",
+     "pdo: its communication or mapping object\nsave: name that the entry gets",
+     "- mapped_entry: {pdo: $pdo, save: entry}\n  either: [{if: ok}, {if: [abort any, silence], verdict: not applicable}]",
+     &MappedEntryOf::parse},
     {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.",
      "(word): once\nevery: time between two\ncount: how many\ncounter: overflow value: each has one byte that counts 1 to this and 1 again; 0: "
      "no data. Without it as 1019h says",

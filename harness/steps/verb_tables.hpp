@@ -17,6 +17,7 @@ namespace conform::steps {
 [[nodiscard]] std::span<const Verb> error_verbs();
 [[nodiscard]] std::span<const Verb> lss_verbs();
 [[nodiscard]] std::span<const Verb> pdo_verbs();
+[[nodiscard]] std::span<const Verb> ready_verbs();
 [[nodiscard]] std::span<const Verb> flow_verbs();
 [[nodiscard]] std::span<const Verb> conversation_verbs();
 [[nodiscard]] std::span<const Verb> segment_verbs();

@@ -9,9 +9,10 @@ namespace conform::steps {
 std::span<const Verb> verbs() {
   static const std::vector<Verb> all = [] {
     std::vector<Verb> out;
-    for (const auto table : {sdo_verbs(), interleave_verbs(), segment_verbs(), conversation_verbs(),
-                             nmt_verbs(), frame_verbs(), collect_verbs(), noise_verbs(), guard_verbs(),
-                             error_verbs(), pdo_verbs(), lss_verbs(), description_verbs(), flow_verbs()}) {
+    for (const auto table :
+         {sdo_verbs(), interleave_verbs(), segment_verbs(), conversation_verbs(), nmt_verbs(), frame_verbs(),
+          collect_verbs(), noise_verbs(), guard_verbs(), error_verbs(), pdo_verbs(), ready_verbs(),
+          lss_verbs(), description_verbs(), flow_verbs()}) {
       out.insert(out.end(), table.begin(), table.end());
     }
     return out;

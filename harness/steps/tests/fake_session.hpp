@@ -18,6 +18,9 @@ class FakeSession final : public Session {
   // What the test arranges.
   std::map<std::string, Value, std::less<>> names;
   std::map<Multiplexer, Bytes> entries;
+  bool serves = false;  ///< SDO transfers of `entries`
+  std::map<Multiplexer, AbortCode> refused;
+  std::vector<Multiplexer> written;  ///< or tried to
   std::set<std::string, std::less<>> features;
   std::map<Multiplexer, Bytes> defaults, low_limits, high_limits;
   std::size_t triggers = 0;
@@ -97,12 +100,25 @@ class FakeSession final : public Session {
   [[nodiscard]] const device::Dictionary& dictionary() const override { return known; }
   [[nodiscard]] const can::Capture& capture() const override { return trace; }
   [[nodiscard]] BusTime now() const override { return time; }
-  [[nodiscard]] Result<SdoAnswer> upload(Multiplexer, std::optional<Duration>) override {
-    return fail("no bus");
+  [[nodiscard]] Result<SdoAnswer> upload(Multiplexer object, std::optional<Duration>) override {
+    if (!serves) return fail("no bus");
+    SdoAnswer out;
+    const auto found = entries.find(object);
+    out.kind = found == entries.end() ? SdoAnswer::Kind::aborted : SdoAnswer::Kind::confirmed;
+    if (found == entries.end()) out.code = canopen::abort::no_object;
+    if (found != entries.end()) out.data = found->second;
+    return out;
   }
-  [[nodiscard]] Result<SdoAnswer> download(Multiplexer, Bytes, canopen::SdoDownload::Mode,
+  [[nodiscard]] Result<SdoAnswer> download(Multiplexer object, Bytes data, canopen::SdoDownload::Mode,
                                            std::optional<Duration>) override {
-    return fail("no bus");
+    if (!serves) return fail("no bus");
+    SdoAnswer out;
+    const auto refusal = refused.find(object);
+    out.kind = refusal == refused.end() ? SdoAnswer::Kind::confirmed : SdoAnswer::Kind::aborted;
+    if (refusal != refused.end()) out.code = refusal->second;
+    if (refusal == refused.end()) entries[object] = std::move(data);
+    written.push_back(object);
+    return out;
   }
   [[nodiscard]] Result<std::vector<SdoAnswer>> transfer(const std::vector<SdoJob>&) override {
     return fail("no bus");

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// The verbs `ready_pdo` and `ready_sync`: many devices are delivered with their PDOs off or with nothing
+// mapped, or as the producer of SYNC, and leave it to a configuration tool to give them another part to play.
+// What they do then is judged all the same.
+#include <vector>
+
+#include "canopen/cob_id.hpp"
+#include "canopen/pdo.hpp"
+#include "steps/pdo_objects.hpp"
+#include "steps/sdo_access.hpp"
+#include "steps/verb_tables.hpp"
+
+namespace conform::steps {
+namespace {
+
+/// A device may have its reasons not to map one object; that none of so many can be mapped says enough.
+constexpr std::size_t most_candidates = 4;
+/// Where the device has no CAN-ID of its own for a PDO: nothing of the pre-defined connection set, and not
+/// restricted (7.3.5).
+constexpr std::uint32_t first_free_can_id = 0x6B0, free_can_ids = 16;
+
+/// Values for a mapping entry that the PDO may well take: what the description or the profile offers, whole,
+/// and for a TPDO the error register, which every device has.
+std::vector<std::uint32_t> candidates(const device::Dictionary& dictionary, bool receive) {
+  std::vector<std::uint32_t> out;
+  for (const auto& entry : dictionary.entries()) {
+    if (out.size() == most_candidates) return out;
+    const auto size = entry.size();
+    const bool fits = entry.pdo_mappable && size && *size >= 1 && *size <= 8 && !entry.untouchable;
+    const bool takes = receive ? entry.safe && entry.access != device::Access::rwr
+                               : entry.readable() && entry.access != device::Access::rww;
+    if (!fits || !takes || entry.mux.index < Index(0x2000)) continue;
+    const auto bits = entry.type == canopen::DataType::boolean ? 1U : static_cast<std::uint32_t>(*size * 8);
+    out.push_back((std::uint32_t{entry.mux.index.value()} << 16U) |
+                  (std::uint32_t{entry.mux.sub.value()} << 8U) | bits);
+  }
+  if (!receive) out.push_back(0x1001'0008);
+  return out;
+}
+
+class ReadyPdo final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
+    auto out = std::make_unique<ReadyPdo>();
+    auto pdo = parse_object_at(value, context.names);
+    if (pdo) out->pdo_ = *pdo;
+    return pdo ? std::move(out) : nullptr;
+  }
+  std::vector<ObjectReference> concerns() const override { return {pdo_}; }
+  bool rests_on_time() const override { return false; }
+  std::string words(Session& session) const override {
+    return "make sure that " + pdo_words(pdo_, session) + " is valid and maps something";
+  }
+
+  Result<Actual> run(Session& session) const override {
+    const auto index = communication_of(pdo_, session);
+    if (!index) return std::unexpected(index.error());
+    const Multiplexer cob_id{*index, SubIndex(1)};
+    const auto mapping = canopen::pdo_mapping(*index);
+    auto actual = read(session, cob_id);
+    if (!is_confirmed(actual)) return actual;
+    const auto before = static_cast<std::uint32_t>(load_le(actual->data));
+    const bool valid = (before & canopen::cob_id::bit31) == 0;
+    actual = read(session, {mapping, SubIndex(0)});
+    if (!is_confirmed(actual)) return actual;
+    const bool maps = load_le(actual->data) != 0;
+    if (valid && maps) return done(std::move(*actual));
+    if (!maps) {
+      if (valid) actual = write(session, cob_id, before | canopen::cob_id::bit31, 4);
+      if (is_confirmed(actual)) actual = map_one(session, mapping);
+      if (!is_confirmed(actual)) return actual;
+    }
+    actual = write(session, cob_id, with_can_id(before & ~canopen::cob_id::bit31, *index, session.node()), 4);
+    return actual ? done(std::move(*actual)) : actual;
+  }
+
+ private:
+  static Actual done(Actual actual) {
+    actual.data.clear();
+    return actual;
+  }
+
+  /// The first candidate that the device takes.
+  static Result<Actual> map_one(Session& session, Index mapping) {
+    auto actual = Result<Actual>(fail_scenario("the device has nothing that could be mapped"));
+    for (const auto entry : candidates(session.dictionary(), is_receive_pdo(mapping))) {
+      if (auto noted = will_receive(session, mapping, entry); !noted) return std::unexpected(noted.error());
+      actual = write(session, {mapping, SubIndex(1)}, entry, 4);
+      if (!actual) return actual;
+      if (is_confirmed(actual)) return write(session, {mapping, SubIndex(0)}, 1, 1);
+    }
+    if (actual) return actual;
+    Actual none;
+    none.kind = Actual::Kind::silence;
+    none.detail = actual.error().what;
+    return none;
+  }
+
+  /// A PDO beyond the fourth has no CAN-ID by default (7.5.2.35, 7.5.2.37).
+  static std::uint32_t with_can_id(std::uint32_t cob_id, Index communication, NodeId node) {
+    if ((cob_id & 0x1FFF'FFFFU) != 0) return cob_id;
+    const auto number = communication.value() - (is_receive_pdo(communication) ? 0x1400U : 0x1800U);
+    const auto set = canopen::connection_set(node);
+    const auto& usual = is_receive_pdo(communication) ? set.rpdo : set.tpdo;
+    return cob_id | (number < 4 ? usual[number].value() : first_free_can_id + number % free_can_ids);
+  }
+
+  ObjectReference pdo_;
+};
+
+/// A device that produces SYNC can be tested as a consumer when it does so no more (7.5.2.5, bit 30). What is
+/// left of its period would be one in which it may miss the SYNC of others (7.5.2.6).
+class ReadySync final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    return value.one_of({"consumer"}) ? std::make_unique<ReadySync>() : nullptr;
+  }
+  std::vector<ObjectReference> concerns() const override {
+    auto object = ObjectReference::parse("1005h:00");
+    return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
+  }
+  bool rests_on_time() const override { return false; }
+  std::string words(Session&) const override { return "make sure that the device produces no SYNC"; }
+
+  Result<Actual> run(Session& session) const override {
+    constexpr Multiplexer cob_id{Index(0x1005), SubIndex(0)};
+    auto actual = read(session, cob_id);
+    if (!is_confirmed(actual)) return actual;
+    const auto before = static_cast<std::uint32_t>(load_le(actual->data));
+    actual->data.clear();
+    if ((before & canopen::cob_id::bit30) == 0) return actual;
+    actual = write(session, cob_id, before & ~canopen::cob_id::bit30, 4);
+    if (!is_confirmed(actual)) return actual;
+    constexpr Multiplexer period{Index(0x1006), SubIndex(0)};
+    const auto held = read(session, period);
+    if (!held || !is_confirmed(held) || load_le(held->data) == 0) return held ? actual : held;
+    return write(session, period, 0, 4);
+  }
+};
+
+constexpr Verb table[] = {
+    {"ready_pdo",
+     "Make a PDO valid, with one object mapped, where the device is delivered without; one that is ready stays as it is.",
+     "(object): the communication or mapping object of the PDO",
+     "- ready_pdo: $pdo\n  either: [{if: ok}, {if: [abort any, silence], verdict: not applicable}]",
+     &ReadyPdo::parse},
+    {"ready_sync",
+     "Make the device a consumer of SYNC where it is delivered as the producer; one that produces none stays as it is.",
+     "(word): consumer",
+     "- ready_sync: consumer\n  either: [{if: ok}, {if: abort any, verdict: not applicable}]",
+     &ReadySync::parse},
+};
+
+}  // namespace
+
+std::span<const Verb> ready_verbs() { return table; }
+
+}  // namespace conform::steps
