@@ -128,6 +128,34 @@ Result<void> restore_counter(Restorer& device, Observer& observer, const Change&
   return done ? Result<void>() : std::unexpected(done.error());
 }
 
+constexpr Multiplexer heartbeat_time{Index(0x1017), SubIndex(0)};
+
+bool is_of_guarding(Multiplexer object) {
+  return object.index == Index(0x100C) || object.index == Index(0x100D);
+}
+
+/// Beside a heartbeat a device may take no life time (7.2.8.2.2.1).
+Result<void> restore_guarding(Restorer& device, Observer& observer, const Change& change,
+                              const std::vector<Change>& changes) {
+  auto done = device.write(change.object, change.before);
+  if (!done) return std::unexpected(done.error());
+  if (*done) return {};
+  const auto heartbeat = device.read(heartbeat_time);
+  if (!heartbeat) return std::unexpected(heartbeat.error());
+  if (!*heartbeat || load_le(**heartbeat) == 0) return {};
+  const auto known = std::ranges::find(changes, heartbeat_time, &Change::object);
+  const Bytes wanted = known == changes.end() ? **heartbeat : known->before;
+  observer.changing(heartbeat_time, wanted);
+  done = device.write(heartbeat_time, to_le(0, wanted.size()));
+  if (done) done = device.write(change.object, change.before);
+  if (done) done = device.write(heartbeat_time, wanted);
+  if (!done) return std::unexpected(done.error());
+  const auto is = device.read(heartbeat_time);
+  if (!is) return std::unexpected(is.error());
+  if (*is == wanted) observer.put_back(heartbeat_time, wanted);
+  return {};
+}
+
 }  // namespace
 
 Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) {
@@ -180,6 +208,11 @@ Result<RestoreReport> restore(RunSession& session, std::vector<Change> changes) 
     }
     if (change.object == counter_overflow) {
       if (auto done = restore_counter(device, observer, change, differing); !done)
+        return std::unexpected(done.error());
+      continue;
+    }
+    if (is_of_guarding(change.object)) {
+      if (auto done = restore_guarding(device, observer, change, differing); !done)
         return std::unexpected(done.error());
       continue;
     }

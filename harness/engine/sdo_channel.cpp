@@ -24,6 +24,8 @@ constexpr Duration after_answer = std::chrono::milliseconds(5);
 /// A device may take longer than anybody thought. The silence of an entry is not believed before this, until
 /// it has been seen twice (once it may have been a request that fell into the boot time).
 constexpr Duration longest_answer = std::chrono::seconds(3);
+/// Of a server's program: what takes longer is what an entry needs (1010h).
+constexpr Duration longest_cycle = std::chrono::milliseconds(200);
 /// ... but a device that often is silent must not cost hours.
 constexpr Duration most_patience = std::chrono::seconds(60);
 constexpr int times_in_vain = 2;
@@ -78,7 +80,8 @@ bool SdoChannel::is_default_of_another(const steps::SdoChannelIds& ids) const {
 Duration SdoChannel::rest(const steps::SdoChannelIds& ids) const {
   const auto least =
       owes_nothing(ids) ? std::clamp(2 * slowest_, after_answer, after_conversation) : after_conversation;
-  return std::max(least, 2 * latest_);
+  // A server that looks for requests once in a while takes as long as the slowest of them, now and then.
+  return std::max({least, 2 * latest_, std::min(recently_, longest_cycle)});
 }
 
 /// What came last, but for aborts of the client, was an answer, and none that may be of a transfer which the

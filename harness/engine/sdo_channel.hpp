@@ -61,6 +61,7 @@ class SdoChannel {
   void note_latency(Duration latency) {
     latest_ = latency;
     slowest_ = std::max(slowest_, latency);
+    recently_ = std::max(latency, recently_ - recently_ / 32);
   }
   /// The device has started since: what was lost while it booted says nothing about its answers.
   void forget_silences() { mute_.clear(); }
@@ -141,6 +142,7 @@ class SdoChannel {
   OnValue on_value_;
   Duration timeout_, quiet_;
   Duration slowest_{}, latest_{};  ///< answers: the slowest, and the latest one
+  Duration recently_{};            ///< the slowest of late: one that is long ago counts less and less
   /// The entry of the transfer that the server said last it has begun, in the frames from index `begin` on.
   [[nodiscard]] std::optional<Multiplexer> confirmed_last(CanId response, const ByHand& sent,
                                                           std::size_t begin) const;
