@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of the end of a transfer: what a refusal, an abort of the client or Stopped leaves alive, timers
 // among it. And of channels beside the default one: where they answer, and what ends their transfers.
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "defects/sdo_block_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
@@ -38,6 +42,28 @@ std::function<bool(Parts&, const Frame&)> comes_within(unsigned specifier) {
     return transfer_of<Kind>(node, frame) != nullptr && frame.data[0] >> 5U == specifier;
   };
 }
+/// Such requests within a transfer are refused as unknown by an abort that names it, and it goes on.
+template <typename Kind>
+Change refused_by_its_name(std::initializer_list<unsigned> specifiers) {
+  return [all = std::vector<unsigned>(specifiers)](Parts& parts) {
+    const auto named = std::make_shared<std::optional<Multiplexer>>();
+    survives_refusal_of([named, all](Parts& node, const Frame& frame) {
+      const Kind* transfer = transfer_of<Kind>(node, frame);
+      const bool refused = transfer != nullptr && std::ranges::find(all, frame.data[0] >> 5U) != all.end();
+      *named = refused ? std::optional(transfer->mux()) : std::nullopt;
+      return refused;
+    })(parts);
+    misreads([named](Parts&, Frame& frame) {
+      if (*named) frame.data[0] |= 0xE0U;
+    })(parts);
+    parts.device.outbox.add_filter([named](const FilterContext& context, Frames& frames) {
+      if (context.sdo == nullptr || !unknown_command(*context.sdo) || !*named) return;
+      const Data abort = with_mux(0x80, **named);
+      for (Outgoing& outgoing : frames) std::copy_n(abort.begin(), 4, outgoing.frame.data.begin());
+    });
+  };
+}
+
 bool end_of_block_download(Parts& node, const Frame& frame) {
   const auto* transfer = transfer_of<BlockDownload>(node, frame);
   return transfer != nullptr && !transfer->in_sub_block() && (frame.data[0] & 0xE1U) == 0xC1;
@@ -178,6 +204,9 @@ bool block_download_begun_on_second_channel(const SdoExchange& e) {
 DefectTable alive_rows() {
   constexpr unsigned download_segment = 0;
   constexpr unsigned upload_segment = 3;
+  constexpr unsigned block_upload = 5;
+  constexpr unsigned block_download = 6;
+  constexpr unsigned unknown = 7;
   return {
       {"segmented-download-outlives-upload-segment",
        "An upload segment request within a segmented download is refused, and the download goes on",
@@ -187,6 +216,26 @@ DefectTable alive_rows() {
        "A download segment within a segmented upload is refused, and the upload goes on",
        {"SDO-SUP-13"},
        survives_refusal_of(comes_within<SegmentedUpload>(download_segment))},
+      {"segmented-upload-outlives-unknown-command",
+       "An unknown command within a segmented upload is refused by an abort of the upload, which goes on",
+       {"SDO-ERR-01"},
+       refused_by_its_name<SegmentedUpload>({unknown})},
+      {"segmented-download-outlives-unknown-command",
+       "An unknown command within a segmented download is refused by an abort of the download, which goes on",
+       {"SDO-ERR-01"},
+       refused_by_its_name<SegmentedDownload>({unknown})},
+      {"block-upload-outlives-unknown-command",
+       "An unknown command within a block upload is refused by an abort of the upload, which goes on",
+       {"SDO-ERR-01"},
+       refused_by_its_name<BlockUpload>({unknown})},
+      {"segmented-upload-outlives-block-request",
+       "A block request within a segmented upload is refused by an abort of the upload, which goes on",
+       {"SDO-SUP-11"},
+       refused_by_its_name<SegmentedUpload>({block_upload, block_download})},
+      {"segmented-download-outlives-block-request",
+       "A block request within a segmented download is refused by an abort of the download, which goes on",
+       {"SDO-SDN-17"},
+       refused_by_its_name<SegmentedDownload>({block_upload, block_download})},
       {"block-download-outlives-wrong-crc",
        "A block download that was refused because of its CRC can be ended once more",
        {"SDO-BDN-03"},

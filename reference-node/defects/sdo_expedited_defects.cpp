@@ -6,6 +6,7 @@
 
 #include "defects/hooks.hpp"
 #include "defects/sdo_exchanges.hpp"
+#include "defects/sdo_rules.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -73,6 +74,48 @@ Change cuts_long_numbers() {
         data->resize(std::min<std::size_t>(data->size(), 4));
       return data;
     });
+  };
+}
+
+using Flag = std::shared_ptr<bool>;
+/// Set while the latest request is an expedited download without size.
+Flag unsized_download_seen(Parts& parts) {
+  const auto seen = std::make_shared<bool>(false);
+  misreads([seen](Parts& node, Frame& frame) {
+    *seen = channel_of(node, frame).has_value() && frame.size() == 8 && (frame.data[0] & 0xE3U) == 0x22;
+  })(parts);
+  return seen;
+}
+
+/// An expedited download without size counts as one of the entry's length, where `concerned` holds: what four
+/// bytes leave over keeps what it held before.
+Change takes_the_length_of(bool (*concerned)(const Entry&)) {
+  return [concerned](Parts& parts) {
+    const Flag unsized = unsized_download_seen(parts);
+    parts.device.dictionary.download.replace(
+        [&parts, unsized, concerned](const auto& former, Multiplexer mux, ByteView data) {
+          const Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+          if (!std::exchange(*unsized, false) || entry == nullptr || !concerned(*entry) ||
+              entry->value.size() <= data.size())
+            return former(mux, data);
+          Bytes all = entry->value;
+          std::copy(data.begin(), data.end(), all.begin());
+          return former(mux, all);
+        });
+  };
+}
+
+/// Of a DOMAIN nothing is written by an expedited download without size.
+Change forgets_unsized_domains() {
+  return [](Parts& parts) {
+    const Flag unsized = unsized_download_seen(parts);
+    parts.device.dictionary.download.replace(
+        [&parts, unsized](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
+          const Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+          if (std::exchange(*unsized, false) && entry != nullptr && entry->type == DataType::domain)
+            return {};
+          return former(mux, data);
+        });
   };
 }
 
@@ -210,6 +253,19 @@ DefectTable download_rows() {
        "An expedited download without size is aborted after it was stored",
        {"SDO-DNL-05", "SDO-DNL-06", "SDO-DNL-20"},
        respond(unsized_expedited_download, 0x80, 0x06070010)},
+      {"expedited-unsized-takes-the-length-of-the-entry",
+       "An expedited download without size is taken for one of the entry's length, and four of five to eight bytes change",
+       {"SDO-DNL-19"},
+       takes_the_length_of([](const Entry& entry) { return fixed_size(entry.type) > 4; })},
+      {"expedited-unsized-text-keeps-its-length",
+       "An expedited download without size changes the first four characters of a text, and the others stay",
+       {"SDO-DNL-05"},
+       takes_the_length_of(
+           [](const Entry& entry) { return fixed_size(entry.type) == 0 && entry.type != DataType::domain; })},
+      {"expedited-unsized-download-to-a-domain-forgotten",
+       "An expedited download without size to a DOMAIN is confirmed and forgotten",
+       {"SDO-DNL-05"},
+       forgets_unsized_domains()},
       {"8-bit-download-not-stored",
        "Downloads of one byte to manufacturer-specific entries are confirmed and forgotten",
        {"SDO-DNL-02", "OD-ACC-04"},

@@ -186,6 +186,45 @@ void block_size_left(Parts& parts) {
     return former(std::move(data), other);
   });
 }
+/// The length of the latest expedited or segmented upload.
+std::shared_ptr<Size> uploaded_size(Parts& parts) {
+  const auto size = std::make_shared<Size>();
+  parts.device.outbox.add_filter(on_exchange([size](const SdoExchange& e, Frames& frames) {
+    if (!upload_initiated(e) || frames.empty()) return;
+    const Data& data = frames.front().frame.data;
+    *size = is_expedited_upload(data) ? expedited_size(data) : conform::load_le(std::span(data).subspan(4));
+  }));
+  return size;
+}
+/// Until another size is told, that of an upload counts for downloads that tell none.
+void segmented_size_left_by_upload(Parts& parts) {
+  const auto told = uploaded_size(parts);
+  const auto untold = std::make_shared<bool>(false);
+  of_segments(parts).granted.replace([told, untold](const auto& former, Multiplexer mux, Size announced) {
+    *untold = !announced;
+    if (announced) told->reset();
+    return former(mux, announced);
+  });
+  of_segments(parts).store.replace(
+      [told, untold](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
+        if (*untold && *told && data.size() > **told) return refuse(abort_code::length_too_high);
+        if (*untold && *told && data.size() < **told) return refuse(abort_code::length_too_low);
+        return former(mux, data);
+      });
+}
+void block_size_left_by_upload(Parts& parts) {
+  const auto told = uploaded_size(parts);
+  auto& rules = parts.sdo.rules.block_download;
+  rules.may_begin.replace([told](const auto& former, Multiplexer mux, Size announced) {
+    if (announced) told->reset();
+    return former(mux, announced);
+  });
+  rules.value.replace([told](const auto& former, Bytes data, const BlockDownloadTerms& terms) {
+    BlockDownloadTerms other = terms;
+    if (!other.announced) other.announced = *told;
+    return former(std::move(data), other);
+  });
+}
 void crc_agreement_left(Parts& parts) {
   parts.sdo.rules.block_download.crc_checked.replace(
       [before = std::make_shared<bool>(false)](const auto& former, bool agreed) {
@@ -262,6 +301,45 @@ Change blocks_without(Hook Entry::* hook, Concerned concerned = any_entry) {
           return without(parts, mux, hook, [&] { return former(mux, data); });
         });
   };
+}
+
+bool is_type_of_pdo(Multiplexer mux) {
+  const unsigned index = mux.index.value();
+  return mux.sub.value() == 2 && ((index >= 0x1400 && index < 0x1600) || (index >= 0x1800 && index < 0x1A00));
+}
+
+/// What is to be looked at before a value is taken is looked at with the initiate already, where the size
+/// that is told stands in the place of the value; the value itself is not.
+using Look = Accepted (*)(const Entry& entry, ByteView bytes);
+
+Accepted at_limits(const Entry& entry, ByteView bytes) {
+  const auto number = static_cast<std::int64_t>(conform::load_le(bytes));
+  const bool within = number >= entry.low.value_or(number) && number <= entry.high.value_or(number);
+  return within ? Accepted{} : refuse(abort_code::invalid_value);
+}
+Accepted at_rules(const Entry& entry, ByteView bytes) {
+  return entry.check && !entry.command ? entry.check(bytes) : Accepted{};
+}
+
+Accepted look_at_size(Parts& parts, Multiplexer mux, Size told, Look look) {
+  const Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+  if (entry == nullptr || fixed_size(entry->type) == 0) return {};
+  Bytes bytes(fixed_size(entry->type));
+  conform::store_le(bytes, told.value_or(0));
+  return look(*entry, bytes);
+}
+template <typename Granted>
+void looks_at_size(Parts& parts, Granted& granted, Look look, Concerned concerned) {
+  granted.replace([&parts, look, concerned](const auto& former, Multiplexer mux, Size told) {
+    const Accepted may = former(mux, told);
+    return may && concerned(mux) ? look_at_size(parts, mux, told, look) : may;
+  });
+}
+void segmented_looks_at_size(Parts& parts, Look look, Concerned concerned) {
+  looks_at_size(parts, of_segments(parts).granted, look, concerned);
+}
+void block_looks_at_size(Parts& parts, Look look, Concerned concerned) {
+  looks_at_size(parts, parts.sdo.rules.block_download.may_begin, look, concerned);
 }
 
 DefectTable left_rows() {
@@ -352,6 +430,14 @@ DefectTable left_rows() {
        "A block download that tells no size has to be as long as the one before it that told one",
        {"SDO-BDN-16"},
        Change(block_size_left)},
+      {"download-size-left-by-upload",
+       "A segmented download that tells no size has to be as long as the upload before it",
+       {"SDO-SDN-02"},
+       Change(segmented_size_left_by_upload)},
+      {"block-download-size-left-by-upload",
+       "A block download that tells no size has to be as long as the upload before it",
+       {"SDO-BDN-16"},
+       Change(block_size_left_by_upload)},
       {"block-download-crc-left-to-next",
        "After a block download with CRC one without is refused because of its CRC",
        {"SDO-BDN-04"},
@@ -464,6 +550,32 @@ DefectTable sdo_leftover_defects() {
        "A block download brings any value for the mapping of a PDO",
        {"OD-1600-06", "OD-1A00-06"},
        blocks_without(&Entry::check, is_mapping)},
+      {"pdo-type-by-segments-not-looked-at",
+       "A segmented download brings any value for the transmission type of a PDO",
+       {"OD-1400-16", "OD-1800-16"},
+       segments_without(&Entry::check, is_type_of_pdo)},
+      {"pdo-type-by-blocks-not-looked-at",
+       "A block download brings any value for the transmission type of a PDO",
+       {"OD-1400-16", "OD-1800-16"},
+       blocks_without(&Entry::check, is_type_of_pdo)},
+      {"segmented-limits-held-against-size",
+       "A segmented download is held against the limits of the entry by the size it tells, not by its value",
+       {"SDO-SDN-23"},
+       together(segments_without(&Entry::low), segments_without(&Entry::high),
+                [](Parts& parts) { segmented_looks_at_size(parts, at_limits, any_entry); })},
+      {"block-limits-held-against-size",
+       "A block download is held against the limits of the entry by the size it tells, not by its value",
+       {"SDO-BDN-24"},
+       together(blocks_without(&Entry::low), blocks_without(&Entry::high),
+                [](Parts& parts) { block_looks_at_size(parts, at_limits, any_entry); })},
+      {"pdo-cob-id-by-segments-held-against-size",
+       "What a segmented download tells as its size is taken for the COB-ID of a PDO, which is then refused",
+       {"SDO-SDN-23"},
+       [](Parts& parts) { segmented_looks_at_size(parts, at_rules, is_cob_id_of_pdo); }},
+      {"pdo-cob-id-by-blocks-held-against-size",
+       "What a block download tells as its size is taken for the COB-ID of a PDO, which is then refused",
+       {"SDO-BDN-24"},
+       [](Parts& parts) { block_looks_at_size(parts, at_rules, is_cob_id_of_pdo); }},
   };
   append(rows, std::move(other));
   return rows;

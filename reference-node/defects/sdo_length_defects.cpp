@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "defects/sdo_block_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
@@ -113,6 +114,74 @@ void unsized_above_the_limit(Parts& parts) {
   });
 }
 
+bool has_fixed_size(Parts& parts, Multiplexer mux) {
+  const Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+  return entry != nullptr && fixed_size(entry->type) != 0;
+}
+/// Where the entry takes any length more bytes come than were told.
+void takes_more_segments_than_told(Parts& parts) {
+  const auto most = std::make_shared<std::size_t>(0);
+  of_segments(parts).granted.replace(
+      [&parts, most](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
+        *most = has_fixed_size(parts, mux) ? 0 : parts.device.dictionary.capacity(mux);
+        return former(mux, announced);
+      });
+  of_segments(parts).fits.replace([most](const auto& former, std::size_t received, std::size_t told) {
+    return received <= *most || former(received, told);
+  });
+}
+void takes_more_by_block_than_told(Parts& parts) {
+  const auto as_if_untold = [&parts](const BlockDownloadTerms& terms, std::size_t size) {
+    BlockDownloadTerms other = terms;
+    if (!has_fixed_size(parts, terms.mux) && size > terms.announced.value_or(size)) other.announced.reset();
+    return other;
+  };
+  BlockDownloadRules& rules = of_block_download(parts);
+  rules.fits.replace([as_if_untold](const auto& former, std::size_t size, const BlockDownloadTerms& terms) {
+    return former(size, as_if_untold(terms, size));
+  });
+  rules.value.replace([as_if_untold](const auto& former, Bytes data, const BlockDownloadTerms& terms) {
+    const BlockDownloadTerms other = as_if_untold(terms, data.size());
+    return former(std::move(data), other);
+  });
+}
+
+/// A size of 0 counts as none; an entry of more than four bytes for which no bytes come is set to zero.
+void fills_up_what_told_no_bytes(Parts& parts) {
+  const auto none = std::make_shared<bool>(false);
+  of_segments(parts).granted.replace(
+      [none](const auto& former, Multiplexer mux, std::optional<std::size_t> announced) {
+        *none = announced == std::size_t{0};
+        return former(mux, *none ? std::nullopt : announced);
+      });
+  of_segments(parts).store.replace([&parts, none](const auto& former, Multiplexer mux, ByteView data) {
+    const std::size_t size = parts.device.dictionary.capacity(mux);
+    const bool filled = *none && data.empty() && size > 4 && has_fixed_size(parts, mux);
+    return filled ? former(mux, Bytes(size)) : former(mux, data);
+  });
+}
+
+/// A segmented download that tells no size counts as an expedited one of the four bytes that are reserved,
+/// where the entry takes as many. The segment that follows is refused by name.
+void takes_reserved_bytes_for_data(Parts& parts) {
+  const auto taken = std::make_shared<std::optional<std::array<std::uint8_t, 3>>>();
+  misreads([taken](Parts& node, Frame& frame) {
+    if (server_asked(node, frame) == nullptr || receiving(node, frame) != nullptr) return;
+    const std::uint8_t command = frame.data[0];
+    if (command >> 5U != 0) taken->reset();
+    const Entry* entry = node.device.dictionary.entry(
+        static_cast<std::uint16_t>(conform::load_le(std::span(frame.data).subspan(1, 2))), frame.data[3]);
+    if ((command & 0xF3U) != 0x20 || entry == nullptr) return;
+    if (fixed_size(entry->type) != 4 && fixed_size(entry->type) != 0) return;
+    *taken = {frame.data[1], frame.data[2], frame.data[3]};
+    frame.data[0] = expedited_of(4);
+  })(parts);
+  parts.device.outbox.add_filter(on_exchange([taken](const SdoExchange& e, Frames& frames) {
+    if (!*taken || !download_segment_without_transfer(e)) return;
+    for (Outgoing& outgoing : frames) std::ranges::copy(**taken, outgoing.frame.data.begin() + 1);
+  }));
+}
+
 constexpr std::size_t most_kept = std::size_t{127} * 7;
 
 /// Of downloads that tell no size as much is kept as a sub-block holds.
@@ -157,6 +226,22 @@ DefectTable sdo_length_defects() {
        "Of a segmented download that tells no size 889 bytes are stored",
        {"SDO-SDN-02"},
        Change(cuts_untold_lengths)},
+      {"unsized-segmented-taken-for-expedited",
+       "A segmented download that tells no size is taken for an expedited one of four bytes",
+       {"SDO-SDN-02", "OD-ACC-05"},
+       Change(takes_reserved_bytes_for_data)},
+      {"segmented-text-longer-than-told",
+       "A segmented download brings more bytes than it told where the entry takes any length",
+       {"SDO-SDN-09"},
+       Change(takes_more_segments_than_told)},
+      {"block-text-longer-than-told",
+       "A block download brings more bytes than it told where the entry takes any length",
+       {"SDO-BDN-15"},
+       Change(takes_more_by_block_than_told)},
+      {"no-bytes-told-fill-with-zeros",
+       "A segmented download that tells a size of 0 and brings nothing sets an entry of eight bytes to zero",
+       {"SDO-SDN-14"},
+       Change(fills_up_what_told_no_bytes)},
       {"block-upload-segment-127-unused-bytes",
        "The end of a block upload tells no unused bytes when its last segment is number 127",
        {"SDO-BUP-13"},

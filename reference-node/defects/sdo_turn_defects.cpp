@@ -3,6 +3,8 @@
 // block transfer that are not due, and aborts that end nothing.
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,39 @@ Change outlives_expedited_requests(bool block_transfer) {
   return decides(of_sdo, &SdoRules::makes_way, [block_transfer](const auto& former, bool block) {
     return block != block_transfer && former(block);
   });
+}
+
+constexpr unsigned download_request = 1, upload_request = 2;  ///< bits 7 to 5 of an initiate
+
+/// A transfer of this kind stays open beside one that such a request begins, if that is over with its answer.
+template <typename Kind>
+Change outlives(unsigned specifier) {
+  return [specifier](Parts& parts) {
+    const auto met = std::make_shared<bool>(false);
+    misreads([met, specifier](Parts& node, Frame& frame) {
+      *met = transfer_of<Kind>(node, frame) != nullptr && frame.data[0] >> 5U == specifier;
+    })(parts);
+    of_sdo(parts).makes_way.replace([met](const auto& former, bool block) { return !*met && former(block); });
+  };
+}
+
+/// The server knows one entry, that of the latest request: what a download still brings goes there.
+template <typename Kind, typename Rules>
+Change goes_to_what_was_read(Rules& (*part)(Parts&)) {
+  return [part](Parts& parts) {
+    outlives<Kind>(upload_request)(parts);
+    const auto read = std::make_shared<std::optional<Multiplexer>>();
+    misreads([read](Parts& node, Frame& frame) {
+      if (server_asked(node, frame) == nullptr) return;
+      if (transfer_of<Kind>(node, frame) == nullptr) return read->reset();
+      if (receiving(node, frame) != nullptr || frame.data[0] >> 5U != upload_request) return;
+      const auto index = conform::load_le(std::span(frame.data).subspan(1, 2));
+      *read = mux(static_cast<std::uint16_t>(index), frame.data[3]);
+    })(parts);
+    part(parts).store.replace([read](const auto& former, Multiplexer own, ByteView data) {
+      return former(read->value_or(own), data);
+    });
+  };
 }
 
 /// A frame of a running block upload that was refused because it was not due. Without a running upload the
@@ -140,6 +175,22 @@ DefectTable sdo_turn_defects() {
        "A block upload that an expedited upload has replaced goes on with the next acknowledge",
        {"SDO-BUP-21"},
        outlives_expedited_requests(true)},
+      {"upload-outlives-expedited-download",
+       "A segmented upload that an expedited download has replaced goes on with its next segment",
+       {"SDO-SUP-11"},
+       outlives<SegmentedUpload>(download_request)},
+      {"download-outlives-expedited-upload",
+       "A segmented download that an expedited upload has replaced goes on with its next segment",
+       {"SDO-SDN-17"},
+       outlives<SegmentedDownload>(upload_request)},
+      {"download-goes-to-the-entry-that-was-read",
+       "A segmented download within which another entry was read is stored in that one",
+       {"SDO-SDN-17"},
+       goes_to_what_was_read<SegmentedDownload>(of_segments)},
+      {"block-download-goes-to-the-entry-that-was-read",
+       "A block download before whose end another entry was read is stored in that one",
+       {"SDO-BDN-21"},
+       goes_to_what_was_read<BlockDownload>(of_block_download)},
       {"block-upload-ended-by-second-start",
        "A start that is not due ends a block upload without a word",
        {"SDO-BUP-20"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,35 @@ namespace refnode {
 using namespace variant;
 
 namespace {
+
+/// The entry of one of the types 0001h to 0007h as a placeholder has it: as long as the type. What a request
+/// for it is refused with, `otherwise` where the length is right or does not matter.
+std::optional<AbortCode> refused_placeholder(Multiplexer mux, std::optional<std::size_t> size,
+                                             AbortCode otherwise) {
+  constexpr std::uint16_t last_placeholder = 0x0007;
+  const std::uint16_t index = mux.index.value();
+  if (index == 0 || index > last_placeholder) return std::nullopt;
+  if (mux.sub.value() != 0) return abort_code::no_sub_index;
+  const bool wrong_length = size && *size != fixed_size(static_cast<DataType>(index));
+  return wrong_length ? abort_code::length_mismatch : otherwise;
+}
+void types_for_mapping_only(Parts& parts) {
+  ObjectDictionary& dictionary = parts.device.dictionary;
+  dictionary.upload.replace([](const auto& former, Multiplexer mux) -> Upload {
+    if (const auto code = refused_placeholder(mux, std::nullopt, abort_code::write_only))
+      return refuse(*code);
+    return former(mux);
+  });
+  dictionary.may_download.replace(
+      [](const auto& former, Multiplexer mux, std::optional<std::size_t> size) -> Accepted {
+        if (const auto code = refused_placeholder(mux, size, abort_code::read_only)) return refuse(*code);
+        return former(mux, size);
+      });
+  dictionary.download.replace([](const auto& former, Multiplexer mux, ByteView data) -> Accepted {
+    if (const auto code = refused_placeholder(mux, data.size(), abort_code::read_only)) return refuse(*code);
+    return former(mux, data);
+  });
+}
 
 /// Sub-index FFh of every array and record: bits 15-8 data type, 7-0 object code (CiA 301, 7.4.3, 7.5.2).
 void add_structure(Parts& parts) {
@@ -178,6 +208,12 @@ VariantTable dictionary_variants() {
        [](Parts& parts) { strings_of(parts, 8); },
        "strings",
        {"abort-segments-length-0609-0030"}},
+      {"types-for-mapping-only",
+       "data types 0001h to 0007h are there for mapping: not read, and a write is asked for its length first",
+       "7.4.7.1: reading them is optional",
+       types_for_mapping_only,
+       {},
+       {"types-readable"}},
       {"types-readable", "lengths of data types 0001h to 0007h can be read", "OD-TYP-01", add_types},
       {"0020-four-elements", "a PDO communication record of four elements", "OD-TYP-14",
        structure(0x0020, {7, 5, 6, 5}), "0020"},

@@ -171,6 +171,28 @@ How erases_before_block_download(Duration time) {
   };
 }
 
+How oldest_request_in(Duration cycle) {
+  return [cycle](Parts& parts) {
+    const auto taken_at = std::make_shared<std::map<std::uint8_t, conform::BusTime>>();
+    parts.device.inbox.add_filter([&parts, cycle, taken_at](std::vector<conform::can::Frame>& frames) {
+      Device& device = parts.device;
+      std::erase_if(frames, [&](const auto& frame) {
+        const SdoServer* server = is_request(frame) ? parts.sdo.server_of(frame) : nullptr;
+        if (server == nullptr) return false;
+        const auto* receiving = server->running<BlockDownload>();
+        const bool end_of_upload =
+            server->running<BlockUpload>() != nullptr && (frame.data[0] & 0xE3U) == 0xA1;
+        if (end_of_upload || (receiving != nullptr && receiving->in_sub_block())) return false;
+        conform::BusTime& next = (*taken_at)[server->channel()];
+        if (device.now < next) return true;
+        next = device.now + (cycle - device.now.time_since_epoch() % cycle);
+        device.inbox.put(frame, next);
+        return true;
+      });
+    });
+  };
+}
+
 void leave_out_size(Parts& parts) {
   const ObjectDictionary& dictionary = parts.device.dictionary;
   parts.device.outbox.add_filter([&dictionary](const FilterContext& context, std::vector<Outgoing>& frames) {

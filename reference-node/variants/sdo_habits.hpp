@@ -28,6 +28,9 @@ void block_download_of_domains(Parts& parts);
 /// The memory is erased before the first sub-block of a download is asked for. Meanwhile the server hears an
 /// abort; of everything else the newest frame waits until there is time for it.
 How erases_before_block_download(Duration time);
+/// Requests are looked at once in each cycle, segments of a sub-block and the end of a block upload as they
+/// come; a request that finds another one waiting is lost.
+How oldest_request_in(Duration cycle);
 /// 42h: expedited, the size is not told.
 /// A client knows the length by the type; of a string of four characters nobody would.
 void leave_out_size(Parts& parts);
