@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -43,17 +45,29 @@ std::vector<Holder> senders(const Observation& seen, const Follower& follower) {
 unsigned code_of(const Observation& seen) {
   return static_cast<unsigned>(load_le(ByteView(seen.frame().data).first(2)));
 }
+bool is_of_a_class(unsigned code) {
+  constexpr std::array<unsigned, 21> classes{0x00, 0x10, 0x20, 0x21, 0x22, 0x23, 0x30, 0x31, 0x32, 0x33, 0x40,
+                                             0x41, 0x42, 0x50, 0x60, 0x61, 0x62, 0x63, 0x70, 0x80, 0x81};
+  const auto high = code >> 8U;
+  return std::ranges::find(classes, high) != classes.end() || high == 0x82 || high == 0x90 || high == 0xF0 ||
+         high == 0xFF;
+}
 
 class Emergencies final : public Monitor {
  public:
   using Monitor::Monitor;
-  enum : std::size_t { stopped, valid, form, code_class, register_bits, inhibit };
+  enum : std::size_t { stopped, valid, form, code_class, register_bits, inhibit, entry_there };
+
+  [[nodiscard]] bool rests_on_time(std::size_t requirement) const override {
+    return requirement == stopped || requirement == inhibit;
+  }
 
   [[nodiscard]] bool wants(Subject subject) const override {
     return subject == Subject::emcy || subject == Subject::data;
   }
   void on_frame(const Observation& seen, const Follower& follower) override {
     const auto found = senders(seen, follower);
+    keep_first(seen, follower, found);
     if (found.empty()) return;
     if (is_emcy(found, Held::off)) return off(seen, follower, found);
     if (!is_emcy(found)) return;
@@ -69,7 +83,37 @@ class Emergencies final : public Monitor {
   }
   void on_loss() override { made_.reset(); }
 
+ protected:
+  /// Who had a COB-ID with this CAN-ID may come to light later.
+  void on_end(const Follower& follower) override {
+    if (!first_error_ || !follower.entries().is_absent(emcy_index, 0)) return;
+    bool explained = false;
+    follower.entries().for_holders(first_error_->frame.id, [&](std::uint16_t index) {
+      if (!is_tpdo(index)) return;
+      explained = explained || !first_error_->told.test(index - first_tpdo);
+    });
+    if (explained || !bad_if_alone(entry_there)) return;
+    tell({entry_there, Verdict::fail, first_error_->index, first_error_->frame, "an emergency message",
+          "silence, where 1014h does not exist", "nobody else was heard on the bus", true});
+  }
+
  private:
+  static constexpr std::uint16_t first_tpdo = 0x1800;
+  struct Seen {
+    std::size_t index = 0;
+    can::Frame frame;
+    std::bitset<512> told;  ///< TPDOs whose COB-ID had been seen before
+  };
+  /// What can be nothing else, unless another object has that CAN-ID.
+  void keep_first(const Observation& seen, const Follower& follower, const std::vector<Holder>& found) {
+    if (first_error_ || !seen.received() || !is_own(seen) || seen.frame().dlc != 8) return;
+    const auto code = code_of(seen);
+    if (code >> 8U == 0 || !is_of_a_class(code) || other_holder(found, emcy_index, emcy_index)) return;
+    first_error_ = Seen{seen.index, seen.frame(), {}};
+    for (std::uint16_t i = 0; i < first_error_->told.size(); ++i)
+      first_error_->told.set(i, follower.entries().is_told(first_tpdo + i, 1));
+  }
+
   [[nodiscard]] static bool is_own(const Observation& seen) { return seen.subject == Subject::emcy; }
 
   void off(const Observation& seen, const Follower& follower, const std::vector<Holder>& found) {
@@ -95,12 +139,8 @@ class Emergencies final : public Monitor {
     }
     if (frame.size() < 3) return;
     const auto code = code_of(seen);
-    constexpr std::array<unsigned, 21> classes{0x00, 0x10, 0x20, 0x21, 0x22, 0x23, 0x30,
-                                               0x31, 0x32, 0x33, 0x40, 0x41, 0x42, 0x50,
-                                               0x60, 0x61, 0x62, 0x63, 0x70, 0x80, 0x81};
     const auto high = code >> 8U;
-    if (std::ranges::find(classes, high) != classes.end() || high == 0x82 || high == 0x90 || high == 0xF0 ||
-        high == 0xFF) {
+    if (is_of_a_class(code)) {
       good(code_class);
     } else {
       accuse(code_class, seen, fmt::format("error code {:04X}h", code), "a class of CiA 301, table 25",
@@ -154,6 +194,7 @@ class Emergencies final : public Monitor {
     bool own = false;  ///< it came on the CAN-ID of the node-ID
   };
   std::optional<Made> made_;
+  std::optional<Seen> first_error_;
 };
 
 /// 1001h and 1003h as they are read behind an emergency message. What differs may be a new error, whose own

@@ -136,10 +136,29 @@ void answers_remote_frames(Parts& parts, std::vector<Frame>& frames) {
   }
 }
 
+/// The producer has its COB-ID from elsewhere; whoever asks for 1014h learns that it does not exist.
+void hides_cob_id(Parts& parts) {
+  static constexpr conform::Index hidden(0x1014);
+  ObjectDictionary& od = parts.device.dictionary;
+  od.upload.replace([](const auto& former, Multiplexer mux) -> Upload {
+    return mux.index == hidden ? Upload(refuse(abort_code::no_object)) : former(mux);
+  });
+  od.may_download.replace([](const auto& former, Multiplexer mux, auto size) -> Accepted {
+    return mux.index == hidden ? Accepted(refuse(abort_code::no_object)) : former(mux, size);
+  });
+  od.download.replace([](const auto& former, Multiplexer mux, ByteView bytes) -> Accepted {
+    return mux.index == hidden ? Accepted(refuse(abort_code::no_object)) : former(mux, bytes);
+  });
+}
+
 }  // namespace
 
 DefectTable emergency_defects() {
   return {
+      {"emcy-without-1014",
+       "Emergency messages come on 080h + node-ID, and 1014h does not exist",
+       {"OD-1014-01", "OD-CAT-03", "OD-GEN-17"},
+       Change(hides_cob_id)},
       {"errors-never-clear",
        "An error stays until the next reset, whatever becomes of its cause",
        {"EMCY-SEQ-02", "OD-1001-06", "EC-HBC-07"},

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "defects/heartbeats.hpp"
@@ -62,6 +63,43 @@ void stops_with_the_same_time(Parts& parts) {
     const std::uint64_t written = node.device.dictionary.number(0x1017, 0);
     if (std::exchange(*present, written) == written) node.producer.on_reset();
   })(parts);
+}
+
+constexpr std::uint64_t by_default = 1000;
+
+/// A heartbeat time that is the default one is only a number until it, or another one, is written.
+void default_waits_for_a_write(Parts& parts) {
+  preset(0x1017, 0, by_default)(parts.device.dictionary, parts.device.node_id);
+  const auto waits = std::make_shared<bool>(false);
+  with_boot_up([waits](Parts& node) { *waits = node.device.dictionary.number(0x1017, 0) == by_default; })(
+      parts);
+  after_writing(0x1017, 0, [waits](Parts&, const Written& former) {
+    *waits = false;
+    former();
+  })(parts);
+  parts.device.outbox.add_filter([waits](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service == Service::heartbeat && *waits) frames.clear();
+  });
+}
+
+/// Behind reset communication the timer has the period that was written before, until 1017h is written again.
+void keeps_period_behind_reset_communication(Parts& parts) {
+  preset(0x1017, 0, by_default)(parts.device.dictionary, parts.device.node_id);
+  const auto written = std::make_shared<std::optional<std::int64_t>>();
+  const auto kept = std::make_shared<std::optional<std::int64_t>>();
+  after_writing(0x1017, 0, [written, kept](Parts& node, const Written& former) {
+    kept->reset();
+    *written = node.device.time_value(0x1017, 0);
+    former();
+  })(parts);
+  parts.nmt.on_reset = [written, kept, former = parts.nmt.on_reset](Reset kind) {
+    if (kind == Reset::node) written->reset();
+    if (*written) *kept = *written;
+    if (kind == Reset::node) kept->reset();
+    former(kind);
+  };
+  parts.producer.rules.period.replace(
+      [kept](const auto& former, std::int64_t value) { return former(kept->value_or(value)); });
 }
 
 /// The CAN-ID of the heartbeat is that of the first node-ID.
@@ -184,8 +222,50 @@ void last_entries_wait_for_a_write(Parts& parts) {
   })(parts);
 }
 
+/// The boot-up of a node is an event as long as an entry names it, with time 0 as well.
+void tells_boot_up_of_unwatched(Parts& parts, std::vector<Frame>& frames) {
+  for (const Frame& frame : frames) {
+    if (!is_heartbeat(frame) || frame.data[0] != 0) continue;
+    for (std::uint8_t sub = 1; sub <= consumer_entries(parts); ++sub) {
+      const std::uint64_t entry = parts.device.dictionary.number(0x1016, sub);
+      if (monitored_node(entry) != producer_of(frame) || monitored_time(entry) != 0) continue;
+      const ErrorCause restart{0x8130, ErrorSource::heartbeat, sub};
+      parts.device.errors.raise(restart, producer_of(frame));
+      parts.device.errors.clear(restart);
+    }
+  }
+}
+
+/// NMT stop ends the watch of all nodes, until their entries are written or the node is reset.
+void forgets_in_stopped_for_good(Parts& parts) {
+  const auto forgotten = std::make_shared<std::set<std::uint8_t>>();
+  with_boot_up([forgotten](Parts&) { forgotten->clear(); })(parts);
+  after_writing_all(0x1016, [forgotten](Parts&, const Written& former, std::uint8_t sub) {
+    forgotten->erase(sub);
+    former();
+  })(parts);
+  ahead_of_state_change([forgotten](Parts& node) {
+    if (node.device.state != NmtState::stopped) return;
+    node.consumer.on_reset();
+    for (std::uint8_t sub = 1; sub <= consumer_entries(node); ++sub) forgotten->insert(sub);
+  })(parts);
+  deaf_to([forgotten](Parts& node, const Frame& frame) {
+    if (!is_heartbeat(frame)) return false;
+    return std::ranges::any_of(*forgotten,
+                               [&](std::uint8_t sub) { return node_at(node, sub) == producer_of(frame); });
+  })(parts);
+}
+
 DefectTable consumer_rows() {
   return {
+      {"1016-time-0-leaves-the-boot-up",
+       "The boot-up of a node that 1016h names with time 0 is a heartbeat event",
+       {"OD-1016-09"},
+       Reading(tells_boot_up_of_unwatched)},
+      {"hbc-forgets-in-stopped",
+       "NMT stop ends the monitoring of other nodes until 1016h is written",
+       {"EC-HBC-03"},
+       Change(forgets_in_stopped_for_good)},
       {"hbc-kept-alive-by-extended-frames",
        "A frame with the lower eleven bits of a heartbeat and 18 more keeps a monitored node alive",
        {"EC-HBC-03"},
@@ -250,6 +330,15 @@ DefectTable producer_rows() {
        "Writing the time to 1017h that it has ends the heartbeat",
        {"EC-HBP-01", "EC-HBP-02"},
        Change(stops_with_the_same_time)},
+      {"heartbeat-waits-for-a-write",
+       "The default of 1017h is a second, and there is no heartbeat until 1017h is written",
+       {"EC-HBP-05"},
+       Change(default_waits_for_a_write)},
+      {"heartbeat-keeps-the-old-period-behind-a-reset",
+       "Behind reset communication 1017h has its default of a second, and the heartbeat the period that was "
+       "written before",
+       {"EC-HBP-13"},
+       Change(keeps_period_behind_reset_communication)},
       {"heartbeat-keeps-can-id-of-first-node-id",
        "With another node-ID the heartbeat keeps the CAN-ID of the first one",
        {"CAN-ID-01", "LSS-CN-04"},
@@ -257,8 +346,43 @@ DefectTable producer_rows() {
   };
 }
 
+/// When the heartbeat ends, the life time begins, whether or not anybody has guarded.
+void life_time_begins_without_heartbeat(Parts& parts) {
+  const auto begins = std::make_shared<bool>(false);
+  parts.guarding.rules.begins_the_watch.replace(
+      [begins](const auto& former, bool requested) { return *begins || former(requested); });
+  after_writing(0x1017, 0, [begins](Parts& node, const Written& former) {
+    former();
+    const Entry* guard_time = node.device.dictionary.entry(0x100C, 0);
+    if (guard_time == nullptr || node.device.dictionary.number(0x1017, 0) != 0) return;
+    *begins = true;
+    guard_time->written();
+    *begins = false;
+  })(parts);
+}
+
+Change toggle_begins_anew_with(std::uint16_t index) {
+  return after_writing(index, 0, [](Parts& parts, const Written& former) {
+    former();
+    parts.guarding.begin_toggle_anew();
+  });
+}
+
 DefectTable guarding_rows() {
   return {
+      {"life-guarding-begins-with-the-end-of-the-heartbeat",
+       "With 0 in 1017h the life time begins, without a guard request",
+       {"EC-NG-08"},
+       Change(life_time_begins_without_heartbeat)},
+      {"guard-toggle-begins-anew-with-the-life-time",
+       "The toggle bit begins with 0 when 100Ch or 100Dh is written, and where either is 0 nobody is answered",
+       {"EC-NG-03", "EC-NG-02"},
+       together(toggle_begins_anew_with(0x100C), toggle_begins_anew_with(0x100D),
+                [](Parts& parts) {
+                  parts.guarding.rules.is_answered_with = [](Duration life_time) {
+                    return life_time > Duration::zero();
+                  };
+                })},
       {"guard-toggle-begins-anew-in-stopped",
        "The toggle bit begins with 0 when the node goes from Operational to Stopped",
        {"EC-NG-03", "EC-NG-02"},

@@ -177,6 +177,41 @@ void dead_after_heartbeat(Parts& parts) {
   });
 }
 
+/// A heartbeat disarms life guarding, and only a life time that is written arms it again.
+void life_guarding_dead_after_heartbeat(Parts& parts) {
+  const auto armed = std::make_shared<bool>(true);
+  with_boot_up([armed](Parts&) { *armed = true; })(parts);
+  after_writing(0x1017, 0, [armed](Parts& node, const std::function<void()>& former) {
+    former();
+    if (node.device.dictionary.number(0x1017, 0) != 0) *armed = false;
+  })(parts);
+  for (const std::uint16_t index : {std::uint16_t{0x100C}, std::uint16_t{0x100D}}) {
+    after_writing(index, 0, [armed](Parts&, const std::function<void()>& former) {
+      *armed = true;
+      former();
+    })(parts);
+  }
+  parts.guarding.rules.begins_the_watch.replace(
+      [armed](const auto& former, bool requested) { return *armed && former(requested); });
+}
+
+/// Behind a reset the first reply repeats the toggle bit of the last one.
+void toggle_stays_with_reset(Parts& parts) {
+  struct Memory {
+    bool last = false, first = true;
+  };
+  const auto memory = std::make_shared<Memory>();
+  with_boot_up([memory](Parts&) { memory->first = true; })(parts);
+  parts.device.outbox.add_filter([memory](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::guarding) return;
+    for (Outgoing& outgoing : frames) {
+      if (!std::exchange(memory->first, false)) memory->last = !memory->last;
+      outgoing.frame.data[0] &= static_cast<std::uint8_t>(~toggle_bit);
+      if (memory->last) outgoing.frame.data[0] |= toggle_bit;
+    }
+  });
+}
+
 /// 0 in the entry is stored and changes nothing before the next request.
 Change not_switched_off_by(std::uint16_t index) {
   return after_writing(index, 0, [index](Parts& parts, const std::function<void()>& former) {
@@ -265,6 +300,10 @@ DefectTable request_rows() {
        {"EC-NG-03"},
        toggle_restarts(
            [](NmtState, NmtState now, bool node) { return now == NmtState::initialising && !node; })},
+      {"guard-toggle-stays-with-reset",
+       "The first guard reply behind a reset has the toggle bit of the last one before",
+       {"EC-NG-03", "EC-NG-01"},
+       Change(toggle_stays_with_reset)},
       {"guard-state-operational-wrong",
        "Guard replies tell Pre-operational in Operational",
        {"EC-NG-04"},
@@ -422,6 +461,10 @@ DefectTable life_rows() {
        "A life time that is running is not ended by a heartbeat time that is written",
        {"EC-NG-11"},
        goes_on_beside_heartbeat()},
+      {"life-guarding-dead-after-heartbeat",
+       "Once the heartbeat was on, life guarding does not work until 100Ch or 100Dh is written",
+       {"EC-NG-07"},
+       Change(life_guarding_dead_after_heartbeat)},
       {"life-guarding-stored-without-effect",
        "Life guarding does not work with stored parameters until they are written",
        {"EC-NG-07", "OD-RST-04"},

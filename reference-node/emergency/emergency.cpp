@@ -97,6 +97,7 @@ void Emergency::clear(const ErrorCause& cause) {
 // What an EMCY will not tell of is not recorded, either.
 void Emergency::record(std::uint16_t code, ErrorSource source, std::uint8_t detail) {
   if (full()) return;
+  if (choices.only_signalled_recorded && !(cob_id_.valid() && device_->works_now(Service::emergency))) return;
   if (choices.completed_when_sent)
     history.record_incomplete(code);
   else

@@ -23,9 +23,10 @@ struct EmergencyChoices {
   bool completed_when_sent = false;
   /// An EMCY more than so many is lost, which is an error of its own; 0: never.
   std::size_t overflow_told_from = 0;
-  bool error_resets_recorded = false;   ///< EMCY 0000h has its field in 1003h, too
-  bool inhibited_from_setting = false;  ///< the first EMCY waits, too, from boot-up or the write of 1015h on
-  Duration error_reset_delay{};         ///< EMCY 0000h waits so long, or until the next error
+  bool only_signalled_recorded = false;  ///< in 1003h: nothing of Stopped, or where 1014h is not valid
+  bool error_resets_recorded = false;    ///< EMCY 0000h has its field in 1003h, too
+  bool inhibited_from_setting = false;   ///< the first EMCY waits, too, from boot-up or the write of 1015h on
+  Duration error_reset_delay{};          ///< EMCY 0000h waits so long, or until the next error
 };
 
 /// What may happen while an EMCY waits for the inhibit time.

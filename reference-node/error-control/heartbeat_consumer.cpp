@@ -32,6 +32,9 @@ void HeartbeatConsumer::bind() {
 Accepted HeartbeatConsumer::check(std::uint8_t sub, ByteView bytes) const {
   const std::uint64_t wanted = conform::load_le(bytes);
   if ((wanted >> 24U) != 0 && !choices.reserved_bits_cleared) return refuse(choices.reserved_bits);
+  const auto node = (wanted >> 16U) & 0xFFU;
+  if (choices.no_node && (wanted & 0xFFFFU) != 0 && (node == 0 || node > 127))
+    return refuse(*choices.no_node);
   if (!rules.used(wanted)) return {};
   // Two entries that are used must not name the same node.
   for (std::uint8_t other = 1; other <= entries(); ++other) {

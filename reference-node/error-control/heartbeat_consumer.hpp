@@ -19,6 +19,7 @@ struct HeartbeatConsumerChoices {
   BootUpOfProducer boot_up = BootUpOfProducer::heartbeat;
   AbortCode duplicate = abort_code::parameter_incompatible;  ///< a second entry for one node
   AbortCode reserved_bits = abort_code::invalid_value;
+  std::optional<AbortCode> no_node;    ///< a node-ID that does not exist; nullopt: the entry is unused
   bool reserved_bits_cleared = false;  ///< taken, and read back as 00h
   bool errors_end_together = false;    ///< when the nodes of all entries that are used have been heard
 };

@@ -48,6 +48,12 @@ void NodeGuarding::watch(bool requested) {
 
 bool NodeGuarding::on_remote(const Frame& frame) {
   if (frame.id != 0x700U + device_->node_id) return false;
+  if (choices.answered_as_heartbeat && device_->dictionary.number(0x1017, 0) != 0 &&
+      rules.is_answered_in(device_->state)) {
+    device_->send(Service::guarding, conform::can::data_frame(conform::CanId(0x700U + device_->node_id),
+                                                              {static_cast<std::uint8_t>(device_->state)}));
+    return true;
+  }
   if (!rules.is_answered_in(device_->state) || !in_use() || !rules.is_answered_with(life_time())) return true;
   const auto state = static_cast<std::uint8_t>(device_->state);
   const auto data = static_cast<std::uint8_t>(toggle_ ? state | toggle_bit : state);

@@ -12,6 +12,11 @@
 
 namespace refnode {
 
+/// What CiA 301 leaves to the maker of the device.
+struct GuardingChoices {
+  bool answered_as_heartbeat = false;  ///< requests beside the heartbeat, with the state and no toggle bit
+};
+
 /// What CiA 301, 7.2.8.2.2 and 7.2.8.3.2 say of guarding.
 struct GuardingRules {
   /// While the heartbeat is on there is neither node guarding nor life guarding.
@@ -43,6 +48,7 @@ class NodeGuarding {
   void bind();
 
   GuardingRules rules;
+  GuardingChoices choices;
   std::function<void()> on_loss;  ///< the master does not guard any more
 
   /// True when the frame was a guard request.

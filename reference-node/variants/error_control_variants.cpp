@@ -43,6 +43,11 @@ VariantTable error_control_variants() {
        "1016-reserved"},
       {"1016-reserved-cleared", "reserved bits of 1016h are taken and read back as 0", "OD-1016-12",
        [](Parts& node) { node.consumer.choices.reserved_bits_cleared = true; }, "1016-reserved"},
+      {.id = "abort-1016-no-node-0604-0043",
+       .summary = "a node-ID that does not exist is incompatible in 1016h",
+       .legal = "OD-1016-09, tolerated",
+       .how = [](Parts& node) { node.consumer.choices.no_node = abort_code::parameter_incompatible; },
+       .warns = {"OD-1016-09"}},
       {.id = "abort-1016-duplicate-0800-0000",
        .summary = "a second entry for one node is a general error",
        .legal = "OD-1016-06, tolerated",
@@ -63,14 +68,18 @@ VariantTable error_control_variants() {
        {"heartbeat-at-once"}},
       {"heartbeat-from-the-last", "a new period counts from the last heartbeat", "EC-HBP-09",
        [](Parts& node) { node.producer.choices.from_last = true; }},
-      {"consumer-pauses-in-stopped",
-       "monitoring ends in Stopped, and begins with the next heartbeat behind it", "EC-HBC",
-       [](Parts& node) {
-         node.nmt.on_change = [&node, former = node.nmt.on_change](NmtState from) {
-           former(from);
-           if (node.device.state == NmtState::stopped || from == NmtState::stopped) node.consumer.on_reset();
-         };
-       }},
+      {.id = "consumer-pauses-in-stopped",
+       .summary = "monitoring ends in Stopped, and begins with the next heartbeat behind it",
+       .legal = "EC-HBC-03, tolerated: what becomes of a watch that runs into Stopped is not said",
+       .how =
+           [](Parts& node) {
+             node.nmt.on_change = [&node, former = node.nmt.on_change](NmtState from) {
+               former(from);
+               if (node.device.state == NmtState::stopped || from == NmtState::stopped)
+                 node.consumer.on_reset();
+             };
+           },
+       .warns = {"EC-HBC-03"}},
       {"heartbeat-at-once", "the first heartbeat right after 1017h was written, and after boot-up",
        "EC-HBP-02, EC-HBP-05", [](Parts& node) { node.producer.choices.at_once = true; }},
       // What a busy bus adds must stay inside the tolerance of 10 %.
@@ -114,6 +123,27 @@ VariantTable error_control_variants() {
        .how = both(preset(0x100C, 0, 10000), preset(0x100D, 0, 2)),
        .group = "guarding",
        .warns = {"OD-100C-04"}},
+      {.id = "guard-answered-as-heartbeat",
+       .summary = "guard requests beside the heartbeat are answered by the state, without a toggle bit",
+       .legal = "EC-HBP-12, tolerated: such a reply is a heartbeat",
+       .how = [](Parts& node) { node.guarding.choices.answered_as_heartbeat = true; },
+       .warns = {"EC-HBP-12", "EC-NG-11"}},
+      {.id = "guarding-refused-beside-heartbeat",
+       .summary = "100Ch and 100Dh cannot be written while there is a heartbeat, which is so by default",
+       .legal = "7.2.8.2.2.1: one of the two services at a time",
+       .how =
+           [](Parts& node) {
+             preset(0x1017, 0, 1000)(node);
+             for (const std::uint16_t index : {std::uint16_t{0x100C}, std::uint16_t{0x100D}}) {
+               also_checked(index, 0, [](const Parts& parts, ByteView) -> Accepted {
+                 if (parts.device.dictionary.number(0x1017, 0) != 0) return refuse(abort_code::general_error);
+                 return {};
+               })(node);
+             }
+           },
+       .group = "1017",
+       .excludes = {"guarding"},
+       .warns = {"SDO-DNL-21"}},
       {.id = "guarding-only-with-life-time",
        .summary = "guard requests are answered while 100Ch and 100Dh are both above 0 only",
        .legal = "EC-NG-09, tolerated: with 0 in either there is no guarding at all",

@@ -45,6 +45,22 @@ TEST_CASE("Without a valid 1014h there is no EMCY") {
   CHECK(moved().later("< 6A1: 30 81 11 00 00 00 00 00").line("< 702: 05").told().empty());
 }
 
+TEST_CASE("Who sends emergency messages has 1014h") {
+  const auto without = [] { return Story().read(0x1000, 0, 0x191).absent(0x1014, 0); };
+  const Told found{"fail OD-1014-01"};
+  CHECK(without().later(emcy).told() == found);
+  CHECK(Story().line(emcy).read(0x1000, 0, 0x191).absent(0x1014, 0).told() == found);
+  CHECK(without().refuse(0x23, 0x1014, 0, 0x0602'0000).later(emcy).told() == found);
+  CHECK(without().later("< 081: 00 00 00 00 00 00 00 00").told().empty());
+  // No error code of CiA 301, not the length of an emergency message, another node, another object.
+  CHECK(without().later("< 081: 30 A1 11 00 00 00 00 00").told().empty());
+  CHECK(without().later("< 081: 30 81 11 00").told().empty());
+  CHECK(without().later("< 082: 30 81 11 00 00 00 00 00").told().empty());
+  CHECK(without().later(emcy).line("< 702: 05").told().empty());
+  CHECK(without().later(emcy).read(0x1800, 1, 0x4000'0081).told().empty());
+  CHECK(Story().line("< 701: 7F").later(emcy).told().empty());
+}
+
 TEST_CASE("Where 1014h may hold the CAN-ID of SYNC, a SYNC is not taken for an emergency message") {
   // Behind the reset nobody has read 1014h; 1005h is no producer's, so the SYNC is wrong as a SYNC.
   CHECK(Story()
