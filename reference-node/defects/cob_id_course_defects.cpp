@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Defects of COB-ID parameters that show in the course of several writes, or in Operational.
 #include <cstdint>
+#include <vector>
 
 #include "defects/cob_ids.hpp"
 #include "defects/tools.hpp"
@@ -60,6 +61,59 @@ Change unlocks_one_in_operational(std::uint16_t index, std::uint8_t sub) {
   });
 }
 
+constexpr std::uint32_t frame_bit = 0x2000'0000;
+constexpr std::uint32_t extended_id = 0x1FFF'FFFF;
+constexpr std::uint32_t base_id = 0x7FF;
+
+bool is_large(std::uint64_t cob_id) { return (cob_id & extended_id) > base_id; }
+
+/// Bit 29 of the COB-IDs of TPDOs is taken, and their frames have 29 bits where the CAN-ID needs them.
+void sends_29_bits_where_needed(Parts& parts) {
+  decided(of_tpdo, &CobIdRules::frame_bit_allowed, true)(parts);
+  parts.device.outbox.add_filter([&parts](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.service != Service::tpdo) return;
+    for (Outgoing& each : frames) {
+      for (std::uint16_t index = 0x1800; index < 0x1804; ++index) {
+        const std::uint64_t cob_id = parts.device.dictionary.number(index, 1);
+        if ((cob_id & frame_bit) == 0 || (cob_id & base_id) != each.frame.id || !is_large(cob_id)) continue;
+        each.frame.extended = true;
+        each.frame.id = static_cast<std::uint32_t>(cob_id & extended_id);
+        break;
+      }
+    }
+  });
+}
+
+/// The same of RPDOs; the service knows them by 11 bits.
+void receives_29_bits_where_needed(Parts& parts) {
+  decided(of_rpdo, &CobIdRules::frame_bit_allowed, true)(parts);
+  misreads([](Parts& node, Frame& frame) {
+    constexpr std::uint32_t nobodys = 0x7FF;
+    if (frame.remote) return;
+    for (std::uint16_t index = 0x1400; index < 0x1404; ++index) {
+      const std::uint64_t cob_id = node.device.dictionary.number(index, 1);
+      if ((cob_id & frame_bit) == 0 || !is_large(cob_id)) continue;
+      if (!frame.extended && frame.id == (cob_id & base_id)) {
+        frame.id = nobodys;
+        return;
+      }
+      if (frame.extended && frame.id == (cob_id & extended_id)) {
+        frame.id &= base_id;
+        frame.extended = false;
+        return;
+      }
+    }
+  })(parts);
+}
+
+/// What was stored of a consumer of TIME makes a producer, until it is written.
+void produces_time_for_a_stored_consumer(Parts& parts) {
+  parts.time.cob_id_rules.produced.replace(
+      [written = written_since_boot_up(parts, {0x1012})](const auto& former, std::uint32_t value) {
+        return former(value) || (written->empty() && (value & 0x80000000U) != 0);
+      });
+}
+
 }  // namespace
 
 DefectTable cob_id_course_defects() {
@@ -98,6 +152,22 @@ DefectTable cob_id_course_defects() {
        "1005h takes a restricted CAN-ID together with the order to generate SYNC",
        {"CAN-RID-01", "OD-CID-03"},
        takes_restricted_with(0x1005, 0, bit30)},
+      {"1012-restricted-consumed-and-produced",
+       "1012h takes a restricted CAN-ID together with both the order to consume and the order to produce TIME",
+       {"CAN-RID-02", "OD-CID-03"},
+       takes_restricted_with(0x1012, 0, bit31 | bit30)},
+      {"1012-stored-consumer-produces",
+       "Behind a reset TIME is produced where 1012h was stored with bit 31 alone",
+       {"TIME-PRO-03"},
+       Change(produces_time_for_a_stored_consumer)},
+      {"1400-restricted-with-bit-30",
+       "An RPDO takes a restricted CAN-ID together with bit 30 of its COB-ID",
+       {"CAN-RID-04", "OD-CID-03"},
+       takes_restricted_with(0x1400, 1, bit30)},
+      {"1800-restricted-without-bit-30",
+       "A TPDO takes a restricted CAN-ID when bit 30 of its COB-ID is cleared with it",
+       {"CAN-RID-05", "OD-CID-03"},
+       takes_restricted_with(0x1800, 1, 0)},
       {"1028-restricted-id-accepted",
        "1028h accepts restricted CAN-IDs",
        {"OD-CID-03"},
@@ -150,6 +220,16 @@ DefectTable cob_id_course_defects() {
        "The CAN-ID of a valid entry of 1028h can be changed in Operational",
        {"OD-1028-06"},
        unlocked_in_operational(of_emergencies)},
+      {.id = "tpdo-29-bit-small-sent-with-11",
+       .summary = "A TPDO whose COB-ID took bit 29 is sent with 11 bits where its CAN-ID is below 800h",
+       .violates = {"CAN-EXT-01", "OD-1800-13"},
+       .how = Change(sends_29_bits_where_needed),
+       .lacks = {"base frames only"}},
+      {.id = "rpdo-29-bit-small-received-with-11",
+       .summary = "An RPDO whose COB-ID took bit 29 is received with 11 bits where its CAN-ID is below 800h",
+       .violates = {"CAN-EXT-01"},
+       .how = Change(receives_29_bits_where_needed),
+       .lacks = {"base frames only"}},
   };
 }
 

@@ -71,6 +71,23 @@ Change kept_by_reset_communication(std::uint16_t index, std::uint8_t sub) {
   return kept_by(Reset::communication, mux(index, sub));
 }
 
+/// Such a reset leaves a COB-ID as it was written, but for bit 31; or that bit alone.
+Change part_kept_by(Reset kind, Multiplexer mux, std::uint32_t bits) {
+  return [kind, mux, bits](Parts& parts) {
+    parts.nmt.on_reset = [&parts, kind, mux, bits, former = parts.nmt.on_reset](Reset present) {
+      ObjectDictionary& od = parts.device.dictionary;
+      const std::uint64_t written = od.number(mux.index.value(), mux.sub.value());
+      former(present);
+      if (present != kind) return;
+      const std::uint64_t fresh = od.number(mux.index.value(), mux.sub.value());
+      od.set_number(mux.index.value(), mux.sub.value(), (fresh & ~std::uint64_t{bits}) | (written & bits));
+    };
+  };
+}
+
+constexpr std::uint32_t bit31 = 0x8000'0000;
+constexpr std::uint32_t but_bit31 = 0x7FFF'FFFF;
+
 }  // namespace
 
 DefectTable dictionary_leftover_defects() {
@@ -159,6 +176,34 @@ DefectTable dictionary_leftover_defects() {
        "Reset communication leaves 100Dh as it was written",
        {"NMT-FSA-24"},
        kept_by_reset_communication(0x100D, 0)},
+      {"reset-communication-keeps-1005",
+       "Reset communication leaves 1005h as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(0x1005, 0)},
+      {"reset-communication-keeps-1280-request",
+       "Reset communication leaves 1280h:01 as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(0x1280, 1)},
+      {"reset-communication-keeps-1280-response",
+       "Reset communication leaves 1280h:02 as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(0x1280, 2)},
+      {"reset-communication-keeps-1401-cob-id",
+       "Reset communication leaves 1401h:01 as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(0x1401, 1)},
+      {"reset-communication-keeps-1403-can-id",
+       "Reset communication makes RPDO 4 valid, with the CAN-ID that was written",
+       {"NMT-FSA-24"},
+       part_kept_by(Reset::communication, mux(0x1403, 1), but_bit31)},
+      {"reset-communication-keeps-1402-switched-off",
+       "Reset communication leaves bit 31 of 1402h:01 as it was written",
+       {"NMT-FSA-24"},
+       part_kept_by(Reset::communication, mux(0x1402, 1), bit31)},
+      {"reset-communication-keeps-1803-cob-id",
+       "Reset communication leaves 1803h:01 as it was written",
+       {"NMT-FSA-24"},
+       kept_by_reset_communication(0x1803, 1)},
       {"reset-communication-keeps-1007",
        "Reset communication leaves 1007h as it was written",
        {"NMT-FSA-24"},
@@ -207,6 +252,26 @@ DefectTable dictionary_leftover_defects() {
        "Reset communication leaves 1A03h:00 as it was written",
        {"NMT-FSA-24"},
        kept_by_reset_communication(0x1A03, 0)},
+      {"reset-node-keeps-1005",
+       "Reset node leaves 1005h as it was written",
+       {"NMT-FSA-25"},
+       kept_by(Reset::node, mux(0x1005, 0))},
+      {"reset-node-keeps-1012",
+       "Reset node leaves the CAN-ID of 1012h as it was written",
+       {"NMT-FSA-25"},
+       part_kept_by(Reset::node, mux(0x1012, 0), but_bit31)},
+      {"reset-node-keeps-1014",
+       "Reset node leaves 1014h as it was written",
+       {"NMT-FSA-25"},
+       kept_by(Reset::node, mux(0x1014, 0))},
+      {"reset-node-keeps-1401-cob-id",
+       "Reset node leaves 1401h:01 as it was written",
+       {"NMT-FSA-25"},
+       kept_by(Reset::node, mux(0x1401, 1))},
+      {"reset-node-keeps-1803-switched-off",
+       "Reset node leaves bit 31 of 1803h:01 as it was written",
+       {"NMT-FSA-25"},
+       part_kept_by(Reset::node, mux(0x1803, 1), bit31)},
       {"reset-node-keeps-1006",
        "Reset node leaves 1006h as it was written",
        {"NMT-FSA-25"},

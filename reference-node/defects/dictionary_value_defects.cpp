@@ -2,10 +2,13 @@
 // Defects of what is written and read where they show with some values, sub-indices or kinds of transfer
 // only: the end of a string, a sub-index of an object that is absent, a const entry.
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "defects/sdo_block_exchanges.hpp"
 #include "defects/sdo_rules.hpp"
@@ -65,6 +68,26 @@ void tail_left_by_block(Parts& parts) {
         }
         return done;
       });
+}
+
+/// The application gives one byte of its values of 32 bits; the others are those of the expedited upload
+/// before.
+void fills_one_byte(Parts& parts) {
+  constexpr std::uint16_t first_of_application = 0x2000;
+  parts.device.outbox.add_filter([&parts, buffer = std::array<std::uint8_t, 4>{}](
+                                     const FilterContext& context, std::vector<Outgoing>& frames) mutable {
+    if (context.sdo == nullptr || !upload_initiated(*context.sdo)) return;
+    const Multiplexer mux = context.sdo->mux;
+    const Entry* entry = parts.device.dictionary.entry(mux.index.value(), mux.sub.value());
+    for (Outgoing& outgoing : frames) {
+      defect::Data& data = outgoing.frame.data;
+      if (!is_expedited_upload(data) || entry == nullptr) continue;
+      const bool filled = fixed_size(entry->type) != 4 || entry->access != Access::ro ||
+                          mux.index.value() < first_of_application;
+      std::copy_n(data.begin() + 4, filled ? expedited_size(data) : 1, buffer.begin());
+      if (!filled) std::ranges::copy(buffer, data.begin() + 4);
+    }
+  });
 }
 
 /// `change` makes something else of what has been written to the rw entries of a type.
@@ -130,6 +153,10 @@ DefectTable dictionary_value_defects() {
                          if (!entry.value.empty() && entry.value.size() == entry.max_size)
                            entry.value.back() = 0;
                        })},
+      {"application-read-fills-one-byte",
+       "Of read-only entries of 32 bits of the application three bytes are those of the upload before",
+       {"SDO-UPL-06"},
+       Change(fills_one_byte)},
       {"octet-string-loses-zeros-at-its-end",
        "Bytes 00h at the end of an OCTET_STRING are dropped",
        {"OD-ACC-04"},

@@ -2,6 +2,7 @@
 // Defects of the LSS slave (CiA 305) in what several frames make up: what one address leaves behind for the
 // next, and what becomes of a node-ID that was configured.
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -153,6 +154,21 @@ void answers_any_serial_in_configuration(Parts& parts) {
         answer(parts, selective_answer);
         frames.clear();
       });
+}
+
+/// Also a waiting slave obeys "activate bit timing": it is off the bus for twice the time that is told.
+void activates_while_waiting(Parts& parts) {
+  constexpr std::uint8_t activate_bit_timing = 0x15;
+  const auto back = std::make_shared<BusTime>();
+  deaf_to([back, configuration = in_configuration(parts)](Parts& node, const Frame& frame) {
+    if (node.device.now < *back) return true;
+    if (!is_request(frame, activate_bit_timing) || *configuration) return false;
+    *back = node.device.now + 2 * std::chrono::milliseconds(conform::load_le(frame.bytes().subspan(1, 2)));
+    return true;
+  })(parts);
+  parts.device.outbox.add_filter([back](const FilterContext& context, std::vector<Outgoing>& frames) {
+    if (context.now < *back) frames.clear();
+  });
 }
 
 /// In the configuration state a slave answers who asks for those without node-ID, though it has one.
@@ -565,6 +581,10 @@ DefectTable lss_sequence_defects() {
        "A slave without node-ID that is given another one than it had keeps the default COB-IDs of that",
        {"OD-RST-06", "LSS-CN-06"},
        Change(keeps_cob_ids_over_no_node_id)},
+      {"lss-activation-obeyed-while-waiting",
+       "A waiting slave that hears 15h is off the bus until the bit rate has been switched",
+       {"LSS-INQ-06"},
+       Change(activates_while_waiting)},
       {"lss-later-pdos-keep-cob-ids",
        "With another node-ID the default COB-IDs of the second PDOs and of all later ones stay",
        {"OD-RST-06"},

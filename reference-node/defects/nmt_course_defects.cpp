@@ -56,6 +56,29 @@ Change drops_transfer_with(bool (*command)(const Parts& parts, const Frame& fram
   });
 }
 
+/// Such services hear of a state by the task of the heartbeat, which does not run while 1017h is 0. By
+/// default it does.
+Change told_by_the_heartbeat_task(bool (*hears)(Service service)) {
+  return [hears](Parts& parts) {
+    preset(0x1017, 0, 1000)(parts.device.dictionary, parts.device.node_id);
+    const auto told = std::make_shared<NmtState>(NmtState::pre_operational);
+    const auto tell = [told](Parts& node) {
+      if (node.device.dictionary.number(0x1017, 0) != 0) *told = node.device.state;
+    };
+    with_boot_up([told](Parts&) { *told = NmtState::pre_operational; })(parts);
+    ahead_of_state_change(tell)(parts);
+    after_writing(0x1017, 0, [tell](Parts& node, const std::function<void()>& written) {
+      written();
+      tell(node);
+    })(parts);
+    parts.device.works.replace([told, hears](const auto& former, Service service, NmtState state) {
+      return former(service, hears(service) && state != NmtState::initialising ? *told : state);
+    });
+  };
+}
+
+bool is_pdo(Service service) { return service == Service::rpdo || service == Service::tpdo; }
+
 /// Behind reset communication the timer is left as it is where 1017h has not changed; but the reset had
 /// stopped it.
 void heartbeat_waits_for_a_change(Parts& parts) {
@@ -126,6 +149,15 @@ DefectTable nmt_course_defects() {
        drops_transfer_with([](const Parts& parts, const Frame& frame) {
          return frame.data[0] == start && is_for(parts, frame) && parts.device.state == NmtState::operational;
        })},
+      {"nmt-state-followed-with-heartbeat-only",
+       "The default of 1017h is a second, and while it is 0 SDO and PDO do not hear of changes of the NMT state",
+       {"NMT-FSA-22", "NMT-FSA-23", "SDO-GEN-15"},
+       told_by_the_heartbeat_task(
+           [](Service service) { return service == Service::sdo || is_pdo(service); })},
+      {"pdos-follow-the-nmt-state-with-heartbeat-only",
+       "The default of 1017h is a second, and while it is 0 PDOs do not hear of changes of the NMT state",
+       {"NMT-FSA-22"},
+       told_by_the_heartbeat_task(is_pdo)},
       {"heartbeat-silent-behind-reset-communication",
        "Where reset communication does not change 1017h the heartbeat does not start behind it",
        {"EC-HBP-05"},

@@ -8,8 +8,10 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "defects/pdos.hpp"
+#include "defects/receivers.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -72,6 +74,75 @@ void inhibits_synchronous(Parts& parts) {
   ahead_of_state_change([sent](Parts&) { sent->clear(); })(parts);
 }
 
+/// SYNCs that wait for Operational: with its start they send each TPDO whose type has had enough of them.
+struct Waiting {
+  std::uint32_t syncs = 0;
+  BusTime last{};  ///< the last one in Operational
+  bool makes_up = false;
+};
+
+/// `takes` sees each SYNC, `leaves` the end of Operational.
+Change sends_with_the_start(void (*takes)(Waiting& waiting, NmtState state, BusTime now),
+                            void (*leaves)(Waiting& waiting, BusTime now)) {
+  return [takes, leaves](Parts& parts) {
+    const auto waiting = std::make_shared<Waiting>();
+    with_boot_up([waiting](Parts&) { *waiting = {}; })(parts);
+    deaf_to([waiting, takes](Parts& node, const Frame& frame) {
+      if (is_sync(node, frame)) takes(*waiting, node.device.state, node.device.now);
+      return false;
+    })(parts);
+    ahead_of_state_change([waiting, leaves](Parts& node) {
+      if (node.device.state != NmtState::operational) return leaves(*waiting, node.device.now);
+      waiting->makes_up = true;
+      node.pdos.on_sync(std::nullopt);
+      *waiting = {};
+    })(parts);
+    parts.pdos.tpdo.rules.sent_at_sync.replace(
+        [waiting](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+          if (!waiting->makes_up) return former(pdo, syncs, event);
+          const std::uint8_t type = pdo.transmission_type();
+          return type > 0 && is_synchronous(type) && waiting->syncs >= type;
+        });
+  };
+}
+
+Change sends_for_earlier_syncs() {
+  return sends_with_the_start(
+      [](Waiting& waiting, NmtState state, BusTime) {
+        if (state == NmtState::pre_operational) ++waiting.syncs;
+      },
+      [](Waiting&, BusTime) {});
+}
+
+/// The mark that a SYNC sets is taken back a moment after its TPDO was sent, and not outside Operational.
+Change sends_for_the_last_sync() {
+  return sends_with_the_start(
+      [](Waiting& waiting, NmtState state, BusTime now) {
+        if (state == NmtState::operational) waiting.last = now;
+      },
+      [](Waiting& waiting, BusTime now) {
+        constexpr Duration until_looked_at = std::chrono::milliseconds(5);
+        if (now - std::exchange(waiting.last, BusTime{}) < until_looked_at) waiting.syncs = 1;
+      });
+}
+
+/// Who is sent with SYNC is settled when Operational is entered.
+void subscribes_with_the_start(Parts& parts) {
+  const auto subscribed = std::make_shared<std::set<std::uint16_t>>();
+  ahead_of_state_change([subscribed](Parts& node) {
+    if (node.device.state != NmtState::operational) return;
+    subscribed->clear();
+    for (std::uint16_t number = 0; number <= last_pdo; ++number) {
+      const auto index = static_cast<std::uint16_t>(0x1800 + number);
+      if (!is_event_driven(node.device.dictionary.number(index, 2))) subscribed->insert(number);
+    }
+  })(parts);
+  parts.pdos.tpdo.rules.sent_at_sync.replace(
+      [subscribed](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
+        return subscribed->contains(pdo.number()) && former(pdo, syncs, event);
+      });
+}
+
 }  // namespace
 
 DefectTable pdo_sync_defects() {
@@ -127,6 +198,24 @@ DefectTable pdo_sync_defects() {
        at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
          return right || pdo.transmission_type() == 0xFD;
        })},
+      {"tpdo-type-ffh-sent-with-sync-as-well",
+       "A TPDO of type FFh is sent with every SYNC, beside its events",
+       {"PDO-TX-08"},
+       at_sync([](const PdoParameters& pdo, std::uint32_t, bool, bool right) {
+         return right || pdo.transmission_type() == 0xFF;
+       })},
+      {"tpdo-of-a-sync-before-the-start",
+       "SYNCs in Pre-operational count, and send a synchronous TPDO with NMT start",
+       {"PDO-TX-05", "PDO-TX-06"},
+       sends_for_earlier_syncs()},
+      {"tpdo-of-the-last-sync-sent-with-the-start",
+       "A SYNC right before Operational is left sends its TPDO once more with NMT start",
+       {"PDO-TX-26"},
+       sends_for_the_last_sync()},
+      {"tpdo-synchronous-from-the-next-start",
+       "A TPDO that becomes a synchronous one in Operational is not sent with SYNC until it is entered again",
+       {"PDO-TX-05"},
+       Change(subscribes_with_the_start)},
       {"tpdo-event-driven-sent-with-sync-only",
        "A TPDO of type FFh waits with its change for the SYNC",
        {"PDO-TX-08"},

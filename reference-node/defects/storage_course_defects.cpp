@@ -159,6 +159,23 @@ DictionaryEdit leaves_out_last(Group group) {
   };
 }
 
+/// 1001h is stored as well, and from a reset on shows what it held then.
+void stores_the_error_register(Parts& parts) {
+  const auto stored = std::make_shared<std::uint8_t>();
+  const auto loaded = std::make_shared<std::uint8_t>();
+  checking_all(0x1010, [stored](Parts& node, const Check& former, std::uint8_t sub, ByteView bytes) {
+    const Accepted done = former(bytes);
+    if (done && sub <= 2) *stored = static_cast<std::uint8_t>(node.emergency.error_register());
+    return done;
+  })(parts);
+  with_boot_up([stored, loaded](Parts&) { *loaded = *stored; })(parts);
+  reading(0x1001, 0, [loaded](Parts&, const Read& former) -> Upload {
+    Upload shown = former();
+    if (shown && !shown->empty()) shown->front() |= *loaded;
+    return shown;
+  })(parts);
+}
+
 /// Of one entry so many bytes are stored.
 template <std::uint16_t at, std::size_t kept>
 void cuts(std::uint16_t index, const Entry&, Bytes& value) {
@@ -317,6 +334,10 @@ DefectTable storage_course_defects() {
        "Of the synchronous window length (1007h) 16 bits are stored",
        {"OD-1010-10"},
        comes_back(cuts<0x1007, 2>)},
+      {"1001-stored",
+       "An error that is in 1001h when parameters are stored is in it from each reset on",
+       {"OD-1001-06"},
+       Change(stores_the_error_register)},
       {"1010-8-bits-of-the-inhibit-time-stored",
        "Of the inhibit time of EMCY (1015h) eight bits are stored",
        {"OD-1010-10"},

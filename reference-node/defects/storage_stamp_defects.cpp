@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "defects/hooks.hpp"
+#include "defects/pdos.hpp"
 #include "defects/tools.hpp"
 
 namespace refnode {
@@ -51,6 +52,17 @@ Change stamp_becomes_default() {
       if (restored && entry != nullptr) entry->default_value = entry->value;
     }
     return restored;
+  });
+}
+
+/// Whatever writes to an entry clears date and time, an RPDO as well.
+Change cleared_by_an_rpdo() {
+  return deaf_to([](Parts& parts, const Frame& frame) {
+    ObjectDictionary& od = parts.device.dictionary;
+    const bool taken = parts.device.state == NmtState::operational && !frame.remote && !frame.extended;
+    if (!taken || !rpdo_with(od, frame.id)) return false;
+    for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) od.set_number(0x1020, sub, 0);
+    return false;
   });
 }
 
@@ -173,6 +185,10 @@ DefectTable storage_stamp_defects() {
                         if (stored) parts.device.dictionary.set_number(0x1020, sub, 0);
                       return stored;
                     })},
+      {"1020-cleared-by-an-rpdo",
+       "1020h is 0 behind each RPDO that was received",
+       {"OD-1020-03"},
+       cleared_by_an_rpdo()},
       {"1020-survives-restored-application",
        "1020h stays when the defaults of the application parameters are restored",
        {"OD-1020-05"},

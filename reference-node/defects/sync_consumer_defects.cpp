@@ -3,6 +3,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "defects/cob_ids.hpp"
@@ -34,6 +35,24 @@ Change obeys_after(bool (*which)(std::uint8_t last, std::uint8_t counter)) {
       return which(std::exchange(*last, counter), counter);
     });
   };
+}
+
+/// A counter that does not follow that of the one before is an error of the length, which the next one that
+/// does ends.
+void reports_jumps(Parts& parts) {
+  const auto last = std::make_shared<std::optional<std::uint8_t>>();
+  with_boot_up([last](Parts&) { last->reset(); })(parts);
+  after_writing(0x1019, 0, [last](Parts&, const std::function<void()>& former) {
+    last->reset();
+    former();
+  })(parts);
+  parts.sync.rules.obeyed.replace(
+      [last, &parts](const auto& former, std::uint8_t counter, std::uint64_t overflow) {
+        const auto before = std::exchange(*last, counter);
+        const bool follows = !before || counter == (*before == overflow ? 1 : *before + 1);
+        if (!follows) parts.device.errors.raise({0x8240, ErrorSource::sync, 0}, counter);
+        return former(counter, overflow);
+      });
 }
 
 /// A window that was used is not changed any more in the ways that `stays` names.
@@ -286,6 +305,10 @@ DefectTable sync_consumer_defects() {
        {"SYNC-CON-06"},
        obeys_after(
            [](std::uint8_t last, std::uint8_t counter) { return counter == 1 || counter == last + 1; })},
+      {"sync-out-of-order-reported",
+       "A SYNC whose counter does not follow that of the one before causes EMCY 8240h",
+       {"SYNC-CON-04"},
+       Change(reports_jumps)},
       {"sync-count-beyond-range-ignored",
        "A SYNC whose counter is 0 or beyond the overflow value is ignored",
        {"SYNC-CON-06"},

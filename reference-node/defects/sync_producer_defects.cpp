@@ -84,6 +84,14 @@ void idle_until_written(Parts& parts) {
       });
 }
 
+/// A period that was stored is enough, until one of both is written.
+void begins_with_a_stored_period(Parts& parts) {
+  parts.sync.cob_id_rules.produced.replace(
+      [written = written_since_boot_up(parts, {0x1005, 0x1006})](const auto& former, std::uint32_t value) {
+        return written->empty() || former(value);
+      });
+}
+
 /// A node that was in Stopped produces no SYNC until it is reset.
 void silent_after_stopped(Parts& parts) {
   const auto stopped = std::make_shared<bool>(false);
@@ -352,6 +360,10 @@ DefectTable switch_rows() {
        "A SYNC producer that was stored does not run after a reset",
        {"SYNC-PRO-07"},
        idle_until_written},
+      {"sync-by-a-stored-period",
+       "Behind a reset SYNC is produced with a period that was stored although bit 30 of 1005h is 0",
+       {"OD-1005-09", "SYNC-PRO-03"},
+       begins_with_a_stored_period},
       {"sync-before-boot-up",
        "A SYNC producer that was stored begins before the boot-up message",
        {"SYNC-PRO-07"},

@@ -130,6 +130,7 @@ void TransmitPdo::on_sync(std::optional<std::uint8_t> counter) {
 bool TransmitPdo::on_remote(const Frame& frame) {
   if (!parameters_.cob_id().names(frame)) return false;
   if (!terms_->rules.answers_remote(parameters_, enabled())) return enabled();
+  if (terms_->choices.heeds_remote_dlc && frame.dlc != content().size()) return true;
   const bool sampled = parameters_.transmission_type() == remote_synchronous_type && !sampled_.empty();
   transmit(sampled ? sampled_ : content());
   return true;

@@ -18,6 +18,7 @@ struct TransmitPdoChoices {
   bool change_is_event = true;  ///< of what is mapped; types 00h, FEh and FFh
   bool first_alone_is_sent = false;  ///< of several that carry what has changed, not every one
   bool sent_empty = false;           ///< without mapped objects it is sent, with no data
+  bool heeds_remote_dlc = false;     ///< a remote frame of another length than its own is none for it
   bool sent_when_set = false;        ///< a write of its parameters in Operational is an event
   bool sends_in_the_middle = false;  ///< type n sends at SYNC n / 2 + 1 first
   bool timer_goes_on = false;        ///< a new event time counts from the last TPDO

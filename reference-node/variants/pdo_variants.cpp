@@ -32,6 +32,15 @@ How constant_mappings(std::uint16_t first) {
   return of_all(first, [](std::uint16_t index) { return access_all(index, Access::rw, Access::constant); });
 }
 
+/// COB-ID, inhibit time and mapping of each PDO are what they are.
+How constant_pdos(std::uint16_t communication, std::uint16_t mapping) {
+  return both(of_all(communication,
+                     [](std::uint16_t index) {
+                       return both(access(index, 1, Access::constant), access(index, 3, Access::constant));
+                     }),
+              constant_mappings(mapping));
+}
+
 /// The default of sub-index 02h.
 How types(std::uint16_t first, std::uint64_t type) {
   return of_all(first, [type](std::uint16_t index) { return preset(index, 2, type); });
@@ -124,20 +133,24 @@ VariantTable pdo_variants() {
        both(both(access(0x1803, 1, Access::constant), access(0x1803, 3, Access::constant)),
             access_all(0x1A03, Access::rw, Access::constant)),
        "1A03"},
+      {"rpdos-const", "COB-ID, inhibit time and mapping of no RPDO can be changed",
+       "OD-1400-12, OD-1600-04: const", constant_pdos(0x1400, 0x1600), "1600"},
+      {"tpdos-const", "COB-ID, inhibit time and mapping of no TPDO can be changed",
+       "OD-1800-12, OD-1A00-04: const", constant_pdos(0x1800, 0x1A00), "1A00"},
       {"rpdos-not-valid",
        "no RPDO is valid by default",
        "OD-1400-04: bit 31 is not judged",
        both(both(preset_with_node_id(0x1400, 1, 0x80000200), preset_with_node_id(0x1401, 1, 0x80000300)),
             both(preset_with_node_id(0x1402, 1, 0x80000400), preset_with_node_id(0x1403, 1, 0x80000500))),
        {},
-       {"1400-const", "1403-const", "1400-not-valid", "1400-bit-30"}},
+       {"1400-const", "1403-const", "rpdos-const", "1400-not-valid", "1400-bit-30"}},
       {"tpdos-not-valid",
        "no TPDO is valid by default",
        "OD-1800-04: bit 31 is not judged",
        both(both(preset_with_node_id(0x1800, 1, 0xC0000180), preset_with_node_id(0x1801, 1, 0xC0000280)),
             both(preset_with_node_id(0x1802, 1, 0xC0000380), preset_with_node_id(0x1803, 1, 0xC0000480))),
        {},
-       {"1800-const", "1803-const", "1800-not-valid"}},
+       {"1800-const", "1803-const", "tpdos-const", "1800-not-valid"}},
       {"rpdos-sub-2", "neither inhibit time nor event timer of any RPDO", "OD-1400-01: 02h to 05h",
        of_all(0x1400, [](std::uint16_t index) { return absent_from(index, 3); }), "1400-subs"},
       {"tpdos-sub-2", "neither inhibit time nor event timer of any TPDO", "OD-1800-01: 02h to 06h",
@@ -175,7 +188,7 @@ VariantTable pdo_variants() {
        "OD-1400-04: bit 31 is not judged",
        preset_with_node_id(0x1400, 1, 0x80000200),
        {},
-       {"1400-const"}},
+       {"1400-const", "rpdos-const"}},
       {"1400-sub-2", "neither inhibit time nor event timer of the RPDO", "OD-1400-01: 02h to 05h",
        absent_from(0x1400, 3), "1400-subs"},
       {"1400-sub-3-absent", "no inhibit time of the RPDO", "OD-1400-01: gaps at 03h to 05h", gap(0x1400, 3)},
@@ -197,7 +210,7 @@ VariantTable pdo_variants() {
        "OD-1800-04: bit 31 is not judged",
        preset_with_node_id(0x1800, 1, 0xC0000180),
        {},
-       {"1800-const"}},
+       {"1800-const", "tpdos-const"}},
       {"1800-sub-2", "neither inhibit time nor event timer of the TPDO", "OD-1800-01: 02h to 06h",
        absent_from(0x1800, 3), "1800-timers"},
       {"1800-sub-3-absent", "no inhibit time of the TPDO", "OD-1800-01: gaps at 03h to 05h", gap(0x1800, 3)},
@@ -320,6 +333,10 @@ VariantTable pdo_variants() {
              terms.cob_id_rules.choices.remote_frames = terms.choices.remote_types = false;
            },
        .lacks = {"remote frames"}},
+      {"tpdo-remote-frames-of-its-length-only",
+       "remote frames for a TPDO are answered where their DLC is its length",
+       "ISO 11898-1: a remote frame has the DLC of the data frame that it asks for",
+       [](Parts& node) { node.pdos.tpdo.choices.heeds_remote_dlc = true; }},
       {.id = "tpdo-change-no-event",
        .summary = "a change of mapped data is no event of a TPDO",
        .legal = "7.5.2.37: what an event is, the device and its profile say",
@@ -370,7 +387,7 @@ VariantTable pdo_variants() {
        .legal = "7.5.2.37: what an event is, the device and its profile say; PDO-TX-08 warns",
        .how = [](Parts& node) { node.pdos.tpdo.choices.first_alone_is_sent = true; },
        // What cannot be switched off takes the place of the TPDO that is tried.
-       .excludes = {"tpdo-on-write", "1800-const", "1803-const", "like-canopen-stack"},
+       .excludes = {"tpdo-on-write", "1800-const", "1803-const", "tpdos-const", "like-canopen-stack"},
        .warns = {"PDO-TX-08"}},
       {"tpdo-inhibit-in-10-ms", "inhibit times are rounded up to 10 ms", "7.5.2.37: the shortest interval",
        [](Parts& node) {

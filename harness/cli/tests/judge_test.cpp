@@ -112,8 +112,11 @@ TEST_CASE(
     "So is a candump log, which tells no directions, where the host sends nothing in the device's name") {
   for (const auto& defect : defects) {
     INFO(defect);
-    const auto run = live({defect}, {"cia301/dictionary", "cia301/sdo/upload", "cia301/sdo/segmented-upload",
-                                     "cia301/sdo/states", "cia301/heartbeat/producer", "cia301/sdo/errors"});
+    // Not the dictionary's RPDO, of which nobody can tell who sent it.
+    const auto run =
+        live({defect}, {"cia301/dictionary/a*", "cia301/dictionary/c*", "cia301/dictionary/d*",
+                        "cia301/dictionary/l*", "cia301/sdo/upload", "cia301/sdo/segmented-upload",
+                        "cia301/sdo/states", "cia301/heartbeat/producer", "cia301/sdo/errors"});
     const auto log = can::write_candump_log(run.capture, {});
     CHECK(said(judged(log, true)) == said(run.result));
   }
