@@ -110,8 +110,8 @@ class Emergencies final : public Monitor {
     const auto code = code_of(seen);
     if (code >> 8U == 0 || !is_of_a_class(code) || other_holder(found, emcy_index, emcy_index)) return;
     first_error_ = Seen{seen.index, seen.frame(), {}};
-    for (std::uint16_t i = 0; i < first_error_->told.size(); ++i)
-      first_error_->told.set(i, follower.entries().is_told(first_tpdo + i, 1));
+    for (std::size_t i = 0; i < first_error_->told.size(); ++i)
+      first_error_->told.set(i, follower.entries().is_told(static_cast<std::uint16_t>(first_tpdo + i), 1));
   }
 
   [[nodiscard]] static bool is_own(const Observation& seen) { return seen.subject == Subject::emcy; }

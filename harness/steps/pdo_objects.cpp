@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "steps/pdo_objects.hpp"
 
+#include "base/text.hpp"
 #include "canopen/abort_code.hpp"
 #include "canopen/pdo.hpp"
 
