@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "canopen/abort_code.hpp"
+#include "canopen/integer_range.hpp"
 #include "canopen/pdo.hpp"
 #include "engine/mapping_probe.hpp"
 #include "engine/run_session.hpp"
@@ -75,18 +76,6 @@ Result<steps::Value> RunSession::read(Multiplexer object) {
   return fail_scenario("the value of " + to_string(object) + " cannot be read: " + answer->refusal());
 }
 
-/// Where a description names one limit alone, the other one is the end of the type.
-static std::optional<steps::Value> end_of_type(const device::Entry& entry, bool upper) {
-  const auto size = entry.size();
-  if (!size || *size > 8 || !canopen::is_integer(entry.type)) return std::nullopt;
-  const auto all = *size == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * *size)) - 1;
-  const bool is_signed = canopen::is_signed(entry.type);
-  const auto number = is_signed ? (upper ? all >> 1U : ~(all >> 1U)) : (upper ? all : 0);
-  auto out = steps::Value::of_bytes(to_le(number, *size));
-  out.number = number;
-  return out;
-}
-
 Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared what) {
   const auto* found = entry(object);
   static const device::Entry nothing;
@@ -99,8 +88,13 @@ Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared wh
                       : what == steps::Declared::high_limit ? known.high
                                                             : known.default_value;
   const bool is_limit = what == steps::Declared::low_limit || what == steps::Declared::high_limit;
+  // Where a description names one limit alone, the other one is the end of the type.
   if (!bytes && is_limit && (known.low || known.high)) {
-    if (auto end = end_of_type(known, what == steps::Declared::high_limit)) return *end;
+    if (const auto end = canopen::end_of_range(known.type, what == steps::Declared::high_limit)) {
+      auto value = steps::Value::of_bytes(to_le(*end, *known.size()));
+      value.number = *end;
+      return value;
+    }
   }
   if (!bytes && what == steps::Declared::default_value && object.index == Index(0x1018)) {
     const auto& identity = profile_.identity;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "canopen/integer_range.hpp"
 
 namespace conform::scenario {
 namespace {
@@ -15,11 +16,9 @@ using device::ObjectCode;
 
 /// Whether the type holds a value beyond the limit, so that the limit can be broken at all.
 bool limit_leaves_room(const Entry& entry, const std::optional<Bytes>& limit, bool upper) {
-  if (!limit || limit->empty() || limit->size() > 8 || !canopen::is_integer(entry.type)) return false;
-  const auto all = limit->size() == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (8 * limit->size())) - 1;
-  const auto sign = all ^ (all >> 1U);
-  const auto end = canopen::is_signed(entry.type) ? (upper ? all >> 1U : sign) : (upper ? all : 0);
-  return load_le(*limit) != end;
+  const auto end = canopen::end_of_range(entry.type, upper);
+  if (!end || !limit || limit->empty() || limit->size() > 8) return false;
+  return *limit != to_le(*end, limit->size());
 }
 
 /// Whether no limit leaves out a value of the type: limits may be declared that are its ends, and one of them
