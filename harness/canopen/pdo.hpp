@@ -3,6 +3,7 @@
 // parameter 200h behind (7.5.2.35 to 7.5.2.38).
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "base/strong.hpp"
@@ -23,6 +24,17 @@ inline constexpr std::uint16_t pdo_mapping_offset = 0x200;
 /// The mapping parameter beside a communication parameter.
 [[nodiscard]] constexpr Index pdo_mapping(Index communication) {
   return Index(static_cast<std::uint16_t>(communication.value() + pdo_mapping_offset));
+}
+
+/// The object that a mapping entry names: index in bits 31-16, sub-index in bits 15-8 (7.5.2.36).
+[[nodiscard]] constexpr Multiplexer mapped_object(std::uint64_t entry) {
+  return {Index(static_cast<std::uint16_t>(entry >> 16U)), SubIndex(static_cast<std::uint8_t>(entry >> 8U))};
+}
+
+/// The mapping entry of so many bits of an object.
+[[nodiscard]] constexpr std::uint32_t mapping_entry(Multiplexer object, std::uint64_t bits) {
+  return (std::uint32_t{object.index.value()} << 16U) | (std::uint32_t{object.sub.value()} << 8U) |
+         static_cast<std::uint32_t>(bits & 0xFFU);
 }
 
 }  // namespace conform::canopen

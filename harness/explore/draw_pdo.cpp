@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "canopen/cob_id.hpp"
+#include "canopen/pdo.hpp"
 #include "explore/draw_talk.hpp"
 
 namespace conform::explore {
@@ -67,9 +68,7 @@ void draw_mapping(Draft& draft, std::uint16_t index) {
   for (const auto& entry : draft.words.entries) {
     const bool fits = index < 0x1A00 ? entry.writable() : entry.readable();
     if (!entry.pdo_mappable || !fits || !entry.size()) continue;
-    mappable.push_back((std::uint32_t{entry.mux.index.value()} << 16U) |
-                       (std::uint32_t{entry.mux.sub.value()} << 8U) |
-                       static_cast<std::uint32_t>(8 * *entry.size()));
+    mappable.push_back(canopen::mapping_entry(entry.mux, 8 * *entry.size()));
   }
   if (mappable.empty()) return;
   if (random.chance(90)) draft.write(index, 0, 0);

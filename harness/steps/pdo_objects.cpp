@@ -23,8 +23,7 @@ std::string pdo_words(const ObjectReference& pdo, Session& session) {
 }
 
 Result<void> will_receive(Session& session, Index mapping, std::uint64_t entry) {
-  const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)),
-                           SubIndex(static_cast<std::uint8_t>(entry >> 8U))};
+  const auto object = canopen::mapped_object(entry);
   return is_receive_pdo(mapping) && object.index > Index(0x1F) ? session.will_change(object) : Result<void>();
 }
 

@@ -66,7 +66,7 @@ struct MappedEntry {
         return fail_scenario("the length of " + to_string(*mux) + " is not known", "add bits:");
       length = *entry->size() * 8;
     }
-    return (std::uint64_t{mux->index.value()} << 16U) | (std::uint64_t{mux->sub.value()} << 8U) | length;
+    return canopen::mapping_entry(*mux, length);
   }
 };
 
@@ -261,8 +261,7 @@ Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool 
     actual = read(session, {mapping, SubIndex(static_cast<std::uint8_t>(sub))});
     if (!is_confirmed(actual)) return actual;
     const auto entry = static_cast<std::uint32_t>(load_le(actual->data));
-    const Multiplexer object{Index(static_cast<std::uint16_t>(entry >> 16U)),
-                             SubIndex(static_cast<std::uint8_t>((entry >> 8U) & 0xFFU))};
+    const auto object = canopen::mapped_object(entry);
     const std::uint64_t length = entry & 0xFFU;
     out.entries.push_back(entry);
     const bool placeholder =
@@ -298,116 +297,103 @@ Result<Actual> read_mapping(Session& session, Index mapping, Mapping& out, bool 
   return actual;
 }
 
+/// Looks at what a PDO maps, reads it, or finds a place in it.
 class PdoMapping final : public Action {
  public:
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
-    return parse_as(value, context, false);
+    return parse_as(value, context, What::objects, "mapping");
   }
   static std::unique_ptr<Action> parse_data(const yaml::Field& value, ParseContext& context) {
-    return parse_as(value, context, true);
+    return parse_as(value, context, What::data, "mapped_data");
   }
-  static std::unique_ptr<Action> parse_as(const yaml::Field& value, ParseContext& context, bool data) {
-    auto out = std::make_unique<PdoMapping>();
-    out->data_ = data;
-    auto fields = value.fields(data ? "mapped_data" : "mapping");
-    const auto pdo = fields.required("pdo");
-    if (pdo) {
-      if (auto parsed = parse_object_at(pdo, context.names)) out->pdo_ = *parsed;
-    }
-    if (const auto save = data ? fields.required("save") : fields.optional("save")) {
-      out->save_ = save.text().value_or("");
-      context.know(out->save_);
-    }
-    return pdo ? std::move(out) : nullptr;
+  static std::unique_ptr<Action> parse_entry(const yaml::Field& value, ParseContext& context) {
+    return parse_as(value, context, What::entry, "mapped_entry");
   }
-  Measures measures() const override { return {"count", "bits", "absent", "longer", "shorter"}; }
+  Measures measures() const override {
+    return what_ == What::entry ? Measures{} : Measures{"count", "bits", "absent", "longer", "shorter"};
+  }
   Need need() const override { return {}; }
   std::vector<ObjectReference> concerns() const override { return {pdo_}; }
   bool rests_on_time() const override { return false; }
   std::string words(Session& session) const override {
-    return (data_ ? "read the objects mapped to " : "resolve the mapping of ") + pdo_words(pdo_, session);
+    const auto pdo = pdo_words(pdo_, session);
+    if (what_ == What::entry) return "look for an entry of " + pdo + " that tests may write";
+    return (what_ == What::data ? "read the objects mapped to " : "resolve the mapping of ") + pdo;
   }
   Result<Actual> run(Session& session) const override {
     const auto index = communication_of(pdo_, session);
     if (!index) return std::unexpected(index.error());
     Mapping mapping;
-    auto actual = read_mapping(session, canopen::pdo_mapping(*index), mapping, data_);
+    auto actual = read_mapping(session, canopen::pdo_mapping(*index), mapping, what_ == What::data);
     if (!is_confirmed(actual)) return actual;
+    actual->data.clear();
+    if (what_ == What::entry) {
+      find_entry(session, mapping, *actual);
+      return actual;
+    }
     actual->kind = Actual::Kind::matched;
-    if (data_) {
+    if (what_ == What::data) {
       actual->data = mapping.data;
       actual->detail = hex_bytes(mapping.data);
       session.set(save_, Value::of_bytes(mapping.data));
       return actual;
     }
-    actual->data.clear();
     if (!save_.empty()) session.set(save_, Value::of_number((mapping.bits + 7) / 8));
-    actual->measured["count"] = mapping.entries.size();
-    actual->measured["bits"] = mapping.bits;
-    actual->measured["absent"] = mapping.absent;
-    actual->measured["longer"] = mapping.longer;
-    actual->measured["shorter"] = mapping.shorter;
-    std::vector<std::string> parts;
-    for (const auto entry : mapping.entries) parts.push_back(hex(entry, 8).insert(4, " "));
-    actual->detail = std::to_string(mapping.entries.size()) + " entries, " + std::to_string(mapping.bits) +
-                     " bits; " + std::to_string(mapping.absent) + " absent, " +
-                     std::to_string(mapping.longer) + " longer and " + std::to_string(mapping.shorter) +
-                     " shorter than the object: " + join(parts, ", ");
+    measure(mapping, *actual);
     return actual;
   }
 
  private:
-  ObjectReference pdo_;
-  bool data_ = false;
-  std::string save_;
-};
+  enum class What : std::uint8_t { objects, data, entry };
 
-/// A place in a PDO that is found as it is: one of the entries that it maps.
-class MappedEntryOf final : public Action {
- public:
-  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext& context) {
-    auto out = std::make_unique<MappedEntryOf>();
-    auto fields = value.fields("mapped_entry");
+  static std::unique_ptr<Action> parse_as(const yaml::Field& value, ParseContext& context, What what,
+                                          const char* verb) {
+    auto out = std::make_unique<PdoMapping>();
+    out->what_ = what;
+    auto fields = value.fields(verb);
     const auto pdo = fields.required("pdo");
-    const auto save = fields.required("save");
     if (pdo) {
       if (auto parsed = parse_object_at(pdo, context.names)) out->pdo_ = *parsed;
     }
-    out->save_ = save.text().value_or("");
-    if (save) context.know(out->save_);
-    return pdo && save ? std::move(out) : nullptr;
+    if (const auto save = what == What::objects ? fields.optional("save") : fields.required("save")) {
+      out->save_ = save.text().value_or("");
+      context.know(out->save_);
+    }
+    return pdo ? std::move(out) : nullptr;
   }
-  Need need() const override { return {}; }
-  std::vector<ObjectReference> concerns() const override { return {pdo_}; }
-  bool rests_on_time() const override { return false; }
-  std::string words(Session& session) const override {
-    return "look for an entry of " + pdo_words(pdo_, session) + " that tests may write";
+
+  static void measure(const Mapping& mapping, Actual& actual) {
+    actual.measured["count"] = mapping.entries.size();
+    actual.measured["bits"] = mapping.bits;
+    actual.measured["absent"] = mapping.absent;
+    actual.measured["longer"] = mapping.longer;
+    actual.measured["shorter"] = mapping.shorter;
+    std::vector<std::string> parts;
+    for (const auto entry : mapping.entries) parts.push_back(hex(entry, 8).insert(4, " "));
+    actual.detail = std::to_string(mapping.entries.size()) + " entries, " + std::to_string(mapping.bits) +
+                    " bits; " + std::to_string(mapping.absent) + " absent, " +
+                    std::to_string(mapping.longer) + " longer and " + std::to_string(mapping.shorter) +
+                    " shorter than the object: " + join(parts, ", ");
   }
-  Result<Actual> run(Session& session) const override {
-    const auto index = communication_of(pdo_, session);
-    if (!index) return std::unexpected(index.error());
-    Mapping mapping;
-    auto actual = read_mapping(session, canopen::pdo_mapping(*index), mapping, false);
-    if (!is_confirmed(actual)) return actual;
-    actual->data.clear();
+
+  /// The first integer that tests may write and read, whole.
+  void find_entry(Session& session, const Mapping& mapping, Actual& actual) const {
     for (const auto mapped : mapping.entries) {
-      const Multiplexer object{Index(static_cast<std::uint16_t>(mapped >> 16U)),
-                               SubIndex(static_cast<std::uint8_t>((mapped >> 8U) & 0xFFU))};
+      const auto object = canopen::mapped_object(mapped);
       const auto* entry = session.dictionary().find(object);
       if (entry == nullptr || !entry->safe || !entry->readable() || !canopen::is_integer(entry->type) ||
           entry->size() != (mapped & 0xFFU) / 8)
         continue;
       session.set(save_, Value::of_object(object));
-      actual->detail = to_string(object);
-      return actual;
+      actual.detail = to_string(object);
+      return;
     }
-    actual->kind = Actual::Kind::silence;
-    actual->detail = "it maps nothing that tests may write and read";
-    return actual;
+    actual.kind = Actual::Kind::silence;
+    actual.detail = "it maps nothing that tests may write and read";
   }
 
- private:
   ObjectReference pdo_;
+  What what_ = What::objects;
   std::string save_;
 };
 
@@ -494,7 +480,7 @@ constexpr Verb table[] = {
     {"mapped_entry", "Find an integer that a PDO maps, and that tests may write and read.",
      "pdo: its communication or mapping object\nsave: name that the entry gets",
      "- mapped_entry: {pdo: $pdo, save: entry}\n  either: [{if: ok}, {if: [abort any, silence], verdict: not applicable}]",
-     &MappedEntryOf::parse},
+     &PdoMapping::parse_entry},
     {"send_sync", "Send SYNC on the CAN-ID of 1005h, once or beside the following steps.",
      "(word): once\nevery: time between two\ncount: how many\ncounter: overflow value: each has one byte that counts 1 to this and 1 again; 0: "
      "no data. Without it as 1019h says",

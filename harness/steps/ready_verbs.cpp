@@ -30,11 +30,10 @@ std::vector<std::uint32_t> candidates(const device::Dictionary& dictionary, bool
     const bool takes = receive ? entry.safe && entry.access != device::Access::rwr
                                : entry.readable() && entry.access != device::Access::rww;
     if (!fits || !takes || entry.mux.index < Index(0x2000)) continue;
-    const auto bits = entry.type == canopen::DataType::boolean ? 1U : static_cast<std::uint32_t>(*size * 8);
-    out.push_back((std::uint32_t{entry.mux.index.value()} << 16U) |
-                  (std::uint32_t{entry.mux.sub.value()} << 8U) | bits);
+    const auto bits = entry.type == canopen::DataType::boolean ? 1U : *size * 8;
+    out.push_back(canopen::mapping_entry(entry.mux, bits));
   }
-  if (!receive) out.push_back(0x1001'0008);
+  if (!receive) out.push_back(canopen::mapping_entry({Index(0x1001), SubIndex(0)}, 8));
   return out;
 }
 
@@ -82,18 +81,17 @@ class ReadyPdo final : public Action {
 
   /// The first candidate that the device takes.
   static Result<Actual> map_one(Session& session, Index mapping) {
-    auto actual = Result<Actual>(fail_scenario("the device has nothing that could be mapped"));
+    Actual none;
+    none.kind = Actual::Kind::silence;
+    none.detail = "the device has nothing that could be mapped";
+    Result<Actual> actual = std::move(none);
     for (const auto entry : candidates(session.dictionary(), is_receive_pdo(mapping))) {
       if (auto noted = will_receive(session, mapping, entry); !noted) return std::unexpected(noted.error());
       actual = write(session, {mapping, SubIndex(1)}, entry, 4);
       if (!actual) return actual;
       if (is_confirmed(actual)) return write(session, {mapping, SubIndex(0)}, 1, 1);
     }
-    if (actual) return actual;
-    Actual none;
-    none.kind = Actual::Kind::silence;
-    none.detail = actual.error().what;
-    return none;
+    return actual;
   }
 
   /// A PDO beyond the fourth has no CAN-ID by default (7.5.2.35, 7.5.2.37).
