@@ -103,32 +103,35 @@ Result<void> restore_pdo(Restorer& device, Observer& observer, Index communicati
   return mapping_changed && count_before ? settle(count, *count_before) : Result<void>();
 }
 
-constexpr Multiplexer cycle_period{Index(0x1006), SubIndex(0)}, counter_overflow{Index(0x1019), SubIndex(0)};
+/// Writes what can be written only while another entry, the gate, is 0: that one is 0 meanwhile, and has what
+/// it is to have behind it. `held`: by the gate now.
+Result<void> write_while_zero(Restorer& device, Observer& observer, Multiplexer gate, const Bytes& held,
+                              const Change& change, const std::vector<Change>& changes) {
+  const auto known = std::ranges::find(changes, gate, &Change::object);
+  const Bytes wanted = known == changes.end() ? held : known->before;
+  observer.changing(gate, wanted);
+  if (auto done = device.write(gate, to_le(0, wanted.size())); !done) return std::unexpected(done.error());
+  if (auto done = device.write(change.object, change.before); !done) return std::unexpected(done.error());
+  if (auto done = device.write(gate, wanted); !done) return std::unexpected(done.error());
+  const auto is = device.read(gate);
+  if (!is) return std::unexpected(is.error());
+  if (*is == wanted) observer.put_back(gate, wanted);
+  return {};
+}
+
+constexpr Multiplexer cycle_period{Index(0x1006), SubIndex(0)}, counter_overflow{Index(0x1019), SubIndex(0)},
+    heartbeat_time{Index(0x1017), SubIndex(0)};
 
 /// 1019h can be written only while 1006h is 0 (7.5.2.22).
 Result<void> restore_counter(Restorer& device, Observer& observer, const Change& counter,
                              const std::vector<Change>& changes) {
-  auto period = device.read(cycle_period);
+  const auto period = device.read(cycle_period);
   if (!period) return std::unexpected(period.error());
-  const bool locked = *period && load_le(**period) != 0;
-  if (locked) {
-    const auto known = std::ranges::find(changes, cycle_period, &Change::object);
-    const Bytes wanted = known == changes.end() ? **period : known->before;
-    observer.changing(cycle_period, wanted);
-    if (auto done = device.write(cycle_period, to_le(0, wanted.size())); !done)
-      return std::unexpected(done.error());
-    if (auto done = device.write(counter.object, counter.before); !done) return std::unexpected(done.error());
-    if (auto done = device.write(cycle_period, wanted); !done) return std::unexpected(done.error());
-    const auto is = device.read(cycle_period);
-    if (!is) return std::unexpected(is.error());
-    if (*is == wanted) observer.put_back(cycle_period, wanted);
-    return {};
-  }
+  if (*period && load_le(**period) != 0)
+    return write_while_zero(device, observer, cycle_period, **period, counter, changes);
   auto done = device.write(counter.object, counter.before);
   return done ? Result<void>() : std::unexpected(done.error());
 }
-
-constexpr Multiplexer heartbeat_time{Index(0x1017), SubIndex(0)};
 
 bool is_of_guarding(Multiplexer object) {
   return object.index == Index(0x100C) || object.index == Index(0x100D);
@@ -137,23 +140,13 @@ bool is_of_guarding(Multiplexer object) {
 /// Beside a heartbeat a device may take no life time (7.2.8.2.2.1).
 Result<void> restore_guarding(Restorer& device, Observer& observer, const Change& change,
                               const std::vector<Change>& changes) {
-  auto done = device.write(change.object, change.before);
+  const auto done = device.write(change.object, change.before);
   if (!done) return std::unexpected(done.error());
   if (*done) return {};
   const auto heartbeat = device.read(heartbeat_time);
   if (!heartbeat) return std::unexpected(heartbeat.error());
   if (!*heartbeat || load_le(**heartbeat) == 0) return {};
-  const auto known = std::ranges::find(changes, heartbeat_time, &Change::object);
-  const Bytes wanted = known == changes.end() ? **heartbeat : known->before;
-  observer.changing(heartbeat_time, wanted);
-  done = device.write(heartbeat_time, to_le(0, wanted.size()));
-  if (done) done = device.write(change.object, change.before);
-  if (done) done = device.write(heartbeat_time, wanted);
-  if (!done) return std::unexpected(done.error());
-  const auto is = device.read(heartbeat_time);
-  if (!is) return std::unexpected(is.error());
-  if (*is == wanted) observer.put_back(heartbeat_time, wanted);
-  return {};
+  return write_while_zero(device, observer, heartbeat_time, **heartbeat, change, changes);
 }
 
 }  // namespace
