@@ -254,12 +254,10 @@ class Run {
   Result<void> run_of_sample(const PlannedCase& planned, CaseResult& result) {
     auto done = run_case(planned, result);
     std::optional<CaseResult> first;
-    auto instance = planned.instance;
     for (const auto& object : planned.stand_ins) {
-      if (!done || fell_silent_ || !is_left_out_for(instance, result)) return done;
+      if (!done || fell_silent_ || !is_left_out_for_its_object(result)) return done;
       if (!first) first = result;
       const auto other = planned.of(object);
-      instance = object;
       result = planned_result(other, run_.catalogue);
       done = run_case(other, result);
     }
@@ -268,9 +266,10 @@ class Run {
   }
 
   /// Whether the case did not apply for what the object is, so that it may apply to another one.
-  [[nodiscard]] bool is_left_out_for(std::string_view instance, const CaseResult& result) const {
+  [[nodiscard]] bool is_left_out_for_its_object(const CaseResult& result) const {
     if (result.verdict != Verdict::not_applicable) return false;
-    return runner_.entered_steps() || result.reason.contains(instance.substr(0, instance.find(':')));
+    return runner_.entered_steps() ||
+           result.reason.contains(result.instance.substr(0, result.instance.find(':')));
   }
 
   Result<void> run_case(const PlannedCase& planned, CaseResult& result) {

@@ -80,10 +80,10 @@ std::vector<PlannedCase> expand(const scenario::Scenario& scenario, const device
       none.not_applicable = "the device has no " + (query ? query->words() : scenario.for_each->query);
       if (query) none.wants = wants_of(*query);
     }
-    const bool sampled = scenario.sample > 0 && !options.all_objects && objects.size() > scenario.sample;
+    const bool sampled = scenario.sample > 0 && !options.all_objects;
     for (const auto object : sampled ? sample(objects, scenario.sample, options.seed) : objects)
       add(to_string(object)).names[scenario.for_each->variable] = to_string(object);
-    if (sampled) add_stand_ins(out, objects);
+    if (out.size() < objects.size()) add_stand_ins(out, objects);
   }
   return out;
 }
