@@ -92,7 +92,7 @@ Result<steps::Value> RunSession::declared(Multiplexer object, steps::Declared wh
   if (!bytes && is_limit && (known.low || known.high)) {
     if (const auto end = canopen::end_of_range(known.type, what == steps::Declared::high_limit)) {
       auto value = steps::Value::of_bytes(to_le(*end, *known.size()));
-      value.number = *end;
+      value.number = end;
       return value;
     }
   }
