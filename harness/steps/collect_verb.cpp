@@ -47,6 +47,7 @@ class Collect final : public Action {
     Measures out{"count", "first", "state", "period", "shortest", "longest", "length"};
     if (!overflow_.empty()) out.insert(out.end(), {"start", "out_of_order"});
     if (times_of_day_) out.insert(out.end(), {"malformed", "drift"});
+    if (source_.service == "error control") out.insert(out.end(), {"pace", "quickest", "slowest"});
     if (answers_) out.insert(out.end(), {"missed", "skipped", "extra", "closest", "farthest", "latency"});
     return out;
   }
@@ -82,7 +83,7 @@ class Collect final : public Action {
       overflow = *number;
     }
     const auto time = end_.time.resolve(session.profile());
-    const auto end = end_.after(window->anchor, session);
+    const auto end = end_.after(window->anchor, session, source_);
     if (!end) return std::unexpected(end.error());
     auto until = *end;
     std::vector<std::size_t> hits;
@@ -124,9 +125,8 @@ class Collect final : public Action {
     return CanId(static_cast<std::uint32_t>(*known->number));
   }
 
-  [[nodiscard]] static Actual measure(Session& session, const Window& window,
-                                      const std::vector<std::size_t>& hits,
-                                      const std::vector<BusTime>& stimuli, BusTime end) {
+  [[nodiscard]] Actual measure(Session& session, const Window& window, const std::vector<std::size_t>& hits,
+                               const std::vector<BusTime>& stimuli, BusTime end) const {
     Actual out;
     const auto& frames = session.capture().frames();
     std::vector<BusTime> times;
@@ -144,8 +144,9 @@ class Collect final : public Action {
     for (const auto hit : hits) {
       const auto& frame = frames[hit].frame;
       const auto byte = frame.size() > 0 ? frame.data[0] : std::uint8_t{0xFF};
-      // A heartbeat is one byte with bit 7 = 0; anything else must not pass as a state.
-      const auto value = frame.dlc == 1 ? byte : std::uint8_t{0xFF};
+      // Anything but one byte must not pass as a state.
+      const auto value =
+          frame.dlc == 1 ? static_cast<std::uint8_t>(byte & source_.state_bits(session)) : std::uint8_t{0xFF};
       one_state = one_state && (!state || *state == value);
       state = value;
     }
@@ -160,6 +161,8 @@ class Collect final : public Action {
       out.detail += ", period " + words(distances.mean) + " (" + words(distances.shortest) + ".." +
                     words(distances.longest) + ")";
     }
+    if (const auto nominal = source_.nominal_period(session); nominal && hits.size() > 1)
+      measure_pace(out, distances, *nominal);
     out.detail += ", first after " + relative(first, window) + ", last " + words(end - times.back()) +
                   " before the end, " +
                   (one_state ? "first byte " + hex(*state, 2) : std::string("differing first bytes"));
@@ -187,6 +190,16 @@ class Collect final : public Action {
       out.detail += ", " + std::to_string(times.malformed) + " with no time of day, which drifts by " +
                     to_string(std::chrono::round<std::chrono::microseconds>(times.drift));
     }
+  }
+
+  static void measure_pace(Actual& out, const Distances& distances, Duration nominal) {
+    const auto percent = [nominal](Duration time) {
+      return static_cast<std::uint64_t>(100 * time / nominal);
+    };
+    out.measured["pace"] = percent(distances.mean + nominal / 200);
+    out.measured["quickest"] = percent(distances.shortest);
+    out.measured["slowest"] = percent(distances.longest);
+    out.detail += ", " + std::to_string(out.measured["pace"]) + " % of " + to_string(nominal);
   }
 
   static void measure_answers(Actual& out, const Answers& answers, std::size_t stimuli) {
@@ -224,7 +237,8 @@ constexpr Verb table[] = {
      "answers to what was sent there, by the device itself as well\ncounter: overflow value: the frames count 1 to this and 1 again\n"
      "time_of_day: true: the frames tell the time\nenough: number of frames that ends the step before its time\nafter: label to count from\nmeasured: count, period, shortest, longest (the time behind "
      "the last frame included), first, state, length (bytes of every frame); with counter: start (of the first frame), out_of_order; with "
-     "time_of_day: malformed, drift; with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
+     "time_of_day: malformed, drift; from error control: pace, quickest, slowest (period, shortest and longest in percent of the period "
+     "that ready_error_control made sure of); with per: missed, skipped (missed before the first answer), extra, closest and farthest (distance of "
      "two answers in frames sent), latency (the longest)",
      "- collect: {from: heartbeat, for: 1 s}\n  checks: OD-1017-05\n  expect: {count: 9..11, period: 90 ms..110 ms, state: pre-operational}\n"
      "- collect: {from: 180h + N, per: sync, for: 50 ms}\n  checks: PDO-TX-06\n  expect: {extra: 0, closest: 3.., farthest: ..3}",

@@ -36,7 +36,7 @@ std::optional<Source> Source::parse(const yaml::Field& field, const NameCheck& n
   const auto text = field.text();
   if (!text) return std::nullopt;
   for (const std::string_view word :
-       {"heartbeat", "emcy", "emcy error", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
+       {"heartbeat", "error control", "emcy", "emcy error", "sdo", "sync", "tpdo 1", "boot-up", "anything"}) {
     if (*text == word) {
       out.service = *text;
       return out;
@@ -49,18 +49,18 @@ std::optional<Source> Source::parse(const yaml::Field& field, const NameCheck& n
 }
 
 Channels Source::rests_on() const {
-  if (service == "heartbeat") return {channel::heartbeat};
+  if (service == "heartbeat" || service == "error control") return {channel::heartbeat};
   if (service == "emcy") return {channel::emcy};
   if (service == "boot-up") return {channel::boot_up};
   return {};
 }
 
 std::vector<ObjectReference> Source::concerns() const {
-  const std::string_view entry = service == "heartbeat"        ? "1017h:00"
-                                 : service.starts_with("emcy") ? "1014h:00"
-                                 : service == "sync"           ? "1005h:00"
-                                 : service == "tpdo 1"         ? "1800h:01"
-                                                               : "";
+  const std::string_view entry = service == "heartbeat" || service == "error control" ? "1017h:00"
+                                 : service.starts_with("emcy")                        ? "1014h:00"
+                                 : service == "sync"                                  ? "1005h:00"
+                                 : service == "tpdo 1"                                ? "1800h:01"
+                                                                                      : "";
   auto object = ObjectReference::parse(entry);
   return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
 }
@@ -72,7 +72,7 @@ Result<Session::Match> Source::match(Session& session) const {
         [](const can::CapturedFrame& c) { return c.direction == can::Direction::received && !c.frame.error; };
   }
   CanId can_id{};
-  if (service == "heartbeat" || service == "boot-up") {
+  if (service == "heartbeat" || service == "error control" || service == "boot-up") {
     can_id = set.error_control;
   } else if (service == "sdo") {
     can_id = set.sdo_response;
@@ -100,12 +100,38 @@ Result<Session::Match> Source::match(Session& session) const {
       return c.frame.size() < 2 || c.frame.data[0] != 0 || c.frame.data[1] != 0;
     };
   }
-  const bool no_boot_up = service == "heartbeat", only_boot_up = service == "boot-up";
+  const bool no_boot_up = service == "heartbeat" || service == "error control",
+             only_boot_up = service == "boot-up";
   return [can_id, no_boot_up, only_boot_up](const can::CapturedFrame& c) {
     if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
     const bool boot_up = c.frame.size() > 0 && c.frame.data[0] == 0;
     return only_boot_up ? boot_up : !no_boot_up || !boot_up;
   };
+}
+
+namespace {
+
+std::uint64_t number_of(std::string_view name, const Session& session, std::uint64_t otherwise) {
+  const auto* value = session.find(name);
+  return value != nullptr && value->number ? static_cast<std::uint64_t>(*value->number) : otherwise;
+}
+
+}  // namespace
+
+Duration Source::stretched(Duration time, const Session& session) const {
+  if (service != "error control") return time;
+  return time * static_cast<Duration::rep>(number_of(error_control_stretch, session, 1));
+}
+
+std::optional<Duration> Source::nominal_period(const Session& session) const {
+  const auto known = service == "error control" ? number_of(error_control_period, session, 0) : 0;
+  return known > 0 ? std::optional(Duration(static_cast<Duration::rep>(known))) : std::nullopt;
+}
+
+std::uint8_t Source::state_bits(const Session& session) const {
+  // A heartbeat is one byte with bit 7 = 0; only in the reply to a guard request that is another one's bit.
+  if (service != "error control") return 0xFF;
+  return static_cast<std::uint8_t>(number_of(error_control_mask, session, 0xFF));
 }
 
 Result<Window> window_of(Session& session, const std::string& after) {
@@ -138,6 +164,11 @@ Result<BusTime> WindowEnd::after(BusTime anchor, const Session& session) const {
   const auto end = session.window_after(until);
   if (!end) return std::unexpected(end.error());
   return end->anchor;
+}
+
+Result<BusTime> WindowEnd::after(BusTime anchor, const Session& session, const Source& source) const {
+  if (until.empty()) return anchor + source.stretched(time.resolve(session.profile()), session);
+  return after(anchor, session);
 }
 
 void parse_after(yaml::Fields& fields, const ParseContext& context, std::string& after) {

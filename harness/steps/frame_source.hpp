@@ -2,8 +2,10 @@
 // What verbs about frames have in common: whose frames, and the time in which they are looked for.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "steps/step.hpp"
@@ -15,6 +17,12 @@ namespace conform::steps {
 
 /// "CAN-ID 281h"; of a name that has no value yet, the name.
 [[nodiscard]] std::string can_id_words(const Expression& id, Session& session);
+
+/// Names that `ready_error_control` sets: the time from one error control message to the next (ns), how many
+/// times as long as asked for that is, and the bits of a message that show the state.
+inline constexpr std::string_view error_control_period = "error_control_period";
+inline constexpr std::string_view error_control_stretch = "error_control_stretch";
+inline constexpr std::string_view error_control_mask = "error_control_mask";
 
 /// The frames a verb is about: a CAN-ID, or a service of the device under test.
 struct Source {
@@ -32,6 +40,13 @@ struct Source {
   /// The entry that configures the service.
   [[nodiscard]] std::vector<ObjectReference> concerns() const;
   [[nodiscard]] Result<Session::Match> match(Session& session) const;
+  /// `time` for a device that shows its state as often as a scenario wants it; as much longer for one that
+  /// cannot.
+  [[nodiscard]] Duration stretched(Duration time, const Session& session) const;
+  /// The time from one frame to the next that was made sure of; none: it is not known.
+  [[nodiscard]] std::optional<Duration> nominal_period(const Session& session) const;
+  /// The bits of a frame of one byte that say the state.
+  [[nodiscard]] std::uint8_t state_bits(const Session& session) const;
 };
 
 /// From the label on, or, where there is none, from the step before on.
@@ -48,6 +63,8 @@ struct WindowEnd {
   static std::optional<WindowEnd> parse(yaml::Fields& fields, const ParseContext& context);
   [[nodiscard]] std::string words() const { return until.empty() ? "for " + time.text() : "until " + until; }
   [[nodiscard]] Result<BusTime> after(BusTime anchor, const Session& session) const;
+  /// The same for frames of `source`, which may need longer.
+  [[nodiscard]] Result<BusTime> after(BusTime anchor, const Session& session, const Source& source) const;
 };
 
 /// `after:` with a label of the scenario.

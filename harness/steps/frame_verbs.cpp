@@ -182,7 +182,7 @@ class AwaitFrame final : public Action {
     if (!window) return std::unexpected(window.error());
     auto match = source_.match(session);
     if (!match) return std::unexpected(match.error());
-    auto most = within_.most.resolve(session.profile());
+    auto most = source_.stretched(within_.most.resolve(session.profile()), session);
     if (after_.empty()) most += session.time_to_follow();
     // What an error brings on another CAN-ID is due as late as the EMCY itself.
     if (const auto* delay = session.find("trigger_delay"); delay != nullptr && delay->duration)

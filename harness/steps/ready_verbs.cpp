@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs `ready_pdo` and `ready_sync`: many devices are delivered with their PDOs off or with nothing
-// mapped, or as the producer of SYNC, and leave it to a configuration tool to give them another part to play.
-// What they do then is judged all the same.
+// The verbs `ready_pdo`, `ready_sync` and `ready_error_control`: many devices are delivered with their PDOs
+// off or with nothing mapped, as the producer of SYNC, or with one of the two error control protocols only,
+// and leave it to a configuration tool to give them another part to play. What they do then is judged all the
+// same.
+#include <chrono>
+#include <optional>
 #include <vector>
 
+#include "base/text.hpp"
 #include "canopen/cob_id.hpp"
 #include "canopen/pdo.hpp"
+#include "steps/frame_source.hpp"
 #include "steps/pdo_objects.hpp"
 #include "steps/sdo_access.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
 namespace {
+
+using namespace std::chrono_literals;
 
 /// A device may have its reasons not to map one object; that none of so many can be mapped says enough.
 constexpr std::size_t most_candidates = 4;
@@ -136,6 +143,110 @@ class ReadySync final : public Action {
   }
 };
 
+/// Whoever is asked for its NMT state shows it in the one error control protocol that it has: in heartbeats,
+/// as often as is wanted where 1017h can be written and as often as they come where it cannot, or in replies
+/// to guard requests (7.2.8.2.2.1: one of the two is mandatory).
+class ReadyErrorControl final : public Action {
+ public:
+  static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
+    auto out = std::make_unique<ReadyErrorControl>();
+    auto every = parse_time_at(value);
+    if (every) out->every_ = *every;
+    return every ? std::move(out) : nullptr;
+  }
+  std::vector<ObjectReference> concerns() const override {
+    auto object = ObjectReference::parse("1017h:00");
+    return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
+  }
+  bool rests_on_time() const override { return false; }
+  std::string words(Session&) const override {
+    return "make the device show its NMT state every " + every_.text();
+  }
+
+  Result<Actual> run(Session& session) const override {
+    const auto every = every_.resolve(session.profile());
+    note(session, every, 1, 0xFF);
+    constexpr Multiplexer time{Index(0x1017), SubIndex(0)};
+    const auto writable = session.is_writable(time);
+    if (!writable) return std::unexpected(writable.error());
+    if (*writable) {
+      auto written = write(session, time, static_cast<std::uint64_t>(every / 1ms), 2);
+      if (!written || is_confirmed(written)) return written;
+    }
+    const auto held = read(session, time);
+    if (!held) return held;
+    const auto period = is_confirmed(held) ? load_le(held->data) * 1ms : Duration{};
+    return period > Duration{} ? heard(session, period, every) : guarded(session, every);
+  }
+
+ private:
+  /// More seldom than that a scenario would be at it for minutes.
+  static constexpr Duration longest_period = 2s;
+
+  static Actual none(std::string why) {
+    Actual out;
+    out.kind = Actual::Kind::silence;
+    out.detail = std::move(why);
+    return out;
+  }
+
+  static void note(Session& session, Duration period, std::uint64_t stretch, std::uint64_t mask) {
+    session.set(std::string(error_control_period),
+                Value::of_number(static_cast<std::uint64_t>(period.count())));
+    session.set(std::string(error_control_stretch), Value::of_number(stretch));
+    session.set(std::string(error_control_mask), Value::of_number(mask));
+  }
+
+  static Result<std::optional<std::size_t>> next_of_device(Session& session, std::size_t from,
+                                                           BusTime until) {
+    const auto id = canopen::connection_set(session.node()).error_control;
+    return session.find_frame(
+        from,
+        [id](const can::CapturedFrame& each) {
+          return each.direction == can::Direction::received && each.frame.is_data(id);
+        },
+        until);
+  }
+
+  /// A heartbeat that comes as it does: where it is slow everything takes as much longer.
+  static Result<Actual> heard(Session& session, Duration period, Duration every) {
+    if (period > longest_period) return none("a heartbeat comes every " + to_string(period) + " only");
+    const auto found = next_of_device(session, session.capture().size(), session.now() + 2 * period);
+    if (!found) return std::unexpected(found.error());
+    if (!*found) return none("no heartbeat within " + to_string(2 * period));
+    const auto times = (period + every - Duration(1)) / every;
+    note(session, period, static_cast<std::uint64_t>(times), 0xFF);
+    return Actual{};
+  }
+
+  /// Guard requests beside the scenario, where they start no life guarding: it would have them go on.
+  static Result<Actual> guarded(Session& session, Duration every) {
+    if (!session.can_send_remote_frames())
+      return none("there is no heartbeat, and the interface cannot send RTR");
+    const auto guard_time = read(session, {Index(0x100C), SubIndex(0)});
+    if (!guard_time) return guard_time;
+    const auto factor = read(session, {Index(0x100D), SubIndex(0)});
+    if (!factor) return factor;
+    if (is_confirmed(guard_time) && is_confirmed(factor) && load_le(guard_time->data) != 0 &&
+        load_le(factor->data) != 0)
+      return none("there is no heartbeat, and guard requests would start life guarding");
+    if (auto settled = session.await_state(); !settled) return std::unexpected(settled.error());
+    const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
+    const auto from = session.capture().size();
+    if (auto sent = session.send(request); !sent) return std::unexpected(sent.error());
+    const auto reply = next_of_device(session, from, session.now() + session.profile().nmt_time);
+    if (!reply) return std::unexpected(reply.error());
+    if (!*reply) return none("there is no heartbeat, and a guard request is not answered");
+    note(session, every, 1, 0x7F);
+    Production guarding{"guard", request, every, {}};
+    guarding.life_sign = true;
+    if (auto begun = session.produce(std::move(guarding)); !begun) return std::unexpected(begun.error());
+    return Actual{};
+  }
+
+  TimeReference every_;
+};
+
 constexpr Verb table[] = {
     {"ready_pdo",
      "Make a PDO valid, with one object mapped, where the device is delivered without; one that is ready stays as it is.",
@@ -147,6 +258,13 @@ constexpr Verb table[] = {
      "(word): consumer",
      "- ready_sync: consumer\n  either: [{if: ok}, {if: abort any, verdict: not applicable}]",
      &ReadySync::parse},
+    {"ready_error_control",
+     "Make the device show its NMT state in `error control`: by the heartbeat where 1017h can be written, by the heartbeat that comes "
+     "anyway where it cannot, or by replies to guard requests where there is none. Where heartbeats come more seldom, the times of "
+     "steps that wait for `error control` are as many times as long.",
+     "(time): how often",
+     "- ready_error_control: 100 ms\n  either: [{if: ok}, {if: [abort any, silence], verdict: not applicable}]",
+     &ReadyErrorControl::parse},
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A device that is delivered with its PDOs off, fixed or unmapped, or as the producer of SYNC, is tested as one that is not: its faults
-are found. Usage: delivered_otherwise_test.py BIN_FOLDER SUITES"""
+"""A device that is delivered with its PDOs off, fixed or unmapped, as the producer of SYNC, with a fixed heartbeat or with guarding only
+is tested as one that is not: its faults are found. Usage: delivered_otherwise_test.py BIN_FOLDER SUITES"""
 import os
 import re
 import subprocess
@@ -22,6 +22,12 @@ FOUND = [
     (["1005-producing-at-power-on"], "sync-out-of-order-ignored", "cia301/sync/consumer-counter", "SYNC-CON-06"),
     (["1005-producing-at-power-on", "tpdos-not-valid"], "tpdo-synchronous-from-the-next-start", "cia301/pdo/tpdo-in-operational",
      "PDO-TX-05"),
+    (["1017-absent"], "nmt-stop-ignored-in-operational", "cia301/nmt/state-machine", "NMT-FSA-04"),
+    (["1017-absent"], "nmt-short-frame-accepted", "cia301/nmt/commands", "NMT-FSA-17"),
+    (["1017-const-350ms"], "nmt-node-id-bit7-masked", "cia301/nmt/commands", "NMT-FSA-15"),
+    (["1017-const"], "starts-in-operational", "cia301/nmt/boot-up", "NMT-BOOT-07"),
+    (["1017-const-350ms"], "1017-period-a-fifth-longer", "cia301/heartbeat/producer", "EC-HBP-01"),
+    (["1017-const"], "heartbeat-at-half-rate-in-stopped", "cia301/heartbeat/producer", "EC-HBP-01"),
 ]
 
 

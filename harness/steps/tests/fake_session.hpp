@@ -30,7 +30,9 @@ class FakeSession final : public Session {
   device::Profile device_profile = device::default_profile(NodeId(5));
   device::Dictionary known;
   can::Capture trace;
+  std::vector<can::CapturedFrame> to_come;  ///< what is on the bus when the first frame is looked for
   std::vector<can::Frame> sent;
+  std::vector<Production> produced;
   BusTime time{}, emcy_held{};
 
   // Scope
@@ -137,6 +139,7 @@ class FakeSession final : public Session {
   void sdo_answer_may_be_late() override {}
   [[nodiscard]] Result<std::optional<std::size_t>> find_frame(std::size_t from, const Match& match,
                                                               BusTime deadline) override {
+    for (const auto& frame : std::exchange(to_come, {})) trace.add(frame);
     for (auto i = from; i < trace.size(); ++i) {
       if (trace.frames()[i].time <= deadline && match(trace.frames()[i])) return std::optional(i);
     }
@@ -165,7 +168,10 @@ class FakeSession final : public Session {
   [[nodiscard]] Duration time_to_follow() const override { return {}; }
   [[nodiscard]] BusTime emcy_held_until() const override { return emcy_held; }
   void error_changed(std::uint16_t, bool) override {}
-  [[nodiscard]] Result<void> produce(Production) override { return {}; }
+  [[nodiscard]] Result<void> produce(Production production) override {
+    produced.push_back(std::move(production));
+    return {};
+  }
   void stop_producing(std::string_view) override {}
 
  private:

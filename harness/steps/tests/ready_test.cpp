@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices that are delivered with PDOs off, unmapped or fixed, or as the producer of SYNC.
+// Devices that are delivered with PDOs off, unmapped or fixed, as the producer of SYNC, or with one error
+// control protocol only.
+#include <chrono>
+
 #include "catch.hpp"
 #include "steps/tests/fake_session.hpp"
 #include "steps/tests/parsed_steps.hpp"
@@ -94,6 +97,97 @@ TEST_CASE("What produces SYNC is made a consumer, without a period in which it w
   session.written.clear();
   CHECK(ran("- ready_sync: consumer\n", session) == Kind::confirmed);
   CHECK(session.written.empty());
+}
+
+constexpr Multiplexer heartbeat_time = at(0x1017, 0);
+
+device::Entry heartbeat_entry(device::Access access) {
+  device::Entry out;
+  out.mux = heartbeat_time;
+  out.type = canopen::DataType::unsigned16;
+  out.access = access;
+  return out;
+}
+
+can::CapturedFrame shows(std::uint8_t byte, Duration time) {
+  return {can::data_frame(CanId(0x705), {byte}), BusTime(time), can::Direction::received, {}};
+}
+
+/// What `step` measures of a device that shows its state when asked to every 100 ms.
+Actual collected(FakeSession& session, const std::string& step) {
+  const auto actual = parsed_step(step).action->run(session);
+  REQUIRE(actual);
+  return *actual;
+}
+
+TEST_CASE("A heartbeat that can be written shows the state as often as is wanted") {
+  FakeSession session;
+  session.serves = true;
+  session.known.add(heartbeat_entry(device::Access::rw));
+  CHECK(ran("- ready_error_control: 100 ms\n", session) == Kind::confirmed);
+  CHECK(number(session, heartbeat_time) == 100);
+  CHECK(session.produced.empty());
+}
+
+TEST_CASE("A heartbeat that comes more seldom shows the state as well, in as much more time") {
+  using namespace std::chrono_literals;
+  FakeSession session;
+  session.serves = true;
+  session.known.add(heartbeat_entry(device::Access::constant));
+  session.entries[heartbeat_time] = to_le(350, 2);
+  session.to_come = {shows(0x7F, 300ms)};
+  REQUIRE(ran("- ready_error_control: 100 ms\n", session) == Kind::matched);
+  CHECK(session.written.empty());
+  CHECK(session.sent.empty());
+  // 350 ms are up to four times 100 ms.
+  for (const auto time : {650ms, 1000ms, 1370ms, 2100ms}) session.trace.add(shows(0x7F, time));
+  const auto seen = collected(session, "- collect: {from: error control, for: 500 ms}\n");
+  CHECK(seen.measured.at("count") == 4);
+  CHECK(seen.measured.at("state") == 0x7F);
+  CHECK(seen.measured.at("pace") == 102);
+  CHECK(seen.measured.at("slowest") == 180);
+  // Bit 7 is no toggle bit here.
+  session.trace.add(shows(0xFF, 100ms));
+  CHECK(collected(session, "- collect: {from: error control, for: 100 ms}\n").measured.at("state") == 0xFF);
+}
+
+TEST_CASE("A device without a heartbeat shows its state when it is guarded") {
+  using namespace std::chrono_literals;
+  FakeSession session;
+  session.serves = session.remote = true;
+  session.to_come = {shows(0x7F, 1ms)};
+  REQUIRE(ran("- ready_error_control: 100 ms\n", session) == Kind::matched);
+  REQUIRE(session.produced.size() == 1);
+  CHECK(session.produced[0].frame.remote);
+  CHECK(session.produced[0].every == 100ms);
+  for (const auto byte : {0xFF, 0x7F}) session.trace.add(shows(static_cast<std::uint8_t>(byte), 200ms));
+  const auto seen = collected(session, "- collect: {from: error control, for: 300 ms}\n");
+  CHECK(seen.measured.at("state") == 0x7F);
+}
+
+TEST_CASE("Where nothing shows the state, it is said why") {
+  using namespace std::chrono_literals;
+  const auto why = [](FakeSession session) {
+    session.serves = true;
+    const auto actual = parsed_step("- ready_error_control: 100 ms\n").action->run(session);
+    REQUIRE(actual);
+    CHECK(actual->kind == Kind::silence);
+    CHECK(session.produced.empty());
+    return actual->detail;
+  };
+  FakeSession session;
+  CHECK(why(session) == "there is no heartbeat, and the interface cannot send RTR");
+  session.remote = true;
+  CHECK(why(session) == "there is no heartbeat, and a guard request is not answered");
+  // Whoever begins to guard may not leave off.
+  session.entries[at(0x100C, 0)] = to_le(100, 2);
+  session.entries[at(0x100D, 0)] = {3};
+  CHECK(why(session) == "there is no heartbeat, and guard requests would start life guarding");
+  CHECK(session.sent.empty());
+  session.entries[heartbeat_time] = to_le(5000, 2);
+  CHECK(why(session) == "a heartbeat comes every 5 s only");
+  session.entries[heartbeat_time] = to_le(1000, 2);
+  CHECK(why(session) == "no heartbeat within 2 s");
 }
 
 TEST_CASE("A COB-ID that is const and stays is no reason not to change what can be changed") {
