@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "canopen/cob_id.hpp"
+#include "steps/timing.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
@@ -53,8 +54,8 @@ class Guard final : public Action {
       return each.direction == can::Direction::received && each.frame.is_data(id);
     };
     if (auto settled = session.await_state(); !settled) return std::unexpected(settled.error());
-    // A reply that did not come within T_NMT is missing; the next request waits no longer than its period.
-    const auto within = session.profile().nmt_time;
+    // The next request waits no longer than its period.
+    const auto within = std::max(session.profile().nmt_time, guard_patience);
     const auto period = every_ ? every_->resolve(session.profile()) : within;
     std::vector<std::size_t> replies;
     const auto begin = session.capture().size();

@@ -3,6 +3,7 @@
 // off or with nothing mapped, as the producer of SYNC, or with one of the two error control protocols only,
 // and leave it to a configuration tool to give them another part to play. What they do then is judged all the
 // same.
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "steps/frame_source.hpp"
 #include "steps/pdo_objects.hpp"
 #include "steps/sdo_access.hpp"
+#include "steps/timing.hpp"
 #include "steps/verb_tables.hpp"
 
 namespace conform::steps {
@@ -234,7 +236,8 @@ class ReadyErrorControl final : public Action {
     const auto request = can::remote_frame(canopen::connection_set(session.node()).error_control, 1);
     const auto from = session.capture().size();
     if (auto sent = session.send(request); !sent) return std::unexpected(sent.error());
-    const auto reply = next_of_device(session, from, session.now() + session.profile().nmt_time);
+    const auto reply =
+        next_of_device(session, from, session.now() + std::max(session.profile().nmt_time, guard_patience));
     if (!reply) return std::unexpected(reply.error());
     if (!*reply) return none("there is no heartbeat, and a guard request is not answered");
     note(session, every, 1, 0x7F);

@@ -10,6 +10,10 @@
 
 namespace conform::steps {
 
+/// So long a reply to a guard request is waited for. No rule says when it is due, and a computer that does
+/// other things as well lets a device that runs on it wait for more than T_NMT of a quick one.
+inline constexpr Duration guard_patience = std::chrono::milliseconds{100};
+
 /// Distances between the frames of a window.
 struct Distances {
   Duration mean{}, shortest{};  ///< of frames that follow each other; meaningless below two frames
