@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/eds_text.hpp"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <bit>
@@ -88,8 +89,8 @@ std::int64_t signed_value(const Entry& entry) {
 std::string default_text(const Entry& first, std::uint8_t node_id) {
   const std::uint64_t value = conform::load_le(first.default_value);
   if (is_unsigned_integer(first.type)) {
-    if (first.adds_node_id) return fmt::format("$NODEID+{:#x}", value - node_id);
-    return fmt::format("{:#x}", value);
+    if (first.adds_node_id) return fmt::format(FMT_COMPILE("$NODEID+{:#x}"), value - node_id);
+    return fmt::format(FMT_COMPILE("{:#x}"), value);
   }
   if (is_signed_integer(first.type)) return std::to_string(signed_value(first));
   switch (first.type) {
@@ -107,18 +108,20 @@ unsigned flags(std::uint16_t index, std::uint8_t sub, const Entry& entry) {
   return entry.command ? 1 : 0;
 }
 
+// The formats of what is written for every entry are read by the compiler: the text is made anew for each
+// upload.
 void add_entry(std::string& text, std::uint16_t index, std::uint8_t sub, const Entry& entry,
                std::uint8_t node_id) {
   constexpr unsigned variable = 0x7;
   constexpr unsigned domain = 0x2;
   const bool changes = entry.read != nullptr;  // what is read is not what was configured
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n", entry.name,
-                 entry.type == DataType::domain ? domain : variable, static_cast<unsigned>(entry.type),
-                 access_name(entry));
+  fmt::format_to(out, FMT_COMPILE("ParameterName={}\nObjectType={:#x}\nDataType=0x{:04X}\nAccessType={}\n"),
+                 entry.name, entry.type == DataType::domain ? domain : variable,
+                 static_cast<unsigned>(entry.type), access_name(entry));
   // What CiA 306 says of a key that is not there is left out: 1021h is as long as this text.
   const auto value = changes ? std::string() : default_text(entry, node_id);
-  if (!value.empty()) fmt::format_to(out, "DefaultValue={}\n", value);
+  if (!value.empty()) fmt::format_to(out, FMT_COMPILE("DefaultValue={}\n"), value);
   if (entry.rx_mappable || entry.tx_mappable) text += "PDOMapping=1\n";
   if (entry.type != DataType::boolean) {
     if (entry.low) fmt::format_to(out, "LowLimit={}\n", *entry.low);
@@ -139,7 +142,7 @@ void add_object(std::string& text, std::uint16_t index, const Object& object, st
   fmt::format_to(out, "[{:04X}]\nParameterName={}\nObjectType={:#x}\nSubNumber={:#x}\n\n", index, object.name,
                  object.kind == ObjectKind::array ? 0x8U : 0x9U, object.entries.size());
   for (const auto& [sub, entry] : object.entries) {
-    fmt::format_to(out, "[{:04X}sub{:X}]\n", index, sub);
+    fmt::format_to(out, FMT_COMPILE("[{:04X}sub{:X}]\n"), index, sub);
     add_entry(text, index, sub, entry, node_id);
   }
 }
