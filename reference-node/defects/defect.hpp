@@ -127,5 +127,8 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable pdo_traffic_defects();
 [[nodiscard]] DefectTable device_traffic_defects();
 [[nodiscard]] DefectTable device_load_defects();
+[[nodiscard]] DefectTable sdo_rare_defects();
+[[nodiscard]] DefectTable pdo_rare_defects();
+[[nodiscard]] DefectTable nmt_rare_defects();
 
 }  // namespace refnode

@@ -77,7 +77,10 @@ std::span<const Defect> defects() {
                                        pdo_transmit_course_defects,
                                        pdo_reset_defects,
                                        device_traffic_defects,
-                                       device_load_defects});
+                                       device_load_defects,
+                                       sdo_rare_defects,
+                                       pdo_rare_defects,
+                                       nmt_rare_defects});
   return all;
 }
 
