@@ -98,7 +98,7 @@ constexpr std::string_view measures[] = {
     "first_ackseq",  "blksize",       "crc_agreed", "crc_ok",    "crc",          "unused",        "switched",
     "wrong_numbers", "timeouts",      "surplus",    "answers",   "missed",       "skipped",       "extra",
     "closest",       "farthest",      "replies",    "toggle",    "wrong_length", "length",        "start",
-    "out_of_order",  "malformed",     "drift",      "pace",      "quickest",     "slowest"};
+    "out_of_order",  "malformed",     "drift",      "pace",      "quickest",     "slowest",       "stretch"};
 
 /// A misspelt key is a misspelt outcome: the author knows no other word for it.
 void check_keys(const yaml::Field& field) {

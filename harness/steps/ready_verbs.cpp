@@ -160,6 +160,7 @@ class ReadyErrorControl final : public Action {
     auto object = ObjectReference::parse("1017h:00");
     return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
   }
+  Measures measures() const override { return {"stretch"}; }
   bool rests_on_time() const override { return false; }
   std::string words(Session&) const override {
     return "make the device show its NMT state every " + every_.text();
@@ -173,7 +174,8 @@ class ReadyErrorControl final : public Action {
     if (!writable) return std::unexpected(writable.error());
     if (*writable) {
       auto written = write(session, time, static_cast<std::uint64_t>(every / 1ms), 2);
-      if (!written || is_confirmed(written)) return written;
+      if (!written) return written;
+      if (is_confirmed(written)) return shown(1);
     }
     const auto held = read(session, time);
     if (!held) return held;
@@ -185,6 +187,11 @@ class ReadyErrorControl final : public Action {
   /// More seldom than that a scenario would be at it for minutes.
   static constexpr Duration longest_period = 2s;
 
+  static Actual shown(std::uint64_t stretch) {
+    Actual out;
+    out.measured["stretch"] = stretch;
+    return out;
+  }
   static Actual none(std::string why) {
     Actual out;
     out.kind = Actual::Kind::silence;
@@ -218,7 +225,7 @@ class ReadyErrorControl final : public Action {
     if (!*found) return none("no heartbeat within " + to_string(2 * period));
     const auto times = (period + every - Duration(1)) / every;
     note(session, period, static_cast<std::uint64_t>(times), 0xFF);
-    return Actual{};
+    return shown(static_cast<std::uint64_t>(times));
   }
 
   /// Guard requests beside the scenario, where they start no life guarding: it would have them go on.
@@ -244,7 +251,7 @@ class ReadyErrorControl final : public Action {
     Production guarding{"guard", request, every, {}};
     guarding.life_sign = true;
     if (auto begun = session.produce(std::move(guarding)); !begun) return std::unexpected(begun.error());
-    return Actual{};
+    return shown(1);
   }
 
   TimeReference every_;
@@ -265,7 +272,7 @@ constexpr Verb table[] = {
      "Make the device show its NMT state in `error control`: by the heartbeat where 1017h can be written, by the heartbeat that comes "
      "anyway where it cannot, or by replies to guard requests where there is none. Where heartbeats come more seldom, the times of "
      "steps that wait for `error control` are as many times as long.",
-     "(time): how often",
+     "(time): how often\nmeasured: stretch (how many times as long steps wait for `error control`)",
      "- ready_error_control: 100 ms\n  either: [{if: ok}, {if: [abort any, silence], verdict: not applicable}]",
      &ReadyErrorControl::parse},
 };

@@ -18,6 +18,7 @@
 #include "engine/monitor_cases.hpp"
 #include "monitor/stopwatch.hpp"
 #include "reports/text_tools.hpp"
+#include "steps/timing.hpp"
 
 namespace conform::cli {
 namespace {
@@ -59,7 +60,7 @@ bool answers_in(std::span<const can::CapturedFrame> frames, const device::Profil
       reset = each.time;
     if (frame.is_data(set.sdo_response)) return soon(asked, each.time, profile.server_timeout);
     if (!frame.is_data(set.error_control)) return false;
-    return soon(guarded, each.time, profile.sdo_timeout) ||
+    return soon(guarded, each.time, std::max(profile.nmt_time, steps::guard_patience)) ||
            (canopen::is_boot_up(frame, profile.node) && soon(reset, each.time, profile.boot_time));
   });
 }

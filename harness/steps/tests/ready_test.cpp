@@ -124,7 +124,7 @@ TEST_CASE("A heartbeat that can be written shows the state as often as is wanted
   FakeSession session;
   session.serves = true;
   session.known.add(heartbeat_entry(device::Access::rw));
-  CHECK(ran("- ready_error_control: 100 ms\n", session) == Kind::confirmed);
+  CHECK(ran("- ready_error_control: 100 ms\n", session) == Kind::matched);
   CHECK(number(session, heartbeat_time) == 100);
   CHECK(session.produced.empty());
 }
