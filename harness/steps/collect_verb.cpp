@@ -47,7 +47,7 @@ class Collect final : public Action {
     Measures out{"count", "first", "state", "period", "shortest", "longest", "length"};
     if (!overflow_.empty()) out.insert(out.end(), {"start", "out_of_order"});
     if (times_of_day_) out.insert(out.end(), {"malformed", "drift"});
-    if (source_.service == "error control") out.insert(out.end(), {"pace", "quickest", "slowest"});
+    if (source_.is_error_control()) out.insert(out.end(), {"pace", "quickest", "slowest"});
     if (answers_) out.insert(out.end(), {"missed", "skipped", "extra", "closest", "farthest", "latency"});
     return out;
   }

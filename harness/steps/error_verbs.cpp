@@ -7,6 +7,7 @@
 #include "canopen/cob_id.hpp"
 #include "canopen/emcy.hpp"
 #include "canopen/nmt.hpp"
+#include "steps/frame_source.hpp"
 #include "steps/sdo_access.hpp"
 #include "steps/verb_tables.hpp"
 
@@ -244,10 +245,7 @@ class AwaitEmcy final : public Action {
     return out;
   }
   Measures measures() const override { return {"register"}; }
-  std::vector<ObjectReference> concerns() const override {
-    auto cob_id = ObjectReference::parse("1014h:00");
-    return cob_id ? std::vector{std::move(*cob_id)} : std::vector<ObjectReference>{};
-  }
+  std::vector<ObjectReference> concerns() const override { return entry_named("1014h:00"); }
   bool acts() const override { return false; }
   Channels rests_on() const override { return {channel::emcy}; }
   std::string words(Session& session) const override {

@@ -31,6 +31,11 @@ std::string can_id_words(const Expression& id, Session& session) {
   return "CAN-ID " + (number ? to_string(CanId(static_cast<std::uint32_t>(*number))) : id.text());
 }
 
+std::vector<ObjectReference> entry_named(std::string_view text) {
+  auto object = ObjectReference::parse(text);
+  return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
+}
+
 std::optional<Source> Source::parse(const yaml::Field& field, const NameCheck& names) {
   Source out;
   const auto text = field.text();
@@ -49,20 +54,19 @@ std::optional<Source> Source::parse(const yaml::Field& field, const NameCheck& n
 }
 
 Channels Source::rests_on() const {
-  if (service == "heartbeat" || service == "error control") return {channel::heartbeat};
+  if (shows_state()) return {channel::heartbeat};
   if (service == "emcy") return {channel::emcy};
   if (service == "boot-up") return {channel::boot_up};
   return {};
 }
 
 std::vector<ObjectReference> Source::concerns() const {
-  const std::string_view entry = service == "heartbeat" || service == "error control" ? "1017h:00"
-                                 : service.starts_with("emcy")                        ? "1014h:00"
-                                 : service == "sync"                                  ? "1005h:00"
-                                 : service == "tpdo 1"                                ? "1800h:01"
-                                                                                      : "";
-  auto object = ObjectReference::parse(entry);
-  return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
+  const std::string_view entry = shows_state()         ? "1017h:00"
+                                 : is_emcy()           ? "1014h:00"
+                                 : service == "sync"   ? "1005h:00"
+                                 : service == "tpdo 1" ? "1800h:01"
+                                                       : "";
+  return entry_named(entry);
 }
 
 Result<Session::Match> Source::match(Session& session) const {
@@ -72,7 +76,7 @@ Result<Session::Match> Source::match(Session& session) const {
         [](const can::CapturedFrame& c) { return c.direction == can::Direction::received && !c.frame.error; };
   }
   CanId can_id{};
-  if (service == "heartbeat" || service == "error control" || service == "boot-up") {
+  if (shows_state() || service == "boot-up") {
     can_id = set.error_control;
   } else if (service == "sdo") {
     can_id = set.sdo_response;
@@ -100,8 +104,7 @@ Result<Session::Match> Source::match(Session& session) const {
       return c.frame.size() < 2 || c.frame.data[0] != 0 || c.frame.data[1] != 0;
     };
   }
-  const bool no_boot_up = service == "heartbeat" || service == "error control",
-             only_boot_up = service == "boot-up";
+  const bool no_boot_up = shows_state(), only_boot_up = service == "boot-up";
   return [can_id, no_boot_up, only_boot_up](const can::CapturedFrame& c) {
     if (c.direction != can::Direction::received || !c.frame.is_data(can_id)) return false;
     const bool boot_up = c.frame.size() > 0 && c.frame.data[0] == 0;
@@ -119,18 +122,18 @@ std::uint64_t number_of(std::string_view name, const Session& session, std::uint
 }  // namespace
 
 Duration Source::stretched(Duration time, const Session& session) const {
-  if (service != "error control") return time;
+  if (!is_error_control()) return time;
   return time * static_cast<Duration::rep>(number_of(error_control_stretch, session, 1));
 }
 
 std::optional<Duration> Source::nominal_period(const Session& session) const {
-  const auto known = service == "error control" ? number_of(error_control_period, session, 0) : 0;
+  const auto known = is_error_control() ? number_of(error_control_period, session, 0) : 0;
   return known > 0 ? std::optional(Duration(static_cast<Duration::rep>(known))) : std::nullopt;
 }
 
 std::uint8_t Source::state_bits(const Session& session) const {
   // A heartbeat is one byte with bit 7 = 0; only in the reply to a guard request that is another one's bit.
-  if (service != "error control") return 0xFF;
+  if (!is_error_control()) return 0xFF;
   return static_cast<std::uint8_t>(number_of(error_control_mask, session, 0xFF));
 }
 

@@ -18,6 +18,9 @@ namespace conform::steps {
 /// "CAN-ID 281h"; of a name that has no value yet, the name.
 [[nodiscard]] std::string can_id_words(const Expression& id, Session& session);
 
+/// The entry that these words name, for what a verb concerns; none where they name none.
+[[nodiscard]] std::vector<ObjectReference> entry_named(std::string_view text);
+
 /// Names that `ready_error_control` sets: the time from one error control message to the next (ns), how many
 /// times as long as asked for that is, and the bits of a message that show the state.
 inline constexpr std::string_view error_control_period = "error_control_period";
@@ -31,6 +34,9 @@ struct Source {
 
   static std::optional<Source> parse(const yaml::Field& field, const NameCheck& names);
   [[nodiscard]] bool is_emcy() const { return service.starts_with("emcy"); }
+  /// Messages on 700h + node-ID that show the NMT state: heartbeats alone, or whatever the device has.
+  [[nodiscard]] bool shows_state() const { return service == "heartbeat" || is_error_control(); }
+  [[nodiscard]] bool is_error_control() const { return service == "error control"; }
 
   /// Channels that a frame of the source comes through; that none comes is no ground for anything.
   [[nodiscard]] Channels rests_on() const;

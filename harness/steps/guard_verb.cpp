@@ -55,7 +55,7 @@ class Guard final : public Action {
     };
     if (auto settled = session.await_state(); !settled) return std::unexpected(settled.error());
     // The next request waits no longer than its period.
-    const auto within = std::max(session.profile().nmt_time, guard_patience);
+    const auto within = guard_patience(session.profile().nmt_time);
     const auto period = every_ ? every_->resolve(session.profile()) : within;
     std::vector<std::size_t> replies;
     const auto begin = session.capture().size();

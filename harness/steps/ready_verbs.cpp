@@ -3,7 +3,6 @@
 // off or with nothing mapped, as the producer of SYNC, or with one of the two error control protocols only,
 // and leave it to a configuration tool to give them another part to play. What they do then is judged all the
 // same.
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <vector>
@@ -122,10 +121,7 @@ class ReadySync final : public Action {
   static std::unique_ptr<Action> parse(const yaml::Field& value, ParseContext&) {
     return value.one_of({"consumer"}) ? std::make_unique<ReadySync>() : nullptr;
   }
-  std::vector<ObjectReference> concerns() const override {
-    auto object = ObjectReference::parse("1005h:00");
-    return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
-  }
+  std::vector<ObjectReference> concerns() const override { return entry_named("1005h:00"); }
   bool rests_on_time() const override { return false; }
   std::string words(Session&) const override { return "make sure that the device produces no SYNC"; }
 
@@ -156,10 +152,7 @@ class ReadyErrorControl final : public Action {
     if (every) out->every_ = *every;
     return every ? std::move(out) : nullptr;
   }
-  std::vector<ObjectReference> concerns() const override {
-    auto object = ObjectReference::parse("1017h:00");
-    return object ? std::vector{std::move(*object)} : std::vector<ObjectReference>{};
-  }
+  std::vector<ObjectReference> concerns() const override { return entry_named("1017h:00"); }
   Measures measures() const override { return {"stretch"}; }
   bool rests_on_time() const override { return false; }
   std::string words(Session&) const override {
@@ -244,7 +237,7 @@ class ReadyErrorControl final : public Action {
     const auto from = session.capture().size();
     if (auto sent = session.send(request); !sent) return std::unexpected(sent.error());
     const auto reply =
-        next_of_device(session, from, session.now() + std::max(session.profile().nmt_time, guard_patience));
+        next_of_device(session, from, session.now() + guard_patience(session.profile().nmt_time));
     if (!reply) return std::unexpected(reply.error());
     if (!*reply) return none("there is no heartbeat, and a guard request is not answered");
     note(session, every, 1, 0x7F);

@@ -2,6 +2,8 @@
 // What a row of time stamps says: distances between frames, and frames as answers to what was sent.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -12,7 +14,9 @@ namespace conform::steps {
 
 /// So long a reply to a guard request is waited for. No rule says when it is due, and a computer that does
 /// other things as well lets a device that runs on it wait for more than T_NMT of a quick one.
-inline constexpr Duration guard_patience = std::chrono::milliseconds{100};
+[[nodiscard]] inline Duration guard_patience(Duration nmt_time) {
+  return std::max<Duration>(nmt_time, std::chrono::milliseconds(100));
+}
 
 /// Distances between the frames of a window.
 struct Distances {

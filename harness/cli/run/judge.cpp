@@ -60,7 +60,7 @@ bool answers_in(std::span<const can::CapturedFrame> frames, const device::Profil
       reset = each.time;
     if (frame.is_data(set.sdo_response)) return soon(asked, each.time, profile.server_timeout);
     if (!frame.is_data(set.error_control)) return false;
-    return soon(guarded, each.time, std::max(profile.nmt_time, steps::guard_patience)) ||
+    return soon(guarded, each.time, steps::guard_patience(profile.nmt_time)) ||
            (canopen::is_boot_up(frame, profile.node) && soon(reset, each.time, profile.boot_time));
   });
 }
