@@ -3,14 +3,9 @@
 
 namespace refnode {
 
-namespace {
+using namespace nmt_command;
 
-// Table 37: command specifiers, the first byte of a command. The second is a node-ID, 0 for all nodes.
-constexpr std::uint8_t start = 0x01;
-constexpr std::uint8_t stop = 0x02;
-constexpr std::uint8_t enter_pre_operational = 0x80;
-constexpr std::uint8_t reset_node = 0x81;
-constexpr std::uint8_t reset_communication = 0x82;
+namespace {
 
 bool is_node_id(std::uint8_t value) { return value >= 1 && value <= 127; }
 

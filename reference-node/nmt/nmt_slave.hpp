@@ -13,6 +13,15 @@
 
 namespace refnode {
 
+/// Table 37: command specifiers, the first byte of a command. The second is a node-ID, 0 for all nodes.
+namespace nmt_command {
+inline constexpr std::uint8_t start = 0x01;
+inline constexpr std::uint8_t stop = 0x02;
+inline constexpr std::uint8_t enter_pre_operational = 0x80;
+inline constexpr std::uint8_t reset_node = 0x81;
+inline constexpr std::uint8_t reset_communication = 0x82;
+}  // namespace nmt_command
+
 enum class Reset : std::uint8_t { node, communication };
 
 /// CiA 301 gives no times. A device that starts by itself says so in its 1F80h (CiA 302-2).

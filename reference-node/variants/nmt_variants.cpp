@@ -76,9 +76,8 @@ void obeys_behind_start_up(Parts& parts) {
   parts.nmt.on_boot_up = [&parts, waiting, former = parts.nmt.on_boot_up] {
     former();
     const auto command = std::exchange(*waiting, std::nullopt);
-    constexpr std::uint8_t reset_node = 0x81;
-    constexpr std::uint8_t reset_communication = 0x82;
-    if (command && command->data[0] != reset_node && command->data[0] != reset_communication)
+    if (command && command->data[0] != nmt_command::reset_node &&
+        command->data[0] != nmt_command::reset_communication)
       parts.nmt.on_command(*command);
   };
 }
