@@ -102,7 +102,7 @@ Change server_hangs_on_its_own_response() {
 
 /// The list of the nodes that 1016h names bites its tail when an entry gets another one once more.
 void server_hangs_on_renamed_nodes(Parts& parts) {
-  const auto renamed = std::make_shared<std::map<std::uint8_t, std::pair<std::uint64_t, int>>>();
+  const auto renamed = since_boot_up<std::map<std::uint8_t, std::pair<std::uint64_t, int>>>(parts);
   after_writing_all(0x1016, [renamed](Parts& node, const std::function<void()>& former, std::uint8_t sub) {
     const std::uint64_t named = node.device.dictionary.number(0x1016, sub) >> 16U & 0x7FU;
     auto& [last, times] = (*renamed)[sub];
@@ -110,7 +110,6 @@ void server_hangs_on_renamed_nodes(Parts& parts) {
     if (named != 0) last = named;
     former();
   })(parts);
-  with_boot_up([renamed](Parts&) { renamed->clear(); })(parts);
   deaf_to([renamed](Parts& whole, const Frame& frame) {
     int times = 0;
     for (const auto& [sub, each] : *renamed) times += each.second;

@@ -65,7 +65,7 @@ void forgets_what_has_ended(Parts& parts) {
 
 /// Clearing shows an empty history; with the next error the former ones are back.
 void hides_what_was_cleared(Parts& parts) {
-  const auto hidden = std::make_shared<bool>(false);
+  const auto hidden = since_boot_up<bool>(parts);
   checking(0x1003, 0, [hidden](Parts&, const Check& former, ByteView bytes) -> Accepted {
     if (conform::load_le(bytes) != 0) return former(bytes);
     *hidden = true;
@@ -82,12 +82,11 @@ void hides_what_was_cleared(Parts& parts) {
         *hidden = false;
         former(cause, detail);
       });
-  with_boot_up([hidden](Parts&) { *hidden = false; })(parts);
 }
 
 /// The history is the list of what is wrong: what is cleared there is not known any more.
 void forgets_cleared_errors(Parts& parts) {
-  const auto forgotten = std::make_shared<std::vector<ErrorCause>>();
+  const auto forgotten = since_boot_up<std::vector<ErrorCause>>(parts);
   checking(0x1003, 0, [forgotten](Parts& node, const Check& former, ByteView bytes) {
     const Accepted cleared = former(bytes);
     if (cleared) *forgotten = node.emergency.active();
@@ -96,7 +95,6 @@ void forgets_cleared_errors(Parts& parts) {
   parts.device.errors.clear.replace([forgotten](const auto& former, const ErrorCause& cause) {
     if (std::ranges::find(*forgotten, cause) == forgotten->end()) former(cause);
   });
-  with_boot_up([forgotten](Parts&) { forgotten->clear(); })(parts);
 }
 
 }  // namespace

@@ -170,8 +170,7 @@ void tells_no_end_of_several(Parts& parts) {
   struct Memory {
     bool several = false, quiet = false;
   };
-  const auto memory = std::make_shared<Memory>();
-  with_boot_up([memory](Parts&) { *memory = {}; })(parts);
+  const auto memory = since_boot_up<Memory>(parts);
   parts.device.errors.clear.replace([&parts, memory](const auto& former, const ErrorCause& cause) {
     const std::size_t present = parts.emergency.active().size();
     memory->several = memory->several || present > 1;

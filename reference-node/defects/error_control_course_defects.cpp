@@ -170,8 +170,7 @@ void tells_the_state_before_the_reset(Parts& parts) {
 
 /// A request that is not answered, since there is a heartbeat, changes the toggle bit all the same.
 void toggles_unanswered(Parts& parts) {
-  const auto other = std::make_shared<bool>(false);
-  with_boot_up([other](Parts&) { *other = false; })(parts);
+  const auto other = since_boot_up<bool>(parts);
   deaf_to([other](Parts& node, const Frame& frame) {
     if (is_guard_request(node, frame) && node.device.dictionary.number(0x1017, 0) != 0) *other = !*other;
     return false;
@@ -189,8 +188,7 @@ void toggle_begins_anew_in_stopped(Parts& parts) {
     bool next = false;   ///< the toggle bit that would be right
     bool other = false;  ///< the one that is sent is another
   };
-  const auto memory = std::make_shared<Memory>();
-  with_boot_up([memory](Parts&) { *memory = {}; })(parts);
+  const auto memory = since_boot_up<Memory>(parts);
   ahead_of_state_change([memory](Parts& node) {
     const NmtState before = std::exchange(memory->state, node.device.state);
     if (before == NmtState::operational && memory->state == NmtState::stopped) memory->other = memory->next;
@@ -238,8 +236,7 @@ void tells_boot_up_of_unwatched(Parts& parts, std::vector<Frame>& frames) {
 
 /// NMT stop ends the watch of all nodes, until their entries are written or the node is reset.
 void forgets_in_stopped_for_good(Parts& parts) {
-  const auto forgotten = std::make_shared<std::set<std::uint8_t>>();
-  with_boot_up([forgotten](Parts&) { forgotten->clear(); })(parts);
+  const auto forgotten = since_boot_up<std::set<std::uint8_t>>(parts);
   after_writing_all(0x1016, [forgotten](Parts&, const Written& former, std::uint8_t sub) {
     forgotten->erase(sub);
     former();

@@ -249,8 +249,7 @@ Change goes_on_beside_heartbeat() {
 
 /// A timer of the guard time runs from the first request on, and the life time ends with one of its ticks.
 void ends_with_a_tick(Parts& parts) {
-  const auto first = std::make_shared<std::optional<conform::BusTime>>();
-  with_boot_up([first](Parts&) { first->reset(); })(parts);
+  const auto first = since_boot_up<std::optional<conform::BusTime>>(parts);
   after_writing(0x100C, 0, [first](Parts&, const std::function<void()>& former) {
     first->reset();
     former();

@@ -41,12 +41,11 @@ void starts_with_write_only(Parts& parts) {
 
 /// An event timer that is written where there was none takes the place of the heartbeat's.
 void ends_with_an_event_timer(Parts& parts) {
-  const auto ended = std::make_shared<bool>(false);
+  const auto ended = since_boot_up<bool>(parts);
   after_writing(0x1017, 0, [ended](Parts&, const Written& former) {
     *ended = false;
     former();
   })(parts);
-  with_boot_up([ended](Parts&) { *ended = false; })(parts);
   const auto times = std::make_shared<std::map<std::uint16_t, Duration>>();
   parts.pdos.tpdo.rules.takes_effect.replace(
       [ended, times, &device = parts.device](const auto& former, const PdoParameters& pdo) {

@@ -20,13 +20,12 @@ namespace {
 
 /// Heartbeats in Operational do not count where 1016h was written since Operational was entered.
 void monitors_what_was_written_before(Parts& parts) {
-  const auto written = std::make_shared<bool>(false);
+  const auto written = since_boot_up<bool>(parts);
   after_writing_all(0x1016, [written](Parts& node, const Written& former, std::uint8_t) {
     *written = *written || node.device.state == NmtState::operational;
     former();
   })(parts);
   ahead_of_state_change([written](Parts&) { *written = false; })(parts);
-  with_boot_up([written](Parts&) { *written = false; })(parts);
   deaf_to([written](Parts&, const Frame& frame) { return *written && is_heartbeat(frame); })(parts);
 }
 

@@ -179,7 +179,7 @@ Change works_where_led_by_error(Service which, NmtState where) {
 
 std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(Parts& parts,
                                                              std::initializer_list<std::uint16_t> indices) {
-  const auto written = std::make_shared<std::set<Multiplexer>>();
+  const auto written = since_boot_up<std::set<Multiplexer>>(parts);
   const auto note = [&](std::uint16_t index, std::uint8_t sub, Entry& entry) {
     put_written(parts, entry, [written, index, sub](Parts&, const std::function<void()>& former) {
       written->insert({conform::Index(index), conform::SubIndex(sub)});
@@ -190,7 +190,6 @@ std::shared_ptr<std::set<Multiplexer>> written_since_boot_up(Parts& parts,
     if (Entry* entry = parts.device.dictionary.entry(index, 0)) note(index, 0, *entry);
     for_all(parts, index, [&](std::uint8_t sub, Entry& entry) { note(index, sub, entry); });
   }
-  with_boot_up([written](Parts&) { written->clear(); })(parts);
   return written;
 }
 

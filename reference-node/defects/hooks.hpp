@@ -59,6 +59,13 @@ using Read = std::function<Upload()>;
 
 /// `act` runs with every boot-up message.
 [[nodiscard]] Change with_boot_up(std::function<void(Parts&)> act);
+/// A memory that begins anew with every boot-up message.
+template <typename Memory>
+[[nodiscard]] std::shared_ptr<Memory> since_boot_up(Parts& parts) {
+  auto memory = std::make_shared<Memory>();
+  with_boot_up([memory](Parts&) { *memory = Memory{}; })(parts);
+  return memory;
+}
 /// `act` runs when the NMT state has changed, before any service hears of it.
 [[nodiscard]] Change ahead_of_state_change(std::function<void(Parts&)> act);
 /// Whether an error behaviour (1029h) has led to the NMT state, and no command since to another.

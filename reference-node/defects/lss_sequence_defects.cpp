@@ -357,8 +357,7 @@ void is_selected_by_identifying(Parts& parts) {
 /// As soon as the configuration is stored, inquire node-ID tells what was.
 void tells_the_stored_one(Parts& parts) {
   constexpr std::uint8_t inquire_node_id = 0x5E;
-  const auto stored = std::make_shared<std::optional<std::uint8_t>>();
-  with_boot_up([stored](Parts&) { stored->reset(); })(parts);
+  const auto stored = since_boot_up<std::optional<std::uint8_t>>(parts);
   parts.lss.keep = [stored, former = parts.lss.keep](std::uint8_t node_id,
                                                      std::optional<std::uint8_t> bit_rate) {
     const bool kept = former(node_id, bit_rate);

@@ -18,9 +18,7 @@ using namespace defect;
 
 namespace {
 
-constexpr std::uint8_t start = 0x01;
-constexpr std::uint8_t reset_node = 0x81;
-constexpr std::uint8_t reset_communication = 0x82;
+using namespace nmt_command;
 
 bool is_reset(const Frame& frame) {
   return frame.data[0] == reset_node || frame.data[0] == reset_communication;
@@ -38,8 +36,7 @@ void drops_repeated_commands(Parts& parts) {
 
 /// RPDOs are switched on by the way through Pre-operational alone.
 void ignores_rpdos_behind_stopped(Parts& parts) {
-  const auto off = std::make_shared<bool>(false);
-  with_boot_up([off](Parts&) { *off = false; })(parts);
+  const auto off = since_boot_up<bool>(parts);
   ahead_of_state_change([off](Parts& node) {
     if (node.device.state != NmtState::operational) *off = node.device.state == NmtState::stopped;
   })(parts);

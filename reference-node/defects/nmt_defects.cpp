@@ -18,11 +18,7 @@ using namespace defect;
 
 namespace {
 
-constexpr std::uint8_t start = 0x01;
-constexpr std::uint8_t stop = 0x02;
-constexpr std::uint8_t pre_operational = 0x80;
-constexpr std::uint8_t reset_node = 0x81;
-constexpr std::uint8_t reset_communication = 0x82;
+using namespace nmt_command;
 
 Frame command_to(const Parts& parts, std::uint8_t command) {
   return conform::can::data_frame(conform::CanId(0x000), {command, parts.device.node_id});
@@ -71,7 +67,7 @@ Change shows_in_heartbeat(std::function<Shown(std::uint8_t command, Shown shown)
 /// States of CiA 301's predecessors: 50h sleep, 60h standby.
 Change sleeps() {
   return shows_in_heartbeat([](std::uint8_t command, Shown shown) -> Shown {
-    constexpr std::uint8_t awake[] = {start, stop, pre_operational, reset_node, reset_communication};
+    constexpr std::uint8_t awake[] = {start, stop, enter_pre_operational, reset_node, reset_communication};
     if (command == 0x50 || command == 0x60) return command;
     return std::ranges::find(awake, command) != std::end(awake) ? std::nullopt : shown;
   });
@@ -80,8 +76,7 @@ Change sleeps() {
 /// The server is switched on by the way into Pre-operational alone.
 Change stays_off_behind_stopped() {
   return [](Parts& parts) {
-    const auto off = std::make_shared<bool>(false);
-    with_boot_up([off](Parts&) { *off = false; })(parts);
+    const auto off = since_boot_up<bool>(parts);
     ahead_of_state_change([off](Parts& node) {
       if (node.device.state == NmtState::stopped) *off = true;
       if (node.device.state == NmtState::pre_operational) *off = false;
@@ -280,7 +275,7 @@ DefectTable nmt_defects() {
       {"nmt-preop-ignored-in-operational",
        "Enter pre-operational has no effect in Operational",
        {"NMT-FSA-03"},
-       ignores(pre_operational, NmtState::operational)},
+       ignores(enter_pre_operational, NmtState::operational)},
       {"nmt-reset-ignored-in-stopped",
        "Reset commands have no effect in Stopped",
        {"NMT-FSA-11", "NMT-FSA-12"},
@@ -312,7 +307,7 @@ DefectTable nmt_defects() {
        "Enter pre-operational resets a node that is there already",
        {"NMT-FSA-13"},
        misreads_commands([](Parts& parts, Frame& frame) {
-         if (parts.device.state == NmtState::pre_operational && is_command(frame, pre_operational))
+         if (parts.device.state == NmtState::pre_operational && is_command(frame, enter_pre_operational))
            frame.data[0] = reset_communication;
        })},
       {"nmt-broadcast-ignored",
@@ -337,7 +332,8 @@ DefectTable nmt_defects() {
        "Unknown commands stop the node",
        {"NMT-FSA-16"},
        misreads_commands([](Parts&, Frame& frame) {
-         constexpr std::uint8_t known[] = {start, stop, pre_operational, reset_node, reset_communication};
+         constexpr std::uint8_t known[] = {start, stop, enter_pre_operational, reset_node,
+                                           reset_communication};
          if (std::ranges::find(known, frame.data[0]) == std::end(known)) frame.data[0] = stop;
        })},
       {"nmt-sleep-and-standby-obeyed",

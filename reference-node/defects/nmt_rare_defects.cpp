@@ -21,10 +21,8 @@ using namespace defect;
 
 namespace {
 
-constexpr std::uint8_t start = 0x01;
-constexpr std::uint8_t enter_pre_operational = 0x80;
-constexpr std::uint8_t reset_node = 0x81;
-constexpr std::uint8_t reset_communication = 0x82;
+using namespace nmt_command;
+
 constexpr std::uint8_t toggle_bit = 0x80;
 constexpr std::uint16_t life_guarding_or_heartbeat = 0x8130;
 
@@ -121,8 +119,7 @@ void notices_one_loss_in_a_millisecond(Parts& parts) {
 
 /// The error behaviour changes the state once behind each boot-up.
 void acts_once(Parts& parts) {
-  const auto acted = std::make_shared<bool>(false);
-  with_boot_up([acted](Parts&) { *acted = false; })(parts);
+  const auto acted = since_boot_up<bool>(parts);
   parts.error_behaviour.enter = [&parts, acted, former = parts.error_behaviour.enter](NmtState state) {
     if (state == parts.device.state || !std::exchange(*acted, true)) former(state);
   };
@@ -240,7 +237,7 @@ void has_no_heartbeat_in_configuration(Parts& parts) {
 void leaves_with_another_switch(Parts& parts) {
   misreads([way = lss_way_of(parts), before = false](Parts&, Frame& frame) mutable {
     const bool was_there = std::exchange(before, way->configuration);
-    if (!is_lss(frame, 0x04, 0x04) || frame.data[1] != 1 || !was_there) return;
+    if (!lss::is_request(frame, 0x04) || frame.data[1] != 1 || !was_there) return;
     frame.data[1] = 0;
     way->configuration = before = false;
   })(parts);
@@ -265,8 +262,7 @@ struct Brought {
   std::optional<std::uint8_t> in_place{};  ///< what is taken for it
 };
 std::shared_ptr<Brought> brought_to(Parts& parts, const std::shared_ptr<LssWay>& way) {
-  const auto brought = std::make_shared<Brought>();
-  with_boot_up([brought](Parts&) { *brought = {}; })(parts);
+  const auto brought = since_boot_up<Brought>(parts);
   parts.lss.rules.node_id_allowed.replace([brought, way](const auto& former, std::uint8_t node_id) {
     const bool allowed = former(node_id);
     if (allowed && !brought->first) brought->first = node_id;
@@ -563,8 +559,9 @@ DefectTable lss_rows() {
       {"lss-store-deaf-behind-fastscan",
        "In the configuration state that a fastscan has led to nothing is stored",
        {"LSS-ST-01"},
-       deaf_in_configuration(
-           [](const LssWay& way, const Frame& frame) { return way.scanned && is_lss(frame, 0x17, 0x17); })},
+       deaf_in_configuration([](const LssWay& way, const Frame& frame) {
+         return way.scanned && lss::is_request(frame, 0x17);
+       })},
       {"lss-identify-deaf-in-configuration",
        "In the configuration state identify remote slave is not answered",
        {"LSS-ID-02"},

@@ -66,20 +66,19 @@ Change debugger_status_after_command(std::uint8_t status) {
 /// Where a command left no reply, that of an earlier one is still there.
 Change keeps_former_reply() {
   return [](Parts& parts) {
-    const auto reply = std::make_shared<Bytes>();
+    const auto reply = since_boot_up<Bytes>(parts);
     reading(0x1023, 3, [reply](Parts&, const Read& former) -> Upload {
       const Upload now = former();
       if (now) *reply = *now;
       return now || reply->empty() ? now : Upload(*reply);
     })(parts);
-    with_boot_up([reply](Parts&) { reply->clear(); })(parts);
   };
 }
 
 /// A reply that came to `other` is delivered by `index`.
 Change shares_reply(std::uint16_t index, std::uint16_t other) {
   return [index, other](Parts& parts) {
-    const auto later = std::make_shared<bool>(false);
+    const auto later = since_boot_up<bool>(parts);
     for (const std::uint16_t each : {index, other}) {
       checking(each, 1, [later, given = each == other](Parts&, const Check& former, ByteView bytes) {
         const Accepted taken = former(bytes);
@@ -91,7 +90,6 @@ Change shares_reply(std::uint16_t index, std::uint16_t other) {
       const Entry* entry = *later ? node.device.dictionary.entry(other, 3) : nullptr;
       return entry != nullptr && entry->read ? entry->read() : former();
     })(parts);
-    with_boot_up([later](Parts&) { *later = false; })(parts);
   };
 }
 

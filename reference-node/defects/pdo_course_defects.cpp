@@ -123,7 +123,7 @@ void waits_over_a_reset(Parts& parts) {
 
 /// What came in Pre-operational takes effect with the first SYNC in Operational.
 void waits_for_operational(Parts& parts) {
-  const auto waiting = std::make_shared<std::optional<Frame>>();
+  const auto waiting = since_boot_up<std::optional<Frame>>(parts);
   misreads([waiting](Parts& node, Frame& frame) {
     const NmtState state = node.device.state;
     if (is_rpdo(frame) && state == NmtState::pre_operational) *waiting = frame;
@@ -132,7 +132,6 @@ void waits_for_operational(Parts& parts) {
     node.pdos.on_frame(**waiting);
     waiting->reset();
   })(parts);
-  with_boot_up([waiting](Parts&) { waiting->reset(); })(parts);
 }
 
 /// What was found first since the NMT state changed counts until it changes again.
@@ -171,11 +170,10 @@ void sends_the_first_length(Parts& parts) {
 /// The number of SYNCs is compared for equality, and a type that is written leaves it as it is.
 /// What came before Operational waits in the mailbox, and is taken when it is entered.
 void takes_what_came_before(Parts& parts) {
-  const auto waiting = std::make_shared<std::map<std::uint32_t, Frame>>();
+  const auto waiting = since_boot_up<std::map<std::uint32_t, Frame>>(parts);
   misreads([waiting](Parts& node, Frame& frame) {
     if (is_rpdo(frame) && node.device.state != NmtState::operational) (*waiting)[frame.id] = frame;
   })(parts);
-  with_boot_up([waiting](Parts&) { waiting->clear(); })(parts);
   ahead_of_state_change([waiting](Parts& node) {
     if (node.device.state != NmtState::operational) return;
     for (const auto& [id, frame] : *waiting) node.device.inbox.put(frame, node.device.now);
@@ -185,8 +183,7 @@ void takes_what_came_before(Parts& parts) {
 
 /// The count of SYNCs does not begin anew with the PDO that it has sent.
 void sends_with_all_that_follow(Parts& parts) {
-  const auto reached = std::make_shared<std::set<const PdoParameters*>>();
-  with_boot_up([reached](Parts&) { reached->clear(); })(parts);
+  const auto reached = since_boot_up<std::set<const PdoParameters*>>(parts);
   ahead_of_state_change([reached](Parts&) { reached->clear(); })(parts);
   parts.pdos.tpdo.rules.sent_at_sync.replace(
       [reached](const auto& former, const PdoParameters& pdo, std::uint32_t syncs, bool event) {
@@ -239,8 +236,7 @@ void waits_for_the_very_number(Parts& parts) {
 
 /// An event timer that is running is not disturbed by another time that is written.
 void timer_runs_to_its_end(Parts& parts) {
-  const auto times = std::make_shared<std::map<std::uint16_t, Duration>>();
-  with_boot_up([times](Parts&) { times->clear(); })(parts);
+  const auto times = since_boot_up<std::map<std::uint16_t, Duration>>(parts);
   parts.pdos.tpdo.rules.takes_effect.replace([times](const auto& former, const PdoParameters& pdo) {
     const Duration now = pdo.event_timer();
     const Duration before = std::exchange((*times)[pdo.number()], now);
@@ -296,7 +292,7 @@ void sends_the_first_change(Parts& parts) {
 
 /// A change that waits for the inhibit time is sent although the TPDO is switched off before.
 void waiting_change_outlives_validity(Parts& parts) {
-  const auto waiting = std::make_shared<std::set<std::uint16_t>>();
+  const auto waiting = since_boot_up<std::set<std::uint16_t>>(parts);
   auto& rules = parts.pdos.tpdo.rules;
   rules.held_back.replace([waiting](const auto& former, const PdoParameters& pdo, TransmitCause cause) {
     const bool held = former(pdo, cause);
@@ -314,7 +310,6 @@ void waiting_change_outlives_validity(Parts& parts) {
     return former(pdo, due);
   });
   ahead_of_state_change([waiting](Parts&) { waiting->clear(); })(parts);
-  with_boot_up([waiting](Parts&) { waiting->clear(); })(parts);
 }
 
 /// A change that waits for the inhibit time is sent although the device leaves Operational before.

@@ -33,15 +33,7 @@ constexpr std::uint16_t of(std::uint16_t first, std::uint16_t number) {
   return static_cast<std::uint16_t>(first + number);
 }
 
-/// A memory that begins anew with every boot-up message.
-template <typename Memory>
-std::shared_ptr<Memory> since_boot_up(Parts& parts) {
-  auto memory = std::make_shared<Memory>();
-  with_boot_up([memory](Parts&) { *memory = Memory{}; })(parts);
-  return memory;
-}
-
-/// A memory that begins anew with every NMT state as well.
+/// A memory that begins anew with every boot-up message and every NMT state.
 template <typename Memory>
 std::shared_ptr<Memory> since_state_change(Parts& parts) {
   auto memory = since_boot_up<Memory>(parts);
@@ -79,7 +71,7 @@ std::shared_ptr<Sync> last_sync(Parts& parts) {
 
 Change with_second_start(std::function<void(Parts&)> act) {
   return deaf_to([act = std::move(act)](Parts& parts, const Frame& frame) {
-    const bool again = is_nmt_command(frame) && is_for(parts, frame) && frame.data[0] == 0x01 &&
+    const bool again = is_nmt_command(frame) && is_for(parts, frame) && frame.data[0] == nmt_command::start &&
                        parts.device.state == NmtState::operational;
     if (again) act(parts);
     return false;
@@ -407,16 +399,6 @@ Change locks_the_low_byte(std::uint16_t index) {
 
 SyncWindowRules& of_window(Parts& parts) { return parts.sync_window.rules; }
 
-/// A time is the former one or 0 as long as it was not written.
-Change stored_time_unused(std::uint16_t index) {
-  return [index](Parts& parts) {
-    parts.emergency.rules.inhibit_time.replace(
-        [written = written_since_boot_up(parts, {index})](const auto& former, std::int64_t value) {
-          return former(written->empty() ? 0 : value);
-        });
-  };
-}
-
 }  // namespace
 
 DefectTable pdo_rare_defects() {
@@ -484,7 +466,12 @@ DefectTable pdo_rare_defects() {
       {"1015-stored-not-used",
        "The inhibit time of EMCY is 0 until 1015h is written, whatever was stored",
        {"EMCY-INH-01", "OD-1010-10"},
-       stored_time_unused(0x1015)},
+       Change([](Parts& parts) {
+         parts.emergency.rules.inhibit_time.replace(
+             [written = written_since_boot_up(parts, {0x1015})](const auto& former, std::int64_t value) {
+               return former(written->empty() ? 0 : value);
+             });
+       })},
       {"tpdo-sync-count-anew-with-second-start",
        "NMT start in Operational begins the count of SYNCs of TPDOs anew",
        {"PDO-TX-06", "NMT-FSA-13"},

@@ -111,7 +111,7 @@ void waits_through_stopped(Parts& parts) {
     std::optional<Frame> last, waiting;
     bool stopped = false;
   };
-  const auto memory = std::make_shared<Memory>();
+  const auto memory = since_boot_up<Memory>(parts);
   auto& rules = parts.pdos.rpdo.rules;
   rules.kept_for_sync.replace(
       [memory](const auto& former, const PdoParameters& pdo, const auto& before, const Bytes& received) {
@@ -133,7 +133,6 @@ void waits_through_stopped(Parts& parts) {
     if (node.device.state == NmtState::stopped) memory->stopped = true;
     if (node.device.state == NmtState::pre_operational) memory->waiting.reset();
   })(parts);
-  with_boot_up([memory](Parts&) { *memory = {}; })(parts);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ void takes_over_in_pre_operational(Parts& parts) {
     std::optional<Frame> waiting;
     bool now = false;
   };
-  const auto memory = std::make_shared<Memory>();
+  const auto memory = since_boot_up<Memory>(parts);
   parts.device.works.replace([memory](const auto& former, Service service, NmtState state) {
     return former(service, state) || (service == Service::rpdo && memory->now);
   });
@@ -67,7 +67,6 @@ void takes_over_in_pre_operational(Parts& parts) {
   ahead_of_state_change([memory](Parts& node) {
     if (node.device.state != NmtState::pre_operational) memory->waiting.reset();
   })(parts);
-  with_boot_up([memory](Parts&) { *memory = {}; })(parts);
 }
 
 /// The frame goes into the place of what waits before its length is looked at.
@@ -173,8 +172,7 @@ void short_ends_the_deadline(Parts& parts) {
 
 /// The buffer that waits for the SYNC works once the first of them has come.
 void loses_before_the_first_sync(Parts& parts) {
-  const auto heard = std::make_shared<bool>(false);
-  with_boot_up([heard](Parts&) { *heard = false; })(parts);
+  const auto heard = since_boot_up<bool>(parts);
   parts.pdos.rpdo.rules.processed.replace(
       [heard](const auto& former, const PdoParameters& pdo, std::size_t received, std::size_t mapped) {
         return (*heard || !is_synchronous(pdo.transmission_type())) && former(pdo, received, mapped);

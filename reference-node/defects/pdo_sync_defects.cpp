@@ -85,8 +85,7 @@ struct Waiting {
 Change sends_with_the_start(void (*takes)(Waiting& waiting, NmtState state, BusTime now),
                             void (*leaves)(Waiting& waiting, BusTime now)) {
   return [takes, leaves](Parts& parts) {
-    const auto waiting = std::make_shared<Waiting>();
-    with_boot_up([waiting](Parts&) { *waiting = {}; })(parts);
+    const auto waiting = since_boot_up<Waiting>(parts);
     deaf_to([waiting, takes](Parts& node, const Frame& frame) {
       if (is_sync(node, frame)) takes(*waiting, node.device.state, node.device.now);
       return false;

@@ -24,9 +24,8 @@ namespace {
 /// A memory of every TPDO that ends with the state, and when the PDO is switched off.
 template <typename Value>
 std::shared_ptr<std::map<std::uint16_t, Value>> while_it_runs(Parts& parts) {
-  const auto memory = std::make_shared<std::map<std::uint16_t, Value>>();
+  const auto memory = since_boot_up<std::map<std::uint16_t, Value>>(parts);
   ahead_of_state_change([memory](Parts&) { memory->clear(); })(parts);
-  with_boot_up([memory](Parts&) { memory->clear(); })(parts);
   parts.pdos.tpdo.rules.takes_effect.replace([memory](const auto& former, const PdoParameters& pdo) {
     if (!pdo.cob_id().valid()) memory->erase(pdo.number());
     return former(pdo);
@@ -97,11 +96,10 @@ void written_timer_runs(Parts& parts) {
 
 /// Each time that Operational is entered brings one more event timer, and none ends.
 void one_timer_for_each_start(Parts& parts) {
-  const auto starts = std::make_shared<int>(0);
+  const auto starts = since_boot_up<int>(parts);
   ahead_of_state_change([starts](Parts& node) {
     if (node.device.state == NmtState::operational) ++*starts;
   })(parts);
-  with_boot_up([starts](Parts&) { *starts = 0; })(parts);
   parts.pdos.tpdo.parameters.rules.event_timer.replace(
       [starts](const auto& former, const PdoParameters& pdo, std::int64_t value) {
         return former(pdo, value) / std::max(1, *starts);
@@ -109,12 +107,11 @@ void one_timer_for_each_start(Parts& parts) {
 }
 
 void no_timer_behind_stopped(Parts& parts) {
-  const auto stopped = std::make_shared<bool>(false);
+  const auto stopped = since_boot_up<bool>(parts);
   ahead_of_state_change([stopped](Parts& node) {
     if (node.device.state == NmtState::stopped) *stopped = true;
     if (node.device.state == NmtState::pre_operational) *stopped = false;
   })(parts);
-  with_boot_up([stopped](Parts&) { *stopped = false; })(parts);
   parts.pdos.tpdo.rules.has_event_timer.replace(
       [stopped](const auto& former, const PdoParameters& pdo) { return !*stopped && former(pdo); });
 }
@@ -334,8 +331,7 @@ Change carries(void (*change)(const Mapped& mapped, Bytes& data, std::size_t pos
 Change sends_changes_in_other_states(bool until_the_first_start) {
   return [until_the_first_start](Parts& parts) {
     const auto changing = std::make_shared<bool>(false);
-    const auto started = std::make_shared<bool>(false);
-    with_boot_up([started](Parts&) { *started = false; })(parts);
+    const auto started = since_boot_up<bool>(parts);
     ahead_of_state_change([started, until_the_first_start](Parts& node) {
       if (until_the_first_start && node.device.state == NmtState::operational) *started = true;
     })(parts);

@@ -155,8 +155,7 @@ Change serves_additional_in_stopped() {
 
 /// A channel serves every CAN-ID that it has had requests on.
 void serves_former_can_ids(Parts& parts) {
-  const auto used = std::make_shared<std::map<std::uint32_t, std::uint8_t>>();
-  with_boot_up([used](Parts&) { used->clear(); })(parts);
+  const auto used = since_boot_up<std::map<std::uint32_t, std::uint8_t>>(parts);
   misreads([used](Parts& node, Frame& frame) {
     if (!is_base_data_frame(frame)) return;
     const auto channel = channel_of(node, frame);

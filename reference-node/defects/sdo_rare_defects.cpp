@@ -257,14 +257,13 @@ Change leaves(std::uint16_t index,
 }
 /// The second "save" since the boot-up message is confirmed, and nothing done.
 void saves_once(Parts& parts) {
-  const auto saved = std::make_shared<std::set<std::uint8_t>>();
+  const auto saved = since_boot_up<std::set<std::uint8_t>>(parts);
   checking_all(0x1010, [saved](Parts&, const Check& former, std::uint8_t sub, ByteView bytes) {
     if (saved->contains(sub) && conform::load_le(bytes) == save_signature) return Accepted{};
     const Accepted done = former(bytes);
     if (done) saved->insert(sub);
     return done;
   })(parts);
-  with_boot_up([saved](Parts&) { saved->clear(); })(parts);
 }
 void keeps_later_elements(Parts& parts, std::uint8_t, const Images& before, Images& images) {
   for (const auto& [group, image] : before) {
@@ -285,13 +284,12 @@ void erases_communication(Parts&, std::uint8_t sub, const Images&, Images& image
 }
 /// Only what has been written since the boot-up message is stored, in place of all that was.
 void stores_what_was_written(Parts& parts) {
-  const auto written = std::make_shared<std::set<Multiplexer>>();
+  const auto written = since_boot_up<std::set<Multiplexer>>(parts);
   parts.device.dictionary.on_download = [written,
                                          former = parts.device.dictionary.on_download](Multiplexer at) {
     written->insert(at);
     if (former) former(at);
   };
-  with_boot_up([written](Parts&) { written->clear(); })(parts);
   checking_all(0x1010, [written](Parts& node, const Check& former, std::uint8_t sub, ByteView bytes) {
     const Accepted done = former(bytes);
     if (!done) return done;

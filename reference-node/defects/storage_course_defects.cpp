@@ -32,7 +32,7 @@ Change failure_erases(std::uint16_t index) {
 /// From the command on the entry reads as its signature, until a reset.
 Change shows_its_command(std::uint16_t index, std::uint32_t signature) {
   return [index, signature](Parts& parts) {
-    const auto given = std::make_shared<std::uint8_t>();
+    const auto given = since_boot_up<std::uint8_t>(parts);
     checking_all(index, [given](Parts&, const Check& former, std::uint8_t sub, ByteView bytes) {
       const Accepted done = former(bytes);
       if (done) *given = sub;
@@ -44,7 +44,6 @@ Change shows_its_command(std::uint16_t index, std::uint32_t signature) {
       conform::store_le(std::span(out), signature);
       return out;
     })(parts);
-    with_boot_up([given](Parts&) { *given = 0; })(parts);
   };
 }
 
@@ -132,7 +131,7 @@ Change acts_on_any(std::uint16_t index, std::uint8_t sub, std::uint32_t right) {
 /// Behind a wrong signature the entry reads as 0: it can nothing any more, until a reset.
 Change loses_capability(std::uint16_t index) {
   return [index](Parts& parts) {
-    const auto lost = std::make_shared<std::uint8_t>();
+    const auto lost = since_boot_up<std::uint8_t>(parts);
     checking_all(index, [lost](Parts&, const Check& former, std::uint8_t sub, ByteView bytes) {
       const Accepted done = former(bytes);
       if (!done) *lost = sub;
@@ -141,7 +140,6 @@ Change loses_capability(std::uint16_t index) {
     reading_all(index, [lost](Parts&, const Read& former, std::uint8_t sub) -> Upload {
       return *lost == sub ? Bytes(4) : former();
     })(parts);
-    with_boot_up([lost](Parts&) { *lost = 0; })(parts);
   };
 }
 

@@ -157,7 +157,7 @@ void restores_without_node_id(Parts& parts) {
 
 /// Behind "load" the next reset restores everything, whichever it is.
 void any_reset_restores(Parts& parts) {
-  const auto loading = std::make_shared<bool>(false);
+  const auto loading = since_boot_up<bool>(parts);
   checking_all(0x1011, [loading](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
     const Accepted loaded = former(bytes);
     if (loaded) *loading = true;
@@ -166,7 +166,6 @@ void any_reset_restores(Parts& parts) {
   parts.store.rules.reset_loads.replace([loading](const auto& former, Group group, bool whole_node) {
     return former(group, whole_node) || *loading;
   });
-  with_boot_up([loading](Parts&) { *loading = false; })(parts);
 }
 
 bool is_later_communication(std::uint16_t index, std::uint8_t) {
@@ -187,7 +186,7 @@ void leaves_out_zeros(Entry& entry) {
 
 /// Behind "load" the next "save" is confirmed, and the defaults come all the same.
 void restore_outlives_save(Parts& parts) {
-  const auto restored = std::make_shared<bool>(false);
+  const auto restored = since_boot_up<bool>(parts);
   checking_all(0x1011, [restored](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
     const Accepted done = former(bytes);
     *restored = *restored || done.has_value();
@@ -196,18 +195,16 @@ void restore_outlives_save(Parts& parts) {
   checking_all(0x1010, [restored](Parts&, const Check& former, std::uint8_t, ByteView bytes) {
     return *restored && is_save(conform::load_le(bytes)) ? Accepted{} : former(bytes);
   })(parts);
-  with_boot_up([restored](Parts&) { *restored = false; })(parts);
 }
 
 /// Once a signature was wrong none is right any more.
 void locked_by_a_wrong_signature(Parts& parts) {
-  const auto locked = std::make_shared<bool>(false);
+  const auto locked = since_boot_up<bool>(parts);
   checking_all(0x1010, [locked](Parts& node, const Check& former, std::uint8_t, ByteView bytes) -> Accepted {
     if (!is_save(conform::load_le(bytes))) *locked = true;
     if (*locked) return refuse(node.store.choices.wrong_signature);
     return former(bytes);
   })(parts);
-  with_boot_up([locked](Parts&) { *locked = false; })(parts);
 }
 
 /// In Operational a right command is confirmed and nothing is done.

@@ -40,8 +40,7 @@ Change obeys_after(bool (*which)(std::uint8_t last, std::uint8_t counter)) {
 /// A counter that does not follow that of the one before is an error of the length, which the next one that
 /// does ends.
 void reports_jumps(Parts& parts) {
-  const auto last = std::make_shared<std::optional<std::uint8_t>>();
-  with_boot_up([last](Parts&) { last->reset(); })(parts);
+  const auto last = since_boot_up<std::optional<std::uint8_t>>(parts);
   after_writing(0x1019, 0, [last](Parts&, const std::function<void()>& former) {
     last->reset();
     former();
@@ -58,8 +57,7 @@ void reports_jumps(Parts& parts) {
 /// A window that was used is not changed any more in the ways that `stays` names.
 Change keeps_window(bool (*stays)(std::int64_t present, std::int64_t written)) {
   return [stays](Parts& parts) {
-    const auto used = std::make_shared<std::int64_t>(0);
-    with_boot_up([used](Parts&) { *used = 0; })(parts);
+    const auto used = since_boot_up<std::int64_t>(parts);
     parts.sync_window.rules.length.replace([used, stays](const auto& former, std::int64_t value) {
       if (*used == 0 || !stays(*used, value)) *used = value;
       return former(*used);

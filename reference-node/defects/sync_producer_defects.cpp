@@ -136,8 +136,7 @@ Change never_works_in(NmtState state) {
 
 /// Behind Stopped 1006h alone decides, until one of both is written.
 void produces_behind_stopped(Parts& parts) {
-  const auto stopped = std::make_shared<bool>(false);
-  with_boot_up([stopped](Parts&) { *stopped = false; })(parts);
+  const auto stopped = since_boot_up<bool>(parts);
   for (const std::uint16_t index : {std::uint16_t{0x1005}, std::uint16_t{0x1006}}) {
     after_writing(index, 0, [stopped](Parts&, const std::function<void()>& written) {
       *stopped = false;

@@ -59,8 +59,7 @@ Change adds_written_time() {
 /// Behind a time that was written the clock stops with the last one that there is.
 Change stops_at_the_end() {
   return [](Parts& parts) {
-    const auto written = std::make_shared<std::uint64_t>(0);
-    with_boot_up([written](Parts&) { *written = 0; })(parts);
+    const auto written = since_boot_up<std::uint64_t>(parts);
     checking(0x1013, 0, [written](Parts&, const Check& former, ByteView bytes) {
       *written = conform::load_le(bytes);
       return former(bytes);
