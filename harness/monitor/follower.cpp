@@ -86,7 +86,7 @@ const Observation& Follower::follow(const can::CapturedFrame& captured, std::siz
   nmt_.look_at(key);
   if (from_device && !now_.from_device()) look_at_sender();
   if (now_.from_device()) nmt_.spoke(captured.time);
-  if (frame.id <= canopen::sync_can_id.value() && !frame.extended) nmt_.was_first(captured.time);
+  nmt_.bus_was_taken(captured.time);
   return now_;
 }
 

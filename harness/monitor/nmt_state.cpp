@@ -14,9 +14,9 @@ void NmtState::answered(BusTime asked, std::uint32_t can_id) {
   answers_with_ = can_id;
 }
 
-void NmtState::was_first(BusTime time) {
-  if (time > first_at_ + pause_of_none) first_began_ = time;
-  first_at_ = time;
+void NmtState::bus_was_taken(BusTime time) {
+  if (time > taken_at_ + pause_of_none) taken_since_ = time;
+  taken_at_ = time;
 }
 
 void NmtState::command(const can::Frame& frame, BusTime time, std::size_t index) {

@@ -27,8 +27,8 @@ class NmtState {
   void answered(BusTime asked, std::uint32_t can_id);
   /// The frame that is looked at from now on.
   void look_at(std::uint32_t can_id) { goes_before_answers_ = can_id < answers_with_; }
-  /// A frame with a CAN-ID that goes before all that the device sends (NMT, SYNC).
-  void was_first(BusTime time);
+  /// Any frame, whoever sends it: frames without a pause keep the bus from the device, or are its own queue.
+  void bus_was_taken(BusTime time);
   /// A frame with the identifier 0.
   void command(const can::Frame& frame, BusTime time, std::size_t index);
   void boot_up(BusTime time);
@@ -58,7 +58,7 @@ class NmtState {
   /// The earliest time at which what the device sends at `now`, the frame that is looked at, may have been
   /// made.
   [[nodiscard]] BusTime made_since(BusTime now) const {
-    const auto unhindered = now <= first_at_ + pause_of_none ? std::min(now, first_began_) : now;
+    const auto unhindered = now <= taken_at_ + pause_of_none ? std::min(now, taken_since_) : now;
     const auto since = now <= spoke_at_ + longest_frame ? std::min(unhindered, queue_began_) : unhindered;
     return goes_before_answers_ ? std::max(since, answered_since_) : since;
   }
@@ -81,7 +81,7 @@ class NmtState {
 
   Facts facts_;
   BusTime spoke_at_{}, queue_began_{};  ///< the last frame, and the first of those that came in one go
-  BusTime first_at_{}, first_began_{};  ///< the same of those that go before
+  BusTime taken_at_{}, taken_since_{};  ///< the same of all frames that left no room for another one
   BusTime answered_since_{};            ///< when the request came that was answered last
   std::uint32_t answers_with_ = 0;
   bool goes_before_answers_ = false;

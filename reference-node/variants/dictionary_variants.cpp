@@ -177,6 +177,15 @@ How structure(std::uint16_t index, std::vector<std::uint16_t> elements) {
   };
 }
 
+/// Two entries in the gaps of the record for the manufacturer's own use; the description has neither.
+void hide_entries(Parts& parts) {
+  const auto found = parts.device.dictionary.objects().find(0x2003);
+  if (found == parts.device.dictionary.objects().end()) return;
+  auto& entries = found->second.entries;
+  entries.try_emplace(3, integer_entry("Service counter", DataType::unsigned16, Access::ro, 0));
+  entries.try_emplace(6, integer_entry("Service key", DataType::unsigned16, Access::wo, 0));
+}
+
 void remove_range(Parts& parts, std::uint16_t first, std::uint16_t last) {
   std::erase_if(parts.device.dictionary.objects(),
                 [=](const auto& object) { return object.first >= first && object.first <= last; });
@@ -190,6 +199,11 @@ VariantTable dictionary_variants() {
        [](Parts& parts) { remove_range(parts, 0x2000, 0x5FFF); }, "manufacturer"},
       {"empty-entries-absent", "no object without content", "7.4.7: lengths are the device's own",
        [](Parts& parts) { parts.device.dictionary.remove_sub(0x2005, 1); }},
+      {.id = "undescribed-entries",
+       .summary = "a record has two entries that the description leaves out",
+       .legal = "7.4.1: 2000h to 5FFFh are the manufacturer's",
+       .how = hide_entries,
+       .warns = {"OD-GEN-07"}},
       {"domain-1000", "every writable DOMAIN is a window of 1000 bytes",
        "7.4.7: lengths are the device's own", domain_windows(1000), "domain"},
       {"domain-1778", "every writable DOMAIN is a window of 1778 bytes: two full sub-blocks",

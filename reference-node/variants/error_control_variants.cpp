@@ -24,6 +24,8 @@ VariantTable error_control_variants() {
        preset(0x1017, 0, 1000), "1017"},
       {"1017-const", "the heartbeat time is fixed to 100 ms", "7.5.2.20: rw or const",
        both(preset(0x1017, 0, 100), access(0x1017, 0, Access::constant)), "1017"},
+      {"1017-const-350ms", "the heartbeat time is fixed to 350 ms", "7.5.2.20: rw or const",
+       both(preset(0x1017, 0, 350), access(0x1017, 0, Access::constant)), "1017"},
       {"1017-in-pre-operational-only",
        "the heartbeat time cannot be changed in Operational: 0800 0022h",
        "7.2.4.3.17: 0800 0022h, the present device state",

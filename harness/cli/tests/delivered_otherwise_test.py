@@ -24,9 +24,9 @@ FOUND = [
      "PDO-TX-05"),
     (["1017-absent"], "nmt-stop-ignored-in-operational", "cia301/nmt/state-machine", "NMT-FSA-04"),
     (["1017-absent"], "nmt-short-frame-accepted", "cia301/nmt/commands", "NMT-FSA-17"),
-    (["1017-const"], "nmt-node-id-bit7-masked", "cia301/nmt/commands", "NMT-FSA-15"),
+    (["1017-const-350ms"], "nmt-node-id-bit7-masked", "cia301/nmt/commands", "NMT-FSA-15"),
     (["1017-const"], "starts-in-operational", "cia301/nmt/boot-up", "NMT-BOOT-07"),
-    (["1017-const"], "1017-period-a-fifth-longer", "cia301/heartbeat/producer", "EC-HBP-01"),
+    (["1017-const-350ms"], "1017-period-a-fifth-longer", "cia301/heartbeat/producer", "EC-HBP-01"),
     (["1017-const"], "heartbeat-at-half-rate-in-stopped", "cia301/heartbeat/producer", "EC-HBP-01"),
 ]
 

@@ -53,6 +53,19 @@ TEST_CASE("What was asked and answered since says that a TPDO has not waited in 
   CHECK(conversation(pre_operational, 40).line("< 6A0: 01 02").told().empty());
 }
 
+TEST_CASE("A TPDO may have waited for as long as the bus was taken without a pause") {
+  // Frames of a millisecond each, made in one go 90 ms after the command: the last one comes 21 ms too late.
+  auto burst = [](const std::string& pause, int frames) {
+    auto out = Story().line(pre_operational).line(pause);
+    for (int i = 0; i < frames; ++i) out.line("< 1E2: 01 02");
+    return out.line(tpdo);
+  };
+  CHECK(burst("wait 90 ms", 30).told().empty());
+  // The bus was idle between, so that what was made before the end of T_NMT was sent before, too.
+  CHECK(burst("wait 90 ms", 30).line("wait 2 ms").line(tpdo).told() == Told{"fail PDO-TX-02"});
+  CHECK(burst("wait 105 ms", 3).told() == Told{"fail PDO-TX-02"});
+}
+
 TEST_CASE("A TPDO that is not valid is not sent, as far as anybody knows") {
   CHECK(Story().line(start).read(0x1800, 1, 0x8000'0181).later(tpdo).told() == Told{"fail OD-1800-09"});
   CHECK(Story().line(start).write(0x1800, 1, 0x8000'0181).line(tpdo).told().empty());
