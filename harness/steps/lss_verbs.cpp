@@ -272,15 +272,35 @@ class Lss final : public Action {
     return ask(session, last, LssCommand::selected, within);
   }
 
-  /// The whole of it: every bit of the four numbers, and each number once more at its end.
+  /// The whole of it. Half of the questions have no answer, so that a quick slave is not waited for the whole
+  /// time each; who is not found that way is looked for once more.
   static Result<Actual> scan(Session& session) {
+    auto out = scan(session, Patience::as_it_answers);
+    if (!out || out->kind != Actual::Kind::silence) return out;
+    return scan(session, Patience::whole);
+  }
+
+  enum class Patience : std::uint8_t {
+    whole,          ///< T_LSS for each answer
+    as_it_answers,  ///< for a bit some times as long as the slowest answer took
+  };
+  /// Every bit of the four numbers, and each number once more at its end.
+  static Result<Actual> scan(Session& session, Patience patience) {
     const auto within = session.profile().lss_timeout;
+    std::uint64_t slowest = 0;
     canopen::LssScan scan;
     Actual out;
     while (!scan.finished()) {
-      auto answer = ask(session, canopen::encode(scan.question()), LssCommand::identified, within);
+      const auto question = scan.question();
+      const bool quick = patience == Patience::as_it_answers && question.part == question.next &&
+                         question.bit_check != canopen::LssFastscan::begin;
+      const Duration usual = std::chrono::nanoseconds(4 * slowest) + std::chrono::milliseconds(20);
+      auto answer = ask(session, canopen::encode(question), LssCommand::identified,
+                        quick ? std::min<Duration>(usual, within) : within);
       if (!answer || answer->kind == Actual::Kind::mismatched) return answer;
       out.decisive = answer->decisive;
+      if (const auto took = answer->measured.find("latency"); took != answer->measured.end())
+        slowest = std::max(slowest, took->second);
       scan.answered(answer->kind == Actual::Kind::matched);
     }
     for (std::uint8_t part = 0; part < canopen::lss_parts; ++part)
