@@ -152,6 +152,7 @@ class Describer {
 
   void read_default(const eds::Entry& described, Entry& entry) {
     const bool configured = !described.parameter_value.empty();
+    entry.configured = configured && described.parameter_value.text != described.default_value.text;
     const auto& field = configured ? described.parameter_value : described.default_value;
     entry.declared_default = false;
     if (field.empty() || entry.type == DataType::domain) return;

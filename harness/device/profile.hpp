@@ -120,7 +120,8 @@ struct Profile {
       false;                ///< tests may write every application entry that the description calls writable
   std::string power_cycle;  ///< shell command that takes the power of the device away and gives it back;
                             ///< empty: by hand
-  bool factory_defaults = false;  ///< nothing is stored: values after a reset are the defaults
+  /// Nothing is stored: values after a reset are the defaults. nullopt: nobody says so, and it may show.
+  std::optional<bool> factory_defaults;
   std::string described_in;       ///< file of the device description, as the user wrote it; empty: none
   DescribedPlaces described_places;
   /// The file that was given; empty: none.

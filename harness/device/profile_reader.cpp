@@ -144,7 +144,7 @@ class Reader {
     profile_.safe_objects = read_entries("safe_objects");
     profile_.untouchable = read_entries("untouchable");
     profile_.power_cycle = fields_.optional("power_cycle").text().value_or("");
-    profile_.factory_defaults = fields_.optional("factory_defaults").boolean().value_or(false);
+    profile_.factory_defaults = fields_.optional("factory_defaults").boolean();
     read_identity();
     read_device_info();
     profile_.waivers = read_waivers(fields_.optional("known_deviations"));

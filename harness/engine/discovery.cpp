@@ -168,4 +168,23 @@ Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session, std::optional
   return out;
 }
 
+std::string what_is_no_default(const device::Dictionary& dictionary,
+                               const std::map<Multiplexer, Bytes>& held) {
+  bool told = false;
+  for (const auto& [mux, bytes] : held) {
+    const auto* entry = dictionary.find(mux);
+    if (entry == nullptr) continue;
+    if (entry->configured) return to_string(mux) + " holds what the description sets it to";
+    const bool is_default = entry->default_value == bytes;
+    told = told || (is_default && entry->declared_default);
+    const bool empty = std::ranges::all_of(bytes, [](std::uint8_t byte) { return byte == 0; });
+    if (is_default || (empty && !entry->declared_default)) continue;
+    const auto words = [](const Bytes& value) { return value.empty() ? "nothing" : hex_bytes(value); };
+    return to_string(mux) + " holds " + words(bytes) + ", " +
+           (entry->declared_default ? "and the description says " + words(*entry->default_value)
+                                    : std::string("and the description does not say what it holds at first"));
+  }
+  return told ? "" : "no description tells a default";
+}
+
 }  // namespace conform::engine

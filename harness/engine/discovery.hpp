@@ -34,4 +34,10 @@ struct Discovery {
 [[nodiscard]] Result<std::map<Multiplexer, Bytes>> snapshot(RunSession& session,
                                                             std::optional<BusTime> until);
 
+/// Nothing is stored in a device that holds what its description says, in every entry that could keep
+/// something else: what was read from one that does not, in words; empty: there is none. Where the
+/// description is silent, 0, nothing and the value of the standard say the same.
+[[nodiscard]] std::string what_is_no_default(const device::Dictionary& dictionary,
+                                             const std::map<Multiplexer, Bytes>& held);
+
 }  // namespace conform::engine

@@ -35,6 +35,9 @@ Result<void> PuttingBack::look(std::optional<BusTime> until) {
   auto values = snapshot(run_.session, until);
   if (!values) return std::unexpected(values.error());
   snapshot_ = std::move(*values);
+  const bool whole = !until || run_.session.now() < *until;
+  run_.session.note_defaults(whole ? what_is_no_default(run_.session.known(), snapshot_)
+                                   : "not all values were looked at, so factory defaults may not be active");
   auto stores = stores_by_itself();
   if (!stores) return std::unexpected(stores.error());
   stores_by_itself_ = *stores;

@@ -62,7 +62,9 @@ class RunSession final : public steps::Session {
   [[nodiscard]] std::optional<std::uint32_t> bus_bit_rate() const override;
   [[nodiscard]] bool bus_bit_rate_is_told() const override;
   /// What the run itself could not put back may come back with each reset where the device stores by itself.
-  [[nodiscard]] bool factory_defaults() const override { return profile_.factory_defaults && !left_changed_; }
+  [[nodiscard]] bool factory_defaults() const override {
+    return profile_.factory_defaults.value_or(holds_defaults_) && !left_changed_;
+  }
   [[nodiscard]] bool can_send_remote_frames() const override { return true; }
   [[nodiscard]] Result<steps::Value> declared(Multiplexer object, steps::Declared what) override;
   [[nodiscard]] bool is_described() const override { return !profile_.objects.empty(); }
@@ -193,6 +195,8 @@ class RunSession final : public steps::Session {
   void clear_silence_seen() { silence_seen_ = false; }
   /// A value could not be put back.
   void note_left_changed() { left_changed_ = true; }
+  /// Whether all that could be stored holds what the description says: what does not, empty: it all does.
+  void note_defaults(std::string what_does_not);
   /// Uploads that judge nothing and open no window.
   [[nodiscard]] Result<steps::SdoAnswer> peek(Multiplexer object);
   /// The same of an entry of which it matters that it is there: of a long value only the beginning is read.
@@ -247,7 +251,7 @@ class RunSession final : public steps::Session {
   bool reset_was_of_node_ = false;
   std::set<Multiplexer> written_since_reset_;
   std::set<SubIndex> restored_;
-  bool left_changed_ = false;
+  bool left_changed_ = false, holds_defaults_ = false;
   std::map<Multiplexer, Bytes> before_write_;
   LongValues long_values_;
   steps::Window window_;

@@ -138,6 +138,11 @@ void RunSession::note_present(Multiplexer object, bool present, std::string why)
   grounds_[{steps::Asked::presence, object}] = std::move(why);
 }
 
+void RunSession::note_defaults(std::string what_does_not) {
+  holds_defaults_ = what_does_not.empty();
+  grounds_[{steps::Asked::factory_defaults, Multiplexer{}}] = std::move(what_does_not);
+}
+
 std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
   using steps::Asked;
   const auto noted = [this](Asked what, Multiplexer about) {
@@ -167,8 +172,9 @@ std::string RunSession::grounds(steps::Asked asked, Multiplexer object) const {
       const auto tried = noted(asked, object);
       return tried.empty() ? access() : tried;
     }
-    case Asked::factory_defaults:
-      return left_changed_ && profile_.factory_defaults
+    case Asked::factory_defaults: return profile_.factory_defaults ? "" : noted(asked, Multiplexer{});
+    case Asked::values_put_back:
+      return left_changed_ && profile_.factory_defaults.value_or(holds_defaults_)
                  ? "the run could not put back every value, so factory defaults may not be active any more"
                  : "";
     default: return noted(asked, Multiplexer{});

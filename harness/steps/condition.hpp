@@ -24,7 +24,8 @@ enum class Asked : std::uint8_t {
   block_upload,
   block_download,
   mapping,
-  factory_defaults
+  factory_defaults,  ///< why they may not be active
+  values_put_back    ///< why some may not be
 };
 
 /// What conditions may ask of the device and the bench.

@@ -189,10 +189,12 @@ Why about_bench(const Tree& node, Facts& facts, bool held) {
       return told("the interface can send RTR", "the interface cannot send RTR",
                   {{"bench", "an interface that can send remote frames"}});
     case Kind::factory: {
-      const auto grounds = facts.grounds(Asked::factory_defaults, {});
       // Where the run itself is the reason nothing can be given.
-      if (!grounds.empty()) return told("factory defaults are active", grounds);
-      return told("factory defaults are active", "nobody says that factory defaults are active",
+      if (const auto grounds = facts.grounds(Asked::values_put_back, {}); !grounds.empty())
+        return told("factory defaults are active", grounds);
+      const auto grounds = facts.grounds(Asked::factory_defaults, {});
+      return told("factory defaults are active",
+                  "nobody says that factory defaults are active" + (grounds.empty() ? "" : ": " + grounds),
                   {{"profile", "factory_defaults: true in the profile, if nothing is stored in the device"}});
     }
     case Kind::described:

@@ -128,7 +128,8 @@ class Text {
          device_.lss.value_or(false) ? ", lss: true" : "");
     line("");
     line(
-        "# true where nothing was stored in the device since it was made: values after a reset are defaults.");
+        "# true where nothing was stored in the device since it was made: values after a reset are defaults. A run "
+        "finds out by itself where all values are those of a description.");
     line("#factory_defaults: true");
   }
 

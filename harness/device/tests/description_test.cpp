@@ -261,6 +261,8 @@ TEST_CASE("What a DCF configures is expected in the place of the default") {
                                          variable("2003", "5", "rw", "DefaultValue=1\nParameterValue=x\n"),
                                      "a.dcf");
   CHECK(entry_of(description, 0x2000, 0).default_value == Bytes{2});
+  CHECK(entry_of(description, 0x2000, 0).configured);
+  CHECK_FALSE(entry_of(description, 0x2001, 0).configured);
   CHECK(entry_of(description, 0x2001, 0).default_value == Bytes{1});
   CHECK(entry_of(description, 0x2002, 0).default_adds_node_id);
   CHECK_FALSE(entry_of(description, 0x2003, 0).declared_default);

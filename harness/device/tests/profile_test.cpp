@@ -60,7 +60,7 @@ TEST_CASE("A minimal profile has the default times and the heartbeat trigger") {
   CHECK(profile.store_timeout == 10s);
   CHECK(profile.nmt_time == 100ms);
   CHECK(profile.quiet_time == 300ms);
-  CHECK_FALSE(profile.factory_defaults);
+  CHECK_FALSE(profile.factory_defaults.has_value());
   CHECK_FALSE(profile.store_fault.has_value());
   REQUIRE(profile.errors.size() == 1);
   CHECK(profile.errors[0].code == 0x8130);
@@ -132,7 +132,7 @@ known_deviations:
   CHECK(profile.is_safe(mux(0x1016, 2)));
   CHECK_FALSE(profile.is_safe(mux(0x1016, 3)));
   CHECK(profile.is_untouchable(mux(0x1F50, 1)));
-  CHECK(profile.factory_defaults);
+  CHECK(profile.factory_defaults == true);
   CHECK(profile.identity.vendor == 0x5AFEU);
   CHECK_FALSE(profile.identity.product.has_value());
   CHECK(profile.told("rpdos") == 4U);
@@ -351,7 +351,7 @@ TEST_CASE("The profile of the reference node is valid") {
   REQUIRE(document.has_value());
   INFO(document->diagnostics.render());
   CHECK(document->diagnostics.empty());
-  CHECK(document->profile.factory_defaults);
+  CHECK(document->profile.factory_defaults == true);
   const Dictionary dictionary = dictionary_of(document->profile);
   REQUIRE(dictionary.find(mux(0x2000, 0x1B)) != nullptr);
   CHECK(dictionary.find(mux(0x2000, 0x1B))->type == DataType::unsigned64);

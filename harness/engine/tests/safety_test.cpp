@@ -5,6 +5,7 @@
 #include <map>
 
 #include "bench.hpp"
+#include "device/standard_objects.hpp"
 
 using namespace conform;
 using namespace conform::engine;
@@ -242,6 +243,48 @@ TEST_CASE("a value that cannot be put back is said in the notes") {
   const auto out = play(device, change_1017);
   CHECK_FALSE(out.run.notes.empty());
   CHECK(out.run.notes.front().find("1017h:00") != std::string::npos);
+}
+
+TEST_CASE("a device that holds what its description says is taken for one in which nothing is stored") {
+  const std::string asks = R"(
+  - id: a
+    title: t
+    risk: config
+    when: factory defaults are active
+    steps:
+      - upload: {object: 1000h:00}
+        checks: T-MUST
+)";
+  auto entry = device::standard_entry({Index(0x1017), SubIndex(0)}).value();
+  entry.default_value = Bytes{0, 0};
+  entry.claimed = entry.declared_default = entry.described = true;
+  const auto reason = [&asks](const std::vector<device::Entry>& described,
+                              std::optional<bool> said = std::nullopt) {
+    auto profile = device::default_profile(NodeId(1));
+    profile.objects = described;
+    profile.factory_defaults = said;
+    can::SimulatedBus bus;
+    ScriptedDevice device;
+    const auto out = play(bus, device, asks, {}, profile);
+    return out.only().verdict == Verdict::pass ? "" : out.only().reason;
+  };
+  const std::string nobody = "nobody says that factory defaults are active";
+  CHECK(reason({entry}) == "");
+  CHECK(reason({entry}, false) == nobody);
+  CHECK(reason({}) == nobody + ": no description tells a default");
+  auto other = entry;
+  other.default_value = Bytes{0xE8, 3};
+  CHECK(reason({other}) == nobody + ": 1017h:00 holds 00 00, and the description says E8 03");
+  CHECK(reason({other}, true) == "");
+  // Where it tells no default, what is not 0 may have been stored; a DCF tells what was.
+  auto open = device::standard_entry({Index(0x1014), SubIndex(0)}).value();
+  open.default_value.reset();
+  open.claimed = true;
+  CHECK(reason({entry, open}) ==
+        nobody + ": 1014h:00 holds 81 00 00 00, and the description does not say what it holds at first");
+  auto configured = entry;
+  configured.configured = true;
+  CHECK(reason({configured}) == nobody + ": 1017h:00 holds what the description sets it to");
 }
 
 TEST_CASE("after a value could not be put back nothing is said to be a factory default") {
