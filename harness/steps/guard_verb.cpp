@@ -56,6 +56,8 @@ class Guard final : public Action {
     if (auto settled = session.await_state(); !settled) return std::unexpected(settled.error());
     // The next request waits no longer than its period.
     const auto within = guard_patience(session.profile().nmt_time);
+    if (auto quiet = await_former_reply(session, is_reply, within); !quiet)
+      return std::unexpected(quiet.error());
     const auto period = every_ ? every_->resolve(session.profile()) : within;
     std::vector<std::size_t> replies;
     const auto begin = session.capture().size();
@@ -78,6 +80,22 @@ class Guard final : public Action {
   }
 
  private:
+  /// What answers a request of before is no answer to those that follow.
+  static Result<void> await_former_reply(Session& session, const Session::Match& is_reply, Duration within) {
+    const auto id = canopen::connection_set(session.node()).error_control;
+    const auto& frames = session.capture().frames();
+    for (std::size_t index = frames.size(); index > 0; --index) {
+      const auto& each = frames[index - 1];
+      if (each.time + within < session.now() || is_reply(each)) break;
+      if (each.direction != can::Direction::transmitted || !each.frame.remote || each.frame.extended ||
+          each.frame.id != id.value())
+        continue;
+      const auto reply = session.find_frame(index, is_reply, each.time + within);
+      return reply ? Result<void>() : std::unexpected(reply.error());
+    }
+    return {};
+  }
+
   [[nodiscard]] Actual measured(Session& session, const std::vector<std::size_t>& replies,
                                 std::size_t begin) const {
     Actual out;

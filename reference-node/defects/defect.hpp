@@ -130,5 +130,8 @@ using DefectTable = std::vector<Defect>;
 [[nodiscard]] DefectTable sdo_rare_defects();
 [[nodiscard]] DefectTable pdo_rare_defects();
 [[nodiscard]] DefectTable nmt_rare_defects();
+[[nodiscard]] DefectTable emergency_rare_defects();
+[[nodiscard]] DefectTable clock_rare_defects();
+[[nodiscard]] DefectTable dictionary_rare_defects();
 
 }  // namespace refnode

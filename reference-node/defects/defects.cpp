@@ -80,7 +80,10 @@ std::span<const Defect> defects() {
                                        device_load_defects,
                                        sdo_rare_defects,
                                        pdo_rare_defects,
-                                       nmt_rare_defects});
+                                       nmt_rare_defects,
+                                       emergency_rare_defects,
+                                       clock_rare_defects,
+                                       dictionary_rare_defects});
   return all;
 }
 

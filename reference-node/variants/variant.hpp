@@ -47,5 +47,6 @@ using VariantTable = std::vector<Variant>;
 [[nodiscard]] VariantTable pdo_variants();
 [[nodiscard]] VariantTable sdo_variants();
 [[nodiscard]] VariantTable cob_id_variants();
+[[nodiscard]] VariantTable rare_variants();
 
 }  // namespace refnode

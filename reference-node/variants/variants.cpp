@@ -147,7 +147,7 @@ std::span<const Variant> variants() {
     for (VariantTable table :
          {objects_variants(), dictionary_variants(), storage_variants(), sync_variants(), time_variants(),
           emergency_variants(), error_control_variants(), nmt_variants(), lss_variants(), pdo_variants(),
-          sdo_variants(), cob_id_variants()}) {
+          sdo_variants(), cob_id_variants(), rare_variants()}) {
       for (Variant& row : table) joined.push_back(std::move(row));
     }
     for (Variant& row : stacks(joined)) joined.push_back(std::move(row));
