@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -61,6 +62,25 @@ void keep_up_life_signs(RunSession& session) {
     const auto id = canopen::connection_set(session.node()).error_control;
     keep_up(session, can::remote_frame(id, 1), often);
   }
+}
+
+Result<void> await_last_guard_reply(RunSession& session, std::size_t from) {
+  constexpr Duration longest = std::chrono::milliseconds(100), margin = std::chrono::milliseconds(5);
+  const auto id = canopen::connection_set(session.node()).error_control.value();
+  std::optional<BusTime> open, last;
+  Duration slowest{};
+  const auto& frames = session.capture().frames();
+  for (auto i = from; i < frames.size(); ++i) {
+    const auto& frame = frames[i].frame;
+    if (frame.extended || frame.error || frame.id != id) continue;
+    if (frames[i].direction == can::Direction::transmitted) {
+      if (frame.remote) last = open = frames[i].time;
+    } else if (open) {
+      slowest = std::max<Duration>(slowest, frames[i].time - *std::exchange(open, std::nullopt));
+    }
+  }
+  if (!last) return {};
+  return session.wait_until(*last + std::min(slowest, longest) + margin);
 }
 
 }  // namespace conform::engine

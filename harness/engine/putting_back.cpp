@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "engine/baseline.hpp"
 #include "engine/discovery.hpp"
+#include "engine/life_signs.hpp"
 #include "engine/restore.hpp"
 
 namespace conform::engine {
@@ -63,6 +64,7 @@ Result<void> PuttingBack::after_case(const result::CaseResult& result) {
   }
   if (auto done = put_back(result); !done) return done;
   run_.recorder.stop_producing("");
+  if (auto quiet = await_last_guard_reply(run_.session, result.first_frame); !quiet) return quiet;
   return end_life_guarding();
 }
 

@@ -84,14 +84,24 @@ class Guard final : public Action {
   static Result<void> await_former_reply(Session& session, const Session::Match& is_reply, Duration within) {
     const auto id = canopen::connection_set(session.node()).error_control;
     const auto& frames = session.capture().frames();
-    for (std::size_t index = frames.size(); index > 0; --index) {
-      const auto& each = frames[index - 1];
-      if (each.time + within < session.now() || is_reply(each)) break;
+    auto index = frames.size();
+    while (index > 0 && frames[index - 1].time + within >= session.now()) --index;
+    int open = 0;
+    BusTime asked{};
+    for (; index < frames.size(); ++index) {
+      const auto& each = frames[index];
+      if (open > 0 && is_reply(each)) --open;
       if (each.direction != can::Direction::transmitted || !each.frame.remote || each.frame.extended ||
           each.frame.id != id.value())
         continue;
-      const auto reply = session.find_frame(index, is_reply, each.time + within);
-      return reply ? Result<void>() : std::unexpected(reply.error());
+      ++open;
+      asked = each.time;
+    }
+    for (; open > 0; --open) {
+      const auto reply = session.find_frame(index, is_reply, asked + within);
+      if (!reply) return std::unexpected(reply.error());
+      if (!*reply) break;
+      index = **reply + 1;
     }
     return {};
   }

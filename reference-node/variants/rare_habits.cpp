@@ -38,11 +38,15 @@ static void condition(Entry& entry, std::function<Accepted(ByteView)> asked) {
 
 How answers_after(std::function<Duration(Parts&, const SdoExchange&)> time) {
   return [time](Parts& parts) {
-    parts.device.outbox.add_filter(
-        [&parts, time](const FilterContext& context, std::vector<Outgoing>& frames) {
-          if (context.sdo == nullptr || context.sdo->step == SdoStep::time_out) return;
-          for (Outgoing& outgoing : frames) outgoing.delay += time(parts, *context.sdo);
-        });
+    // One answer after the other: none overtakes the one to the request before.
+    parts.device.outbox.add_filter([&parts, time, last = BusTime{}](const FilterContext& context,
+                                                                    std::vector<Outgoing>& frames) mutable {
+      if (context.sdo == nullptr || context.sdo->step == SdoStep::time_out) return;
+      for (Outgoing& outgoing : frames) {
+        outgoing.delay = std::max<Duration>(outgoing.delay + time(parts, *context.sdo), last - context.now);
+        last = context.now + outgoing.delay;
+      }
+    });
   };
 }
 
