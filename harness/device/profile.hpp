@@ -122,7 +122,7 @@ struct Profile {
                             ///< empty: by hand
   /// Nothing is stored: values after a reset are the defaults. nullopt: nobody says so, and it may show.
   std::optional<bool> factory_defaults;
-  std::string described_in;       ///< file of the device description, as the user wrote it; empty: none
+  std::string described_in;  ///< file of the device description, as the user wrote it; empty: none
   DescribedPlaces described_places;
   /// The file that was given; empty: none.
   std::shared_ptr<const eds::EdsFile> description;
