@@ -152,7 +152,9 @@ class Describer {
 
   void read_default(const eds::Entry& described, Entry& entry) {
     const bool configured = !described.parameter_value.empty();
-    entry.configured = configured && described.parameter_value.text != described.default_value.text;
+    // A DCF says what a device was set to, and so does a draft that was made from what the device held.
+    entry.configured =
+        is_draft_ || (configured && described.parameter_value.text != described.default_value.text);
     const auto& field = configured ? described.parameter_value : described.default_value;
     entry.declared_default = false;
     if (field.empty() || entry.type == DataType::domain) return;
@@ -219,6 +221,8 @@ class Describer {
   }
 
   const eds::EdsFile& file_;
+  /// Made from a device by `scan`: its defaults are what the device held then.
+  const bool is_draft_ = file_.file_info.created_by.text.starts_with("canopen-conform scan");
   Description out_;
 };
 

@@ -57,7 +57,7 @@ struct Entry {
   bool command = false;     ///< a write has an effect other than storing: 1003h:00, 1010h, 1011h, 1F50h ...
   bool claimed = false;     ///< the EDS or the profile says that it is there
   bool declared_default = false;  ///< the default is the description's, not only the standard's
-  bool configured = false;        ///< ... and a DCF's, which says that the device was set to it
+  bool configured = false;        ///< ... and what the device was set to, not what it was made with
   bool open_to_writes = true;     ///< tests may try to write it: from 2000h on only where the profile says so
   bool safe = false;              ///< the profile allows tests to write it, and it can be written
   bool untouchable = false;       ///< the profile, or ObjFlags of the EDS, forbids every write to it

@@ -271,6 +271,14 @@ TEST_CASE("What a DCF configures is expected in the place of the default") {
         "the value of 2003h:00, 'x', is no value of UNSIGNED8: it is no number: it is not compared");
 }
 
+TEST_CASE("What a draft tells as defaults is what the device held when it was scanned") {
+  const auto text = [](const std::string& program) {
+    return "[FileInfo]\nCreatedBy=" + program + "\n" + variable("2000", "5", "rw", "DefaultValue=1\n");
+  };
+  CHECK(entry_of(described(text("canopen-conform scan")), 0x2000, 0).configured);
+  CHECK_FALSE(entry_of(described(text("somebody")), 0x2000, 0).configured);
+}
+
 TEST_CASE("[DeviceInfo] tells how many PDOs there are, whether there is LSS, and the bit rates") {
   const auto info = described("[DeviceInfo]\nNrOfRXPDO=2\nNrOfTXPDO=0x3\nLSS_Supported=0\nBaudRate_500=1\n"
                               "BaudRate_250=0\nBaudRate_125=1\n")
