@@ -24,22 +24,6 @@ using namespace defect;
 
 namespace {
 
-constexpr std::uint64_t bit_31 = 0x8000'0000;
-constexpr std::uint64_t bit_30 = 0x4000'0000;
-constexpr std::uint64_t can_id_bits = 0x7FF;
-
-constexpr std::uint16_t of(std::uint16_t first, std::uint16_t number) {
-  return static_cast<std::uint16_t>(first + number);
-}
-
-/// A memory that begins anew with every boot-up message and every NMT state.
-template <typename Memory>
-std::shared_ptr<Memory> since_state_change(Parts& parts) {
-  auto memory = since_boot_up<Memory>(parts);
-  ahead_of_state_change([memory](Parts&) { *memory = Memory{}; })(parts);
-  return memory;
-}
-
 void before_reset(Parts& parts, std::function<void(Reset)> act) {
   parts.nmt.on_reset = [act = std::move(act), former = parts.nmt.on_reset](Reset reset) {
     act(reset);
@@ -162,9 +146,9 @@ void begins_all_at_the_start_value_of_the_first(Parts& parts) {
 void begin_timers_anew(Parts& parts, std::optional<std::uint16_t> but = std::nullopt) {
   ObjectDictionary& od = parts.device.dictionary;
   for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    Entry* timer = od.entry(of(0x1800, number), 5);
-    const bool runs = timer != nullptr && timer->number() != 0 && od.number(of(0x1800, number), 3) == 0 &&
-                      is_event_driven(od.number(of(0x1800, number), 2));
+    Entry* timer = od.entry(nth(0x1800, number), 5);
+    const bool runs = timer != nullptr && timer->number() != 0 && od.number(nth(0x1800, number), 3) == 0 &&
+                      is_event_driven(od.number(nth(0x1800, number), 2));
     if (runs && number != but) timer->written();
   }
 }
@@ -172,7 +156,7 @@ void begin_timers_anew(Parts& parts, std::optional<std::uint16_t> but = std::nul
 void begins_timers_anew_with_another(Parts& parts) {
   const auto busy = std::make_shared<bool>(false);
   for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    after_writing(of(0x1800, number), 5, [=](Parts& node, const std::function<void()>& former) {
+    after_writing(nth(0x1800, number), 5, [=](Parts& node, const std::function<void()>& former) {
       former();
       if (std::exchange(*busy, true)) return;
       begin_timers_anew(node, number);
@@ -227,7 +211,7 @@ void releases_what_waits(Parts& parts) {
   deaf_to([=](Parts& node, const Frame& frame) {
     if (!is_rpdo_of(node, frame)) return false;
     const std::uint16_t number = rpdo_with(node.device.dictionary, frame.id).value_or(0);
-    if (is_synchronous(node.device.dictionary.number(of(0x1400, number), 2))) {
+    if (is_synchronous(node.device.dictionary.number(nth(0x1400, number), 2))) {
       (*waiting)[number] = frame;
       return false;
     }
@@ -299,7 +283,7 @@ Change taken_for_written(std::uint16_t index) {
 void loses_timers_by_refused_times(Parts& parts) {
   const auto lost = since_state_change<std::set<std::uint16_t>>(parts);
   for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    behind_download(of(0x1800, number), [lost, number](Parts&, std::uint8_t sub, bool refused) {
+    behind_download(nth(0x1800, number), [lost, number](Parts&, std::uint8_t sub, bool refused) {
       if (sub == 5 && refused) lost->insert(number);
       if (sub == 5 && !refused) lost->erase(number);
     })(parts);
@@ -479,7 +463,7 @@ DefectTable clock_rare_defects() {
          parts.pdos.tpdo.parameters.rules.event_timer.replace(
              [&od = parts.device.dictionary](const auto& former, const PdoParameters& pdo,
                                              std::int64_t value) {
-               const std::uint64_t before = pdo.number() == 0 ? 0 : od.number(of(0x17FF, pdo.number()), 5);
+               const std::uint64_t before = pdo.number() == 0 ? 0 : od.number(nth(0x17FF, pdo.number()), 5);
                return former(pdo, value != 0 && before != 0 ? static_cast<std::int64_t>(before) : value);
              });
        })},

@@ -8,6 +8,11 @@
 
 namespace refnode::defect {
 
+// Of a COB-ID: what its upper bits say, and the CAN-ID of a frame with 11 bits.
+inline constexpr std::uint32_t bit_31 = 0x8000'0000;
+inline constexpr std::uint32_t bit_30 = 0x4000'0000;
+inline constexpr std::uint32_t can_id_bits = 0x7FF;
+
 inline CobIdRules& of_sync(Parts& parts) { return parts.sync.cob_id_rules; }
 inline CobIdRules& of_time(Parts& parts) { return parts.time.cob_id_rules; }
 inline CobIdRules& of_emergency(Parts& parts) { return parts.emergency.cob_id_rules; }

@@ -23,9 +23,6 @@ namespace {
 
 constexpr std::uint32_t save = 0x65766173;
 constexpr std::uint32_t load = 0x64616F6C;
-constexpr std::uint32_t bit31 = 0x8000'0000;
-constexpr std::uint32_t bit30 = 0x4000'0000;
-constexpr std::uint32_t can_id_bits = 0x7FF;
 constexpr Group parameter_groups[] = {Group::communication, Group::application, Group::manufacturer};
 
 bool concerns(std::uint8_t sub, Group group) {
@@ -206,7 +203,7 @@ void stays_locked_behind_use(Parts& parts) {
     if (*used && is_moved(node.device.dictionary.number(0x1012, 0), wanted))
       return refuse(abort_code::invalid_value);
     Accepted done = former(bytes);
-    *used = *used || (done && (wanted & (bit31 | bit30)) != 0);
+    *used = *used || (done && (wanted & (bit_31 | bit_30)) != 0);
     return done;
   })(parts);
 }
@@ -224,8 +221,8 @@ void comes_back_on_default(Parts& parts) {
     if (!done) return done;
     if (((present ^ wanted) & can_id_bits) != 0)
       *course = {};
-    else if ((wanted & bit31) != 0)
-      course->off = course->off || (present & bit31) == 0;
+    else if ((wanted & bit_31) != 0)
+      course->off = course->off || (present & bit_31) == 0;
     else
       course->back = std::exchange(course->off, false) || course->back;
     return done;
@@ -254,7 +251,7 @@ Change takes_raised_counts(std::uint16_t mapping) {
     const ObjectDictionary& od = parts.device.dictionary;
     const std::uint64_t present = od.number(mapping, 0);
     const std::uint64_t wanted = conform::load_le(bytes);
-    const bool valid = (od.number(static_cast<std::uint16_t>(mapping - 0x200), 1) & bit31) == 0;
+    const bool valid = (od.number(static_cast<std::uint16_t>(mapping - 0x200), 1) & bit_31) == 0;
     return !valid && present != 0 && wanted > present && wanted <= 8 ? Accepted{} : former(bytes);
   });
 }
@@ -491,7 +488,7 @@ DefectTable dictionary_rare_defects() {
                        ObjectDictionary& od = parts.device.dictionary;
                        for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}})
                          od.set_number(0x1280, sub,
-                                       bit31 + (sub == 1 ? 0x600U : 0x580U) + od.number(0x1280, 3));
+                                       bit_31 + (sub == 1 ? 0x600U : 0x580U) + od.number(0x1280, 3));
                        former();
                      })},
       {"1802-back-on-default-can-id",

@@ -68,6 +68,13 @@ template <typename Memory>
 }
 /// `act` runs when the NMT state has changed, before any service hears of it.
 [[nodiscard]] Change ahead_of_state_change(std::function<void(Parts&)> act);
+/// A memory that begins anew with every boot-up message and every NMT state.
+template <typename Memory>
+[[nodiscard]] std::shared_ptr<Memory> since_state_change(Parts& parts) {
+  auto memory = since_boot_up<Memory>(parts);
+  ahead_of_state_change([memory](Parts&) { *memory = Memory{}; })(parts);
+  return memory;
+}
 /// Whether an error behaviour (1029h) has led to the NMT state, and no command since to another.
 [[nodiscard]] std::shared_ptr<bool> led_by_error(Parts& parts);
 /// Where an error has led to this state the service works although it does not in this state.

@@ -25,35 +25,6 @@ using namespace defect;
 
 namespace {
 
-constexpr std::uint32_t bit_31 = 0x8000'0000;
-constexpr std::uint32_t bit_30 = 0x4000'0000;
-constexpr std::uint32_t can_id_bits = 0x7FF;
-
-constexpr std::uint16_t of(std::uint16_t first, std::uint16_t number) {
-  return static_cast<std::uint16_t>(first + number);
-}
-
-/// A memory that begins anew with every boot-up message and every NMT state.
-template <typename Memory>
-std::shared_ptr<Memory> since_state_change(Parts& parts) {
-  auto memory = since_boot_up<Memory>(parts);
-  ahead_of_state_change([memory](Parts&) { *memory = Memory{}; })(parts);
-  return memory;
-}
-
-/// What was written last to this sub-index of some objects, whatever resets came since.
-std::shared_ptr<std::map<std::uint16_t, std::uint64_t>> ever_written(Parts& parts, std::uint16_t first,
-                                                                     std::uint8_t sub, std::uint16_t count) {
-  const auto written = std::make_shared<std::map<std::uint16_t, std::uint64_t>>();
-  for (std::uint16_t number = 0; number < count; ++number) {
-    after_writing(of(first, number), sub, [=](Parts& node, const std::function<void()>& former) {
-      (*written)[number] = node.device.dictionary.number(of(first, number), sub);
-      former();
-    })(parts);
-  }
-  return written;
-}
-
 struct Sync {
   std::optional<std::uint8_t> counter;
   std::optional<BusTime> at;
@@ -118,8 +89,8 @@ std::shared_ptr<std::set<std::uint16_t>> without_event_timer(Parts& parts) {
 void stops_with_the_same_time(Parts& parts) {
   const auto dead = without_event_timer(parts);
   for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    checking(of(0x1800, number), 5, [=](Parts& node, const Check& former, ByteView bytes) {
-      const bool same = conform::load_le(bytes) == node.device.dictionary.number(of(0x1800, number), 5);
+    checking(nth(0x1800, number), 5, [=](Parts& node, const Check& former, ByteView bytes) {
+      const bool same = conform::load_le(bytes) == node.device.dictionary.number(nth(0x1800, number), 5);
       dead->erase(number);
       if (same) dead->insert(number);
       return former(bytes);
@@ -201,7 +172,7 @@ void sent_as(Parts& parts, std::function<std::uint8_t(const PdoParameters&)> typ
 void ignores_the_stored_types(Parts& parts) {
   const auto written = written_since_boot_up(parts, {0x1800, 0x1801, 0x1802, 0x1803});
   sent_as(parts, [written, &od = parts.device.dictionary](const PdoParameters& pdo) {
-    const std::uint16_t index = of(0x1800, pdo.number());
+    const std::uint16_t index = nth(0x1800, pdo.number());
     const Entry* entry = od.entry(index, 2);
     return entry == nullptr || written->contains(mux(index, 2)) ? pdo.transmission_type()
                                                                 : entry->default_value.front();
@@ -210,8 +181,8 @@ void ignores_the_stored_types(Parts& parts) {
 
 void keeps_the_inhibit_times(Parts& parts) {
   parts.pdos.tpdo.parameters.rules.inhibit_time.replace(
-      [written = ever_written(parts, 0x1800, 3, 4)](const auto& former, const PdoParameters& pdo,
-                                                    std::int64_t value) {
+      [written = written_ever(parts, 0x1800, 3)](const auto& former, const PdoParameters& pdo,
+                                                 std::int64_t value) {
         const auto found = written->find(pdo.number());
         return former(pdo, found == written->end() ? value : static_cast<std::int64_t>(found->second));
       });
@@ -237,7 +208,7 @@ void counts_anew_with_second_start(Parts& parts) {
 /// The PDO behind one that was switched off does not work either.
 Change takes_the_next_along(ReceivePdoRules& (*part)(Parts&), std::uint16_t first) {
   return [part, first](Parts& parts) {
-    const auto written = written_since_boot_up(parts, {of(first, 0), of(first, 1), of(first, 2)});
+    const auto written = written_since_boot_up(parts, {nth(first, 0), nth(first, 1), nth(first, 2)});
     part(parts).valid.replace(
         [=, &od = parts.device.dictionary](const auto& former, const PdoParameters& pdo) {
           const auto before = static_cast<std::uint16_t>(first + pdo.number() - 1);
@@ -439,7 +410,7 @@ DefectTable pdo_rare_defects() {
        misreads([](Parts& parts, Frame& frame) {
          if (frame.extended || frame.remote) return;
          if (const auto number = rpdo_with(parts.device.dictionary, frame.id))
-           swap_odd_words(parts.device.dictionary, of(0x1600, *number), frame);
+           swap_odd_words(parts.device.dictionary, nth(0x1600, *number), frame);
        })},
       {"tpdo-event-driven-late-not-sent",
        "The change of an event-driven TPDO behind the window of 1007h is not sent",
@@ -529,7 +500,7 @@ DefectTable pdo_rare_defects() {
        {"SYNC-CON-03", "NMT-FSA-24"},
        Change([](Parts& parts) {
          parts.sync.rules.length.replace(
-             [written = ever_written(parts, 0x1019, 0, 1)](const auto& former, std::uint64_t overflow) {
+             [written = written_ever(parts, 0x1019, 0, 1)](const auto& former, std::uint64_t overflow) {
                return former(written->empty() ? overflow : written->begin()->second);
              });
        })},
@@ -559,7 +530,7 @@ DefectTable pdo_rare_defects() {
        {"EMCY-INH-02", "NMT-FSA-24"},
        Change([](Parts& parts) {
          parts.emergency.rules.inhibit_time.replace(
-             [written = ever_written(parts, 0x1015, 0, 1)](const auto& former, std::int64_t value) {
+             [written = written_ever(parts, 0x1015, 0, 1)](const auto& former, std::int64_t value) {
                return former(written->empty() ? value : static_cast<std::int64_t>(written->begin()->second));
              });
        })},

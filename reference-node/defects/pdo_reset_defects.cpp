@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "defects/cob_ids.hpp"
 #include "defects/pdos.hpp"
 #include "defects/receivers.hpp"
 
@@ -16,21 +17,6 @@ namespace refnode {
 using namespace defect;
 
 namespace {
-
-/// What was written to this sub-index of the parameters of four PDOs, by their number; a reset is none of
-/// its business.
-std::shared_ptr<std::map<std::uint16_t, std::uint64_t>> written_ever(Parts& parts, std::uint16_t first,
-                                                                     std::uint8_t sub) {
-  const auto written = std::make_shared<std::map<std::uint16_t, std::uint64_t>>();
-  for (std::uint16_t number = 0; number <= last_pdo; ++number) {
-    const auto index = static_cast<std::uint16_t>(first + number);
-    after_writing(index, sub, [=](Parts& node, const std::function<void()>& former) {
-      (*written)[number] = node.device.dictionary.number(index, sub);
-      former();
-    })(parts);
-  }
-  return written;
-}
 
 /// The value that was written last, or the present one of a PDO that was never configured.
 template <typename Value>
@@ -102,8 +88,6 @@ Change stays_off(Rules& (*part)(Parts&), std::uint16_t first) {
     });
   };
 }
-
-constexpr std::uint32_t can_id_bits = 0x7FF;
 
 /// The CAN-ID that the controller was told when the COB-ID was written.
 void keeps_the_can_ids_of_tpdos(Parts& parts) {

@@ -3,11 +3,27 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
 #include <span>
 
 #include "pdo/bits.hpp"
 
 namespace refnode::defect {
+
+std::shared_ptr<std::map<std::uint16_t, std::uint64_t>> written_ever(Parts& parts, std::uint16_t first,
+                                                                     std::uint8_t sub, std::uint16_t count) {
+  const auto written = std::make_shared<std::map<std::uint16_t, std::uint64_t>>();
+  for (std::uint16_t number = 0; number < count; ++number) {
+    const std::uint16_t index = nth(first, number);
+    after_writing(index, sub, [=](Parts& node, const std::function<void()>& former) {
+      (*written)[number] = node.device.dictionary.number(index, sub);
+      former();
+    })(parts);
+  }
+  return written;
+}
 
 Change unlocked(PdoRulesPart of, PdoPart part) {
   return decides(of, &PdoRules::locked,

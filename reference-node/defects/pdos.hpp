@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -18,10 +19,16 @@ inline constexpr std::uint16_t second_pdo = 1;
 inline constexpr std::uint16_t third_pdo = 2;
 inline constexpr std::uint16_t last_pdo = 3;
 
-/// Index of the communication parameters of an RPDO.
-constexpr std::uint16_t rpdo_communication(std::uint16_t number) {
-  return static_cast<std::uint16_t>(0x1400 + number);
+/// Index of the object of this number in a row of objects.
+constexpr std::uint16_t nth(std::uint16_t first, std::uint16_t number) {
+  return static_cast<std::uint16_t>(first + number);
 }
+/// What was written to this sub-index of some objects in a row, by their number; a reset is none of its
+/// business.
+[[nodiscard]] std::shared_ptr<std::map<std::uint16_t, std::uint64_t>> written_ever(
+    Parts& parts, std::uint16_t first, std::uint8_t sub, std::uint16_t count = last_pdo + 1);
+/// Index of the communication parameters of an RPDO.
+constexpr std::uint16_t rpdo_communication(std::uint16_t number) { return nth(0x1400, number); }
 /// The number of the valid RPDO that has this CAN-ID of 11 bits.
 [[nodiscard]] std::optional<std::uint16_t> rpdo_with(const ObjectDictionary& od, std::uint32_t can_id);
 
