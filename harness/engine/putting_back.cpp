@@ -64,7 +64,9 @@ Result<void> PuttingBack::after_case(const result::CaseResult& result) {
   }
   if (auto done = put_back(result); !done) return done;
   run_.recorder.stop_producing("");
-  if (auto quiet = await_last_guard_reply(run_.session, result.first_frame); !quiet) return quiet;
+  if (run_.session.was_guarded()) {
+    if (auto quiet = await_last_guard_reply(run_.session, result.first_frame); !quiet) return quiet;
+  }
   return end_life_guarding();
 }
 
