@@ -64,8 +64,8 @@ TEST_CASE("a TPDO that knows events only is judged by its event timer, and not w
     INFO(rule);
     CHECK(verdict_of(device, rule) == Verdict::pass);
   }
-  for (const std::string rule :
-       {"PDO-TX-05", "PDO-TX-06", "PDO-TX-07", "PDO-TX-19", "PDO-TX-20", "SYNC-CON-01", "SYNC-CON-09"}) {
+  for (const std::string rule : {"PDO-TX-05", "PDO-TX-06", "PDO-TX-07", "PDO-TX-19", "PDO-TX-20",
+                                 "SYNC-CON-01", "SYNC-CON-03", "SYNC-CON-09"}) {
     INFO(rule);
     CHECK(verdict_of(device, rule) == Verdict::not_applicable);
   }
